@@ -1,0 +1,42 @@
+// The common interface of all methods that carry a chain through time.
+#pragma once
+
+#include <spring_pendulum/model/state.hpp>
+
+#include <cstdint>
+
+namespace spring_pendulum {
+
+/// Solves z' = F(z) for the chain it was made for. The workspace belongs to the integrator and is
+/// allocated when it is made, never while stepping. Time belongs to the caller, as a step count.
+///
+/// A fixed-step method takes exactly the steps it is told. An error-controlled method takes steps
+/// of its own and is evaluated (dense output) at the multiples of `time_step`, which for it is only
+/// the distance of the output times.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  /// Moves `state` on by `steps` >= 0 steps of `time_step` s, in place. Taking a + b steps in one
+  /// call or in two gives the same bits. The first particle does not move.
+  /// Never throws for a numerical reason: a motion that diverges shows in the state.
+  virtual void advance(State& state, double time_step, std::int64_t steps) = 0;
+
+  /// How often F was evaluated for the whole chain since the integrator was made.
+  virtual std::int64_t forceEvaluations() const = 0;
+
+  /// Heat in J that the dashpots took up since the integrator was made or restarted, integrated
+  /// with the method's own order; 0 unless `IntegratorOptions::track_dissipation` is set.
+  virtual double dissipatedEnergy() const = 0;
+
+  /// Tells that the next `advance` gets a state that the last one did not return. Only methods that
+  /// remember something between calls care.
+  virtual void restart() {}
+
+ protected:
+  Integrator() = default;
+};
+
+}  // namespace spring_pendulum

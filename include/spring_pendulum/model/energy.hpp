@@ -1,0 +1,23 @@
+// Where the energy of a chain is, and how fast the dashpots turn it into heat.
+#pragma once
+
+#include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/state.hpp>
+
+namespace spring_pendulum {
+
+/// Energies of one state, J. Sums run over the particles in order, so the bits never change.
+struct Energy {
+  double kinetic = 0.0;  ///< sum of m v²/2
+  double gravity = 0.0;  ///< sum of m g (y - y_1): 0 at the height of the fixed particle
+  double spring = 0.0;   ///< sum of k_s (L - L_0)²/2
+
+  double total() const { return kinetic + gravity + spring; }
+};
+
+Energy computeEnergy(const Chain& chain, const State& state);
+
+/// Power dissipated by the dashpots, sum of k_d (w·r)², W; never negative.
+double dissipatedPower(const Chain& chain, const State& state);
+
+}  // namespace spring_pendulum

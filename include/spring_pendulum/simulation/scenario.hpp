@@ -1,0 +1,31 @@
+// Everything one run needs. The initialisers are the defaults; there is no second place for them.
+#pragma once
+
+#include <spring_pendulum/model/spring_law.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace spring_pendulum {
+
+struct Scenario {
+  std::string method = "Runge-Kutta-4";
+  std::string particles = "particle.txt";  ///< the particle file
+  std::string output = ".";                ///< where frame files go
+  bool no_frames = false;                  ///< write no frame files
+
+  std::int64_t frames = 500;
+  std::int64_t steps_per_frame = 10;  ///< fixed-step methods
+  double time_step = 0.01;            ///< s, fixed-step methods
+  double tolerance = 1e-6;            ///< m, error-controlled methods
+  double frame_interval = 0.1;        ///< s, error-controlled methods
+
+  double stiffness = SpringLaw{}.stiffness;      ///< N/m
+  double damping = SpringLaw{}.damping;          ///< N·s/m
+  double rest_length = SpringLaw{}.rest_length;  ///< m
+  double gravity = 9.81;                         ///< m/s²
+
+  SpringLaw spring() const { return {stiffness, damping, rest_length}; }
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,57 @@
+#include <spring_pendulum/integration/explicit_runge_kutta.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/errors.hpp>
+
+#include <fmt/format.h>
+
+namespace spring_pendulum {
+namespace {
+
+std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
+                                                   const IntegratorOptions& options) {
+  return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, options.track_dissipation);
+}
+
+}  // namespace
+
+const std::vector<Method>& methodTable() {
+  static const std::vector<Method> kTable{
+      {"Euler", 1, 1, StepControl::kFixed, 2.0, 0.0,
+       "L. Euler, Institutionum calculi integralis I, 1768, §650",
+       "for lessons: undamped swinging grows at every step size", &kEulerTableau,
+       makeExplicitRungeKutta},
+      {"Runge-Kutta-2", 2, 2, StepControl::kFixed, 2.0, 0.0,
+       "C. Runge, Math. Ann. 46 (1895) 167-178, doi:10.1007/BF01446807",
+       "the explicit midpoint rule: for lessons; swinging still grows, but slowly",
+       &kMidpointTableau, makeExplicitRungeKutta},
+      {"Runge-Kutta-4", 4, 4, StepControl::kFixed, 2.785293563405282, 2.8284271247461903,
+       "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
+       "the sound choice with a fixed step, as long as no particle is very light",
+       &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
+  };
+  return kTable;
+}
+
+std::string knownMethodNames() {
+  std::string names;
+  for (const Method& method : methodTable()) {
+    if (!names.empty()) names += ", ";
+    names += method.name;
+  }
+  return names;
+}
+
+const Method& findMethod(std::string_view name) {
+  for (const Method& method : methodTable()) {
+    if (method.name == name) return method;
+  }
+  throw InputError(fmt::format("unknown method '{}': known are {}", name, knownMethodNames()));
+}
+
+std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
+                                           const IntegratorOptions& options) {
+  const Method& row = findMethod(method);
+  return row.make(row, chain, options);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,36 @@
+#include <spring_pendulum/model/energy.hpp>
+
+#include <cmath>
+
+namespace spring_pendulum {
+
+Energy computeEnergy(const Chain& chain, const State& state) {
+  Energy energy;
+  const SpringLaw& spring = chain.spring();
+  for (Eigen::Index i = 1; i < chain.size(); ++i) {
+    const double mass = chain.masses()[i];
+    const double speed_squared = state.vx()[i] * state.vx()[i] + state.vy()[i] * state.vy()[i];
+    energy.kinetic += 0.5 * mass * speed_squared;
+    energy.gravity += mass * chain.gravity() * (state.y()[i] - state.y()[0]);
+    const double length =
+        std::hypot(state.x()[i] - state.x()[i - 1], state.y()[i] - state.y()[i - 1]);
+    const double stretch = length - spring.rest_length;
+    energy.spring += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  return energy;
+}
+
+double dissipatedPower(const Chain& chain, const State& state) {
+  double power = 0.0;
+  for (Eigen::Index i = 1; i < chain.size(); ++i) {
+    const double dx = state.x()[i] - state.x()[i - 1];
+    const double dy = state.y()[i] - state.y()[i - 1];
+    const double dot =
+        (state.vx()[i] - state.vx()[i - 1]) * dx + (state.vy()[i] - state.vy()[i - 1]) * dy;
+    const double rate = dot * inverseSquareRoot(dx * dx + dy * dy);
+    power += chain.spring().damping * rate * rate;
+  }
+  return power;
+}
+
+}  // namespace spring_pendulum
