@@ -1,0 +1,65 @@
+#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/simulation/energy_ledger.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kLeastStretch = 1e-6;
+
+double springLength(const State& state, Eigen::Index i) {
+  const double dx = state.x()[i] - state.x()[i - 1];
+  const double dy = state.y()[i] - state.y()[i - 1];
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+}  // namespace
+
+EnergyScale::EnergyScale(const Chain& chain, const State& start) {
+  const SpringLaw& spring = chain.spring();
+  double depth = 0.0;  // of the hanging chain below zero energy, J
+  double least = 0.0;
+  double weight = 0.0;
+  for (Eigen::Index i = chain.size() - 1; i > 0; --i) {
+    weight += chain.masses()[i] * std::abs(chain.gravity());
+    depth += weight * spring.rest_length;
+    if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
+    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i));
+    least += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain.gravity());
+  const double energy = computeEnergy(chain, start).total();
+  constant_ = std::max(std::max(energy, 0.0) + depth, least);
+  if (!std::isfinite(energy) || !std::isfinite(constant_) || !std::isfinite(fall_)) {
+    throw InputError(
+        "the energy of the start exceeds what a double can hold: masses, lengths, stiffness or "
+        "gravity must be smaller");
+  }
+}
+
+EnergyLedger::EnergyLedger(const Chain& chain, const State& start, bool tracks_dissipation)
+    : chain_(chain),
+      scale_(chain, start),
+      start_energy_(computeEnergy(chain, start).total()),
+      tracks_dissipation_(tracks_dissipation) {}
+
+LedgerEntry EnergyLedger::entry(double time, const State& state, double dissipated) const {
+  const double scale = std::max(scale_.at(time), std::numeric_limits<double>::min());
+  LedgerEntry entry;
+  entry.time = time;
+  entry.energy = computeEnergy(chain_, state);
+  entry.gain = entry.energy.total() - start_energy_;
+  entry.relative_gain = entry.gain / scale;
+  if (tracks_dissipation_) entry.dissipated = dissipated;
+  if (chain_.spring().damping == 0.0) entry.dissipated = 0.0;
+  if (entry.dissipated) {
+    entry.residual = entry.gain + *entry.dissipated;
+    entry.relative_residual = *entry.residual / scale;
+  }
+  return entry;
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,96 @@
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/simulation/energy_ledger.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace spring_pendulum {
+namespace {
+
+State horizontal(Eigen::Index particles, double spacing) {
+  State state(particles);
+  for (Eigen::Index i = 0; i < particles; ++i) state.x()[i] = spacing * static_cast<double>(i);
+  return state;
+}
+
+Chain uniform(Eigen::Index particles, const SpringLaw& spring, double gravity) {
+  return {Eigen::VectorXd::Ones(particles), spring, gravity};
+}
+
+TEST(EnergyScale, IsTheDepthOfTheHangingChainForAStartWithoutEnergy) {
+  // Two springs carry 2 m g and m g: E_min = -(3 m g L_0 + 5 (m g)²/(2 k_s)).
+  const double depth = 3.0 * 9.81 + 5.0 * 9.81 * 9.81 / 100.0;
+  const EnergyScale scale(uniform(3, SpringLaw{}, 9.81), horizontal(3, 1.0));
+  EXPECT_NEAR(scale.at(0.0), depth, 1e-12);
+  EXPECT_EQ(scale.at(100.0), scale.at(0.0));
+}
+
+TEST(EnergyScale, AddsTheEnergyOfAStartAboveTheAnchorsLevel) {
+  const State stretched = horizontal(3, 3.0);  // 2 k_s (3 - 1)²/2 = 200 J
+  const Chain chain = uniform(3, SpringLaw{}, 9.81);
+  EXPECT_NEAR(EnergyScale(chain, stretched).at(0.0),
+              EnergyScale(chain, horizontal(3, 1.0)).at(0.0) + 200.0, 1e-10);
+}
+
+TEST(EnergyScale, IsTheSameForGravityUpwards) {
+  EXPECT_EQ(EnergyScale(uniform(5, SpringLaw{}, -9.81), horizontal(5, 1.0)).at(0.0),
+            EnergyScale(uniform(5, SpringLaw{}, 9.81), horizontal(5, 1.0)).at(0.0));
+}
+
+TEST(EnergyScale, StaysAboveZeroWhereNothingMoves) {
+  EXPECT_GT(EnergyScale(uniform(3, SpringLaw{}, 0.0), horizontal(3, 1.0)).at(0.0), 0.0);
+  EXPECT_GT(EnergyScale(uniform(3, {50.0, 1.0, 0.0}, 0.0), horizontal(3, 1.0)).at(0.0), 0.0);
+}
+
+TEST(EnergyScale, FollowsTheFreeFallOfAChainWithoutStiffness) {
+  const EnergyScale scale(uniform(3, {0.0, 0.0, 1.0}, 10.0), horizontal(3, 1.0));
+  EXPECT_DOUBLE_EQ(scale.at(2.0) - scale.at(0.0), 2.0 * 100.0 * 4.0 / 2.0);
+}
+
+TEST(EnergyScale, RefusesEnergiesBeyondADouble) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Constant(3, 1e300);
+  EXPECT_THROW(EnergyScale(Chain(masses, SpringLaw{}, 9.81), horizontal(3, 1.0)), InputError);
+}
+
+TEST(EnergyLedger, ClosesWithTheOrderOfTheMethod) {
+  // Halving the step divides the residual by 2^order; measured 2.01, 4.10 and 15.9.
+  const Chain chain = uniform(4, SpringLaw{}, 9.81);
+  for (const char* name : {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"}) {
+    double residual[2];
+    for (const int refined : {0, 1}) {
+      State state = horizontal(4, 1.1);
+      const EnergyLedger ledger(chain, state, true);
+      const auto integrator = makeIntegrator(name, chain, {1e-6, true});
+      const std::int64_t steps = refined == 0 ? 1000 : 2000;
+      integrator->advance(state, 1.0 / static_cast<double>(steps), steps);
+      residual[refined] = *ledger.entry(1.0, state, integrator->dissipatedEnergy()).residual;
+    }
+    const double ratio = residual[0] / residual[1];
+    const double expected = std::pow(2.0, findMethod(name).order);
+    EXPECT_GT(ratio, 0.9 * expected) << name;
+    EXPECT_LT(ratio, 1.1 * expected) << name;
+  }
+}
+
+TEST(EnergyLedger, LeavesTheResidualOpenOnlyIfDampingIsNotTracked) {
+  const State start = horizontal(3, 1.0);
+  EXPECT_FALSE(
+      EnergyLedger(uniform(3, SpringLaw{}, 9.81), start, false).entry(0.0, start, 0.0).residual);
+  const auto undamped =
+      EnergyLedger(uniform(3, {50.0, 0.0, 1.0}, 9.81), start, false).entry(0.0, start, 0.0);
+  EXPECT_EQ(undamped.dissipated, 0.0);
+  EXPECT_EQ(undamped.residual, 0.0);
+}
+
+TEST(EnergyLedger, IsDefinedForTheFixedParticleAlone) {
+  const State start(1);
+  const auto entry =
+      EnergyLedger(uniform(1, SpringLaw{}, 9.81), start, true).entry(1.0, start, 0.0);
+  EXPECT_EQ(entry.relative_gain, 0.0);
+  EXPECT_EQ(entry.relative_residual, 0.0);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
