@@ -1,0 +1,29 @@
+# Sourced by every script: where the project is, a sane PATH, and the build.
+
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=${SPRING_PENDULUM_BUILD:-$project/build}
+
+# ROS's Python modules belong to the system's python3: another one before it on the PATH (pyenv,
+# conda) knows neither catkin_pkg nor rospy.
+export PATH=/usr/bin:$PATH
+
+say() { printf '%s\n' "-- $*"; }
+die() { printf '%s\n' "$*" >&2; exit 1; }
+
+# configure FOLDER [CMake options]; says nothing unless it fails
+configure() {
+  local folder=$1; shift
+  mkdir -p "$folder"
+  cmake -S "$project" -B "$folder" -G Ninja -DCATKIN_DEVEL_PREFIX="$folder/devel" "$@" \
+    > "$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; return 1; }
+}
+
+# compile FOLDER [targets]
+compile() {
+  local folder=$1; shift
+  ninja -C "$folder" "$@" > "$folder/compile.log" 2>&1 ||
+    { grep -v '^\[' "$folder/compile.log" >&2; return 1; }
+}
+
+# Whether this machine has, or its package lists offer, ROS 1.
+ros_available() { [ -e /usr/bin/catkin_make ] || apt-cache show catkin libroscpp-dev > /dev/null 2>&1; }

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Installs the Debian or Ubuntu packages that are missing. Usage: scripts/setup.sh COMPONENT ...
+#   core       compiler, CMake and the libraries of the simulator, Exercise3 and the GIF
+#   ros        ROS 1: what the node, the messages and the bags need
+#   rviz       the viewer
+#   test       what the tests need besides
+#   test-ros   what the tests of the node need: rostest, a virtual display
+#   film       what scripts/film.sh needs to film rviz
+#   lint       clang-format, clang-tidy, catkin_lint
+#   sanitize   clang's sanitizers and fuzzer, coverage
+#   benchmark  the solvers to compare with, all optional
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+packages_of() {
+  case $1 in
+    core) echo g++ cmake ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev \
+               libfast-float-dev libgtest-dev libgmock-dev gnuplot-nox ;;
+    ros) echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
+              libgeometry-msgs-dev libstd-srvs-dev ros-visualization-msgs ros-geometry-msgs \
+              ros-std-msgs ros-message-generation ros-message-runtime python3-roslaunch \
+              python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
+              python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
+              python3-geometry-msgs rosbash ;;
+    rviz) echo rviz ;;
+    test) echo procps locales-all ;;
+    test-ros) echo python3-rostest librostest-dev xvfb xauth x11-utils libgl1-mesa-dri \
+                   imagemagick ;;
+    film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
+    lint) echo clang-format clang-tidy catkin-lint ;;
+    sanitize) echo clang libclang-rt-dev gcovr ;;
+    benchmark) echo libbenchmark-dev libboost-dev libgsl-dev libsundials-dev libmujoco-dev \
+                    libsimbody-dev ;;
+    *) die "setup.sh: unknown component '$1'" ;;
+  esac
+}
+
+installed() { dpkg-query -W -f '${Status}\n' "$1" 2>/dev/null | grep -q 'ok installed'; }
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; return; fi
+  command -v sudo > /dev/null || die "to install packages, run as root or install sudo"
+  sudo "$@"
+}
+
+missing_packages() {
+  local component package
+  for component in "$@"; do
+    for package in $(packages_of "$component"); do
+      installed "$package" || echo "$package"
+    done
+  done
+}
+
+missing=$(missing_packages "$@")
+[ -n "$missing" ] || exit 0
+command -v apt-get > /dev/null || die "needs Debian or Ubuntu; install by hand:" $missing
+say "installing" $missing
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+{ as_root apt-get update &&
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+} > "$log" 2>&1 || { tail -n 20 "$log" >&2; die "could not install the packages"; }

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and runs every test. Arguments go to ctest (-R NAME, -V, ...).
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+"$project/scripts/setup.sh" core test ros rviz test-ros film
+say "building into $build"
+configure "$build"
+compile "$build"
+cd "$build"
+exec ctest --output-on-failure -j "$(nproc)" "$@"
