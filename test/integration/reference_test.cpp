@@ -1,0 +1,140 @@
+// The three methods of the exercise against exact solutions.
+#include "support/reference.hpp"
+
+#include <spring_pendulum/integration/explicit_runge_kutta.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+namespace spring_pendulum {
+namespace {
+
+using test::positionError;
+using test::referenceScene;
+using test::referenceSolution;
+using test::Scene;
+
+/// Largest position error of a method after `seconds`, with `steps_per_second` steps.
+double errorAfter(Integrator& integrator, const Scene& scene, const std::string& name, int seconds,
+                  int steps_per_second) {
+  State state = scene.start;
+  integrator.advance(state, 1.0 / steps_per_second, std::int64_t{seconds} * steps_per_second);
+  return positionError(state, referenceSolution(name, seconds));
+}
+
+struct KnownError {
+  const char* method;
+  const char* scene;
+  int seconds;
+  double error;  ///< m, computed independently of this package
+};
+
+void PrintTo(const KnownError& known, std::ostream* out) {
+  *out << known.method << " on " << known.scene << " after " << known.seconds << " s";
+}
+
+class KnownErrorTest : public testing::TestWithParam<KnownError> {};
+
+// With a step of 0.01 s, within 1 % of each number.
+TEST_P(KnownErrorTest, Agrees) {
+  const KnownError& known = GetParam();
+  const Scene scene = referenceScene(known.scene);
+  const auto integrator = makeIntegrator(known.method, scene.chain);
+  EXPECT_NEAR(errorAfter(*integrator, scene, known.scene, known.seconds, 100), known.error,
+              0.01 * known.error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Horizontal11, KnownErrorTest,
+                         testing::Values(KnownError{"Euler", "horizontal_11", 1, 4.91e-2},
+                                         KnownError{"Euler", "horizontal_11", 2, 1.36e-1},
+                                         KnownError{"Euler", "horizontal_11", 5, 1.13},
+                                         KnownError{"Euler", "horizontal_11", 10, 3.05},
+                                         KnownError{"Runge-Kutta-2", "horizontal_11", 1, 7.32e-4},
+                                         KnownError{"Runge-Kutta-2", "horizontal_11", 2, 2.30e-3},
+                                         KnownError{"Runge-Kutta-2", "horizontal_11", 5, 9.82e-3},
+                                         KnownError{"Runge-Kutta-2", "horizontal_11", 10, 3.73e-2},
+                                         KnownError{"Runge-Kutta-4", "horizontal_11", 1, 2.58e-7},
+                                         KnownError{"Runge-Kutta-4", "horizontal_11", 2, 1.09e-6},
+                                         KnownError{"Runge-Kutta-4", "horizontal_11", 5, 5.93e-6},
+                                         KnownError{"Runge-Kutta-4", "horizontal_11", 10, 2.28e-5},
+                                         KnownError{"Runge-Kutta-4", "horizontal_11", 20,
+                                                    9.79e-5}));
+
+TEST(Euler, LosesHorizontal11WithinFiftySeconds) {
+  const Scene scene = referenceScene("horizontal_11");
+  const auto integrator = makeIntegrator("Euler", scene.chain);
+  const double error = errorAfter(*integrator, scene, "horizontal_11", 50, 100);
+  EXPECT_FALSE(error < 1e6);
+}
+
+/// log2 of the ratio of the errors with a step and with half of it.
+double slope(Integrator& integrator, const std::string& name, int seconds, int steps_per_second) {
+  const Scene scene = referenceScene(name);
+  const double coarse = errorAfter(integrator, scene, name, seconds, steps_per_second);
+  const double fine = errorAfter(integrator, scene, name, seconds, 2 * steps_per_second);
+  return std::log2(coarse / fine);
+}
+
+/// Steps a second from which on halving the step shows the order cleanly.
+int stepsPerSecond(const Method& method) {
+  return method.order == 1 ? 8192 : 512;
+}
+
+TEST(Order, IsTheSlopeOfTheErrorFromBothSides) {
+  for (const char* name : {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"}) {
+    const Method& method = findMethod(name);
+    for (const char* scene_name : {"single_vertical", "two_masses_45deg"}) {
+      const Scene scene = referenceScene(scene_name);
+      const auto integrator = makeIntegrator(name, scene.chain);
+      EXPECT_NEAR(slope(*integrator, scene_name, 2, stepsPerSecond(method)), method.order, 0.1)
+          << name << " on " << scene_name;
+    }
+  }
+}
+
+TEST(Order, IsLostWithOneAlteredCoefficient) {
+  for (const char* name : {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"}) {
+    const Method& method = findMethod(name);
+    ButcherTableau altered = *method.tableau;
+    altered.b[0] += 0.01;
+    for (const char* scene_name : {"single_vertical", "two_masses_45deg"}) {
+      const Scene scene = referenceScene(scene_name);
+      ExplicitRungeKutta integrator(scene.chain, altered, false);
+      EXPECT_LT(slope(integrator, scene_name, 2, stepsPerSecond(method)), method.order - 0.5)
+          << name << " on " << scene_name;
+    }
+  }
+}
+
+// A damped harmonic oscillation about the equilibrium length L_0 + m g/k_s, in closed form.
+TEST(Order, HoldsAgainstTheClosedFormOfOneSpring) {
+  const Scene scene = referenceScene("single_vertical");
+  const double equilibrium = -(1.0 + 9.81 / 50.0);
+  const double amplitude = -1.3 - equilibrium;
+  const double decay = 0.5;
+  const double frequency = std::sqrt(50.0 - decay * decay);
+  const double t = 2.0;
+  const double exact =
+      equilibrium + amplitude * std::exp(-decay * t) *
+                        (std::cos(frequency * t) + decay / frequency * std::sin(frequency * t));
+  EXPECT_NEAR(referenceSolution("single_vertical", 2).y()[1], exact, 1e-14);
+  for (const char* name : {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"}) {
+    const Method& method = findMethod(name);
+    const auto integrator = makeIntegrator(name, scene.chain);
+    double errors[2] = {};
+    for (int halvings = 0; halvings < 2; ++halvings) {
+      const int steps = 2 * stepsPerSecond(method) << halvings;
+      State state = scene.start;
+      integrator->advance(state, t / steps, steps);
+      errors[halvings] = std::abs(state.y()[1] - exact);
+    }
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]), method.order, 0.1) << name;
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,57 @@
+#include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/errors.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+void expectRefused(const Eigen::VectorXd& masses, const SpringLaw& spring, double gravity,
+                   const char* part_of_message) {
+  try {
+    const Chain chain(masses, spring, gravity);
+    FAIL() << "accepted; expected: " << part_of_message;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(part_of_message));
+  }
+}
+
+TEST(Chain, RefusesWhatIsOutOfRange) {
+  const Eigen::VectorXd masses = Eigen::VectorXd::Ones(3);
+  expectRefused({}, {}, 9.81, "at least one particle");
+  expectRefused(masses, {-1.0, 1.0, 1.0}, 9.81, "stiffness is -1");
+  expectRefused(masses, {50.0, kInfinity, 1.0}, 9.81, "damping is inf");
+  expectRefused(masses, {50.0, 1.0, -0.5}, 9.81, "rest_length is -0.5");
+  expectRefused(masses, {}, kInfinity, "gravity is inf");
+  for (const double mass : {0.0, -1.0, kInfinity, 5e-324}) {
+    Eigen::VectorXd wrong = masses;
+    wrong[2] = mass;
+    expectRefused(wrong, {}, 9.81, "mass of particle 3");
+  }
+}
+
+TEST(Chain, NeverUsesTheMassOfTheFixedParticle) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Ones(3);
+  masses[0] = 0.0;
+  const Chain chain(masses, {}, 9.81);
+  EXPECT_EQ(chain.inverseMasses()[0], 0.0);
+  EXPECT_TRUE(chain.equalMasses());
+}
+
+TEST(Chain, KnowsWhetherTheMassesAreEqual) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Constant(4, 0.5);
+  EXPECT_TRUE(Chain(masses, {}, 9.81).equalMasses());
+  masses[3] = 0.25;
+  EXPECT_FALSE(Chain(masses, {}, 9.81).equalMasses());
+  EXPECT_TRUE(Chain(masses.head(1), {}, 9.81).equalMasses());
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,151 @@
+// The forces and energies of a chain against each other and against the laws of mechanics.
+#include <spring_pendulum/model/dynamics.hpp>
+#include <spring_pendulum/model/energy.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace spring_pendulum {
+namespace {
+
+/// A bent chain with random masses, positions and velocities; no spring is shorter than 0.1 m.
+struct RandomScene {
+  static constexpr Eigen::Index kSize = 12;
+
+  explicit RandomScene(unsigned seed) : state(kSize), masses(kSize) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (Eigen::Index i = 0; i < kSize; ++i) {
+      masses[i] = 1.5 + unit(random);
+      if (i == 0) continue;
+      state.x()[i] = state.x()[i - 1] + 0.7 + 0.6 * unit(random);
+      state.y()[i] = state.y()[i - 1] + unit(random);
+      state.vx()[i] = 3.0 * unit(random);
+      state.vy()[i] = 3.0 * unit(random);
+    }
+  }
+
+  State state;
+  Eigen::VectorXd masses;
+  SpringLaw spring{37.0, 2.5, 0.8};
+  double gravity = 9.81;
+};
+
+PlaneVectors accelerationsOf(const Chain& chain, const State& state) {
+  PlaneVectors accelerations;
+  computeAccelerations(chain, state, accelerations);
+  return accelerations;
+}
+
+TEST(Force, IsMinusTheGradientOfThePotentialWithoutDamping) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    RandomScene scene(seed);
+    scene.spring.damping = 0.0;
+    const Chain chain(scene.masses, scene.spring, scene.gravity);
+    const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+    const double h = 1e-5;
+    for (Eigen::Index i = 1; i < chain.size(); ++i) {
+      for (Eigen::Index axis = 0; axis < 2; ++axis) {
+        double potential[2] = {};
+        for (const int side : {0, 1}) {
+          State moved = scene.state;
+          moved.values()(i, axis) += side == 0 ? -h : h;
+          const Energy energy = computeEnergy(chain, moved);
+          potential[side] = energy.gravity + energy.spring;
+        }
+        const double gradient = (potential[1] - potential[0]) / (2.0 * h);
+        // Measured: 8e-8 N at the most, of forces of up to 80 N.
+        EXPECT_NEAR(chain.masses()[i] * accelerations(i, axis), -gradient, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(Force, OfTheDashpotIsDampingTimesTheRateOfTheLength) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const RandomScene scene(seed);
+    const Chain chain(scene.masses, scene.spring, scene.gravity);
+    SpringLaw undamped = scene.spring;
+    undamped.damping = 0.0;
+    const Chain elastic(scene.masses, undamped, scene.gravity);
+    for (Eigen::Index i = 0; i + 1 < chain.size(); ++i) {
+      const auto d = (scene.state.positions().row(i + 1) - scene.state.positions().row(i)).eval();
+      const auto w = (scene.state.velocities().row(i + 1) - scene.state.velocities().row(i)).eval();
+      const double h = 1e-6;
+      const double rate = ((d + h * w).norm() - (d - h * w).norm()) / (2.0 * h);
+      const PlaneVector<double> with = springForceOn(chain, scene.state, i);
+      const PlaneVector<double> without = springForceOn(elastic, scene.state, i);
+      // Measured: 5e-9 N at the most.
+      EXPECT_NEAR(with.x - without.x, scene.spring.damping * rate * d.normalized().x(), 1e-7);
+      EXPECT_NEAR(with.y - without.y, scene.spring.damping * rate * d.normalized().y(), 1e-7);
+    }
+  }
+}
+
+TEST(Force, IsTheLawAsItIsUsuallyWritten) {
+  const SpringLaw law{50.0, 1.0, 1.0};
+  const PlaneVector<double> force = springForce<double>(law, {3.0, 4.0}, {0.5, -0.25});
+  const double along = 50.0 * (5.0 - 1.0) + 1.0 * (0.5 * 0.6 - 0.25 * 0.8);
+  EXPECT_NEAR(force.x, along * 0.6, 1e-13 * along);
+  EXPECT_NEAR(force.y, along * 0.8, 1e-13 * along);
+}
+
+TEST(Force, VanishesWhereASpringHasNoLength) {
+  const PlaneVector<double> force = springForce<double>(SpringLaw{}, {0.0, 0.0}, {1.0, -2.0});
+  EXPECT_EQ(force.x, 0.0);
+  EXPECT_EQ(force.y, 0.0);
+}
+
+TEST(Momentum, OfTheFreePartChangesByGravityAndTheFirstSpringAlone) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const RandomScene scene(seed);
+    const Chain chain(scene.masses, scene.spring, scene.gravity);
+    const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+    const Eigen::RowVector2d change = chain.masses().tail(chain.size() - 1).transpose() *
+                                      accelerations.bottomRows(chain.size() - 1);
+    const PlaneVector<double> first = springForceOn(chain, scene.state, 0);
+    const double weight = scene.gravity * chain.masses().tail(chain.size() - 1).sum();
+    // Measured: 1.2e-13 N at the most.
+    EXPECT_NEAR(change.x(), -first.x, 1e-11);
+    EXPECT_NEAR(change.y(), -first.y - weight, 1e-11);
+  }
+}
+
+TEST(Power, LostIsThatOfTheDashpots) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const RandomScene scene(seed);
+    const Chain chain(scene.masses, scene.spring, scene.gravity);
+    const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+    const double h = 1e-6;
+    double energy[2] = {};
+    for (const int side : {0, 1}) {
+      State moved = scene.state;
+      const double step = side == 0 ? -h : h;
+      moved.positions().bottomRows(chain.size() - 1) +=
+          step * scene.state.velocities().bottomRows(chain.size() - 1);
+      moved.velocities() += step * accelerations;
+      energy[side] = computeEnergy(chain, moved).total();
+    }
+    const double lost = dissipatedPower(chain, scene.state);
+    EXPECT_GT(lost, 0.0);
+    // Measured: 4e-7 W at the most, of up to 400 W.
+    EXPECT_NEAR((energy[1] - energy[0]) / (2.0 * h), -lost, 1e-5);
+  }
+}
+
+TEST(FreeFall, MovesAChainWithoutAnchorForceByGravityAlone) {
+  RandomScene scene(7);
+  scene.spring = {0.0, 0.0, 0.0};
+  const Chain chain(scene.masses, scene.spring, scene.gravity);
+  const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+  EXPECT_EQ(accelerations.row(0).norm(), 0.0);
+  for (Eigen::Index i = 1; i < chain.size(); ++i) {
+    EXPECT_EQ(accelerations(i, 0), 0.0);
+    EXPECT_EQ(accelerations(i, 1), -9.81);
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,89 @@
+// The algebraic conditions for the order of a Runge-Kutta method: one a rooted tree t,
+//
+//     sum_i b_i Phi_i(t) = 1 / gamma(t) ,
+//
+// Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., theorem II.2.13.
+#pragma once
+
+#include <spring_pendulum/integration/butcher_tableau.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace spring_pendulum::test {
+
+/// A rooted tree as the list of its root's subtrees.
+struct Tree {
+  std::vector<Tree> branches;
+
+  int order() const {
+    int nodes = 1;
+    for (const Tree& branch : branches) nodes += branch.order();
+    return nodes;
+  }
+  /// The density gamma.
+  double density() const {
+    double product = order();
+    for (const Tree& branch : branches) product *= branch.density();
+    return product;
+  }
+};
+
+/// Appends to `trees` every tree of `order` nodes whose branches are taken, in the list's own
+/// order, from `smaller` from index `first` on; `partial` holds the branches chosen so far.
+inline void growTrees(const std::vector<Tree>& smaller, std::size_t first, int missing,
+                      const Tree& partial, std::vector<Tree>& trees) {
+  if (missing == 0) {
+    trees.push_back(partial);
+    return;
+  }
+  for (std::size_t i = first; i < smaller.size(); ++i) {
+    const int size = smaller[i].order();
+    if (size > missing) break;
+    Tree next = partial;
+    next.branches.push_back(smaller[i]);
+    growTrees(smaller, i, missing - size, next, trees);
+  }
+}
+
+/// All rooted trees of up to `order` nodes, by rising size: 1, 1, 2, 4, 9, 20, 48, 115, ...
+inline std::vector<Tree> rootedTrees(int order) {
+  std::vector<Tree> trees{Tree{}};
+  for (int nodes = 2; nodes <= order; ++nodes) {
+    std::vector<Tree> grown;
+    growTrees(trees, 0, nodes - 1, Tree{}, grown);
+    trees.insert(trees.end(), grown.begin(), grown.end());
+  }
+  return trees;
+}
+
+/// Phi_i(t) of every stage i.
+inline std::vector<double> elementaryWeights(const ButcherTableau& tableau, const Tree& tree) {
+  std::vector<double> weights(tableau.stages, 1.0);
+  for (const Tree& branch : tree.branches) {
+    const std::vector<double> inner = elementaryWeights(tableau, branch);
+    for (std::size_t i = 0; i < tableau.stages; ++i) {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < i; ++j) sum += tableau.a[i][j] * inner[j];
+      weights[i] *= sum;
+    }
+  }
+  return weights;
+}
+
+/// The largest violation of a condition up to `order`, with `b` as the weights.
+template <typename Weights>
+double orderConditionResidual(const ButcherTableau& tableau, const Weights& b, int order) {
+  double largest = 0.0;
+  for (const Tree& tree : rootedTrees(order)) {
+    const std::vector<double> weights = elementaryWeights(tableau, tree);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < tableau.stages; ++i) sum += b[i] * weights[i];
+    largest = std::max(largest, std::abs(sum - 1.0 / tree.density()));
+  }
+  return largest;
+}
+
+}  // namespace spring_pendulum::test
