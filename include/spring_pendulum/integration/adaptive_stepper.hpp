@@ -1,0 +1,62 @@
+// What an error-controlled method has to offer: one accepted step of a length it chooses itself,
+// and the motion inside that step. Everything else - output times, restarts, heat - is the same for
+// all of them and is done by `ErrorControlled`, which owns a stepper. `Auto` is a stepper that owns
+// several.
+#pragma once
+
+#include <spring_pendulum/model/state.hpp>
+
+#include <cstdint>
+
+namespace spring_pendulum {
+
+/// What a stepper has done since it was made.
+struct StepStatistics {
+  std::int64_t force_evaluations = 0;  ///< of F for the whole chain
+  std::int64_t accepted = 0;           ///< steps
+  std::int64_t rejected = 0;           ///< steps whose error was too large
+  double last_step = 0.0;              ///< length of the last accepted step, s
+  /// Largest |λ| of the motion seen in the last step, 1/s, where the method notices it for free;
+  /// else 0. A method whose last_step * fastest_rate is near its stability limit is held back by
+  /// stability, not by accuracy.
+  double fastest_rate = 0.0;
+};
+
+/// No stepper takes a shorter step: at this length it goes on whatever the estimated error, so a
+/// particle that runs through its neighbour (where the force jumps) does not stop the clock.
+inline constexpr double kShortestStep = 1e-12;  // s
+/// No stepper takes a longer one, not even for a chain at rest.
+inline constexpr double kLongestStep = 1.0;  // s
+
+/// One error-controlled method at work on the chain it was made for. All workspace is allocated
+/// when it is made. Nothing in it depends on output times.
+class AdaptiveStepper {
+ public:
+  virtual ~AdaptiveStepper() = default;
+  AdaptiveStepper(const AdaptiveStepper&) = delete;
+  AdaptiveStepper& operator=(const AdaptiveStepper&) = delete;
+
+  /// Begins anew at `state`; nothing is remembered of what was before, except statistics.
+  virtual void start(const State& state) = 0;
+
+  /// Takes one step that meets the tolerance, repeating it as needed.
+  /// \returns its length in s, in (0, kLongestStep]; 0 if the motion diverged (a number that is not
+  ///          finite came up), after which only `start` may be called
+  virtual double step() = 0;
+
+  /// The state inside the last step.
+  /// \param fraction 0 at its beginning, 1 at its end
+  /// \param[out] state of the size of the chain
+  virtual void interpolate(double fraction, State& state) const = 0;
+
+  /// Heat in J that the dashpots took up in the last step until `fraction` of it; 0 if the stepper
+  /// was not told to track it.
+  virtual double dissipated(double fraction) const = 0;
+
+  virtual StepStatistics statistics() const = 0;
+
+ protected:
+  AdaptiveStepper() = default;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,45 @@
+// Chooses step lengths from estimated errors: proportional-integral control, which damps the
+// oscillation between accepted and rejected steps that plain control shows when a step is limited
+// by stability.
+//
+//     h_new = h * safety * e^(-7/8k) * e_old^(1/4k)
+//
+// e is the error of the step divided by the allowed one, k the power of h with which e grows.
+// Powers are made of + - * / and square roots alone, so the steps are the same bits everywhere.
+//
+// Reference: K. Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554, doi:10.1145/210232.210242;
+// the exponents are near those of Hairer, Nørsett, Wanner, Solving ODEs I, section II.4, and
+// Hairer, Wanner, Solving ODEs II, section IV.2.
+#pragma once
+
+namespace spring_pendulum {
+
+/// The k-th root of x, 0 <= x, to about 1e-15 relative; k in 1..32. Exactly the same bits on every
+/// machine: it uses no function of the C library but the square root.
+double root(double x, int k);
+
+class StepController {
+ public:
+  /// \param error_order k above, 1..32
+  explicit StepController(int error_order) : error_order_(error_order) {}
+
+  /// Forgets all earlier steps.
+  void restart() {
+    previous_root_ = 1.0;
+    after_rejection_ = false;
+  }
+
+  /// Whether a step with this error is accepted.
+  static bool accepts(double error) { return error <= 1.0; }
+
+  /// The length to try next, after a step of length h was accepted or rejected with this error.
+  /// A NaN counts as a very large error.
+  double next(double h, double error);
+
+ private:
+  int error_order_;
+  double previous_root_ = 1.0;    ///< e_old^(1/k)
+  bool after_rejection_ = false;  ///< the next accepted step must not grow
+};
+
+}  // namespace spring_pendulum
