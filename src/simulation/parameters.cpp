@@ -27,6 +27,10 @@ Overloaded(Visitors...) -> Overloaded<Visitors...>;
                                parameter.range, parameter.unit.empty() ? "" : " ", parameter.unit));
 }
 
+std::string prefixFor(std::string_view where) {
+  return where.empty() ? "" : fmt::format("{}: ", where);
+}
+
 bool inRange(const Parameter& parameter, double value) {
   return std::isfinite(value) &&
          (value > parameter.least || (parameter.least_allowed && value == parameter.least));
@@ -68,14 +72,15 @@ const std::vector<Parameter>& parameterTable() {
   return kTable;
 }
 
-const Parameter& findParameter(std::string_view key) {
+const Parameter& findParameter(std::string_view key, std::string_view where) {
   std::string known;
   for (const Parameter& parameter : parameterTable()) {
     if (parameter.key == key) return parameter;
     known += known.empty() ? "" : ", ";
     known += parameter.key;
   }
-  throw InputError(fmt::format("unknown parameter '{}': known are {}", key, known));
+  throw InputError(
+      fmt::format("{}unknown parameter '{}': known are {}", prefixFor(where), key, known));
 }
 
 std::string formatValue(const Parameter& parameter, const Scenario& scenario) {
@@ -84,7 +89,7 @@ std::string formatValue(const Parameter& parameter, const Scenario& scenario) {
 }
 
 void ScenarioBuilder::set(std::string_view key, std::string_view text, std::string_view where) {
-  const Parameter& parameter = findParameter(key);
+  const Parameter& parameter = findParameter(key, where);
   const auto store = Overloaded{
       [&](double Scenario::*member) {
         const std::optional<double> value = parseNumber(text);
@@ -106,18 +111,27 @@ void ScenarioBuilder::set(std::string_view key, std::string_view text, std::stri
       [&](std::string Scenario::*member) { scenario_.*member = std::string(text); },
   };
   std::visit(store, parameter.member);
-  given_.emplace(key);
+  given_.insert_or_assign(std::string(key), std::string(where));
+}
+
+const Method& ScenarioBuilder::findGivenMethod() const {
+  try {
+    return findMethod(scenario_.method);
+  } catch (const InputError& error) {
+    const auto given = given_.find("method");
+    throw InputError(prefixFor(given == given_.end() ? "" : given->second) + error.what());
+  }
 }
 
 Scenario ScenarioBuilder::build() const {
-  const Method& method = findMethod(scenario_.method);
+  const Method& method = findGivenMethod();
   const bool fixed = method.control == StepControl::kFixed;
-  for (const std::string& key : given_) {
+  for (const auto& [key, where] : given_) {
     const AppliesTo applies_to = findParameter(key).applies_to;
     if (applies_to == AppliesTo::kAllMethods) continue;
     if (fixed == (applies_to == AppliesTo::kFixedStep)) continue;
     throw InputError(
-        fmt::format("{} has no meaning for {}, {}", key, method.name,
+        fmt::format("{}{} has no meaning for {}, {}", prefixFor(where), key, method.name,
                     fixed ? "a fixed-step method: it is told time_step and steps_per_frame"
                           : "which controls its error: it is told tolerance and frame_interval"));
   }

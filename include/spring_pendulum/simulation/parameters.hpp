@@ -3,9 +3,10 @@
 // text to a ScenarioBuilder.
 #pragma once
 
+#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
-#include <set>
+#include <map>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -33,8 +34,9 @@ struct Parameter {
 /// All parameters, in the order in which they are listed to a user.
 const std::vector<Parameter>& parameterTable();
 
+/// \param where put before an error message: "pendulum.yaml:3", "--time-step"
 /// \throws InputError that lists the known keys if there is no such parameter
-const Parameter& findParameter(std::string_view key);
+const Parameter& findParameter(std::string_view key, std::string_view where = "");
 
 /// The value of a parameter as text that `ScenarioBuilder::set` reads back.
 std::string formatValue(const Parameter& parameter, const Scenario& scenario);
@@ -43,16 +45,21 @@ std::string formatValue(const Parameter& parameter, const Scenario& scenario);
 class ScenarioBuilder {
  public:
   /// Sets one parameter from text.
-  /// \param where put before an error message: "pendulum.yaml:3", "--time-step"
+  /// \param where put before an error message, also one of `build`
   /// \throws InputError naming key, value and allowed range
   void set(std::string_view key, std::string_view text, std::string_view where);
+
+  /// Whether a parameter has been set.
+  bool isGiven(std::string_view key) const { return given_.find(key) != given_.end(); }
 
   /// \throws InputError for an unknown method, or a parameter that the method has no use for
   Scenario build() const;
 
  private:
+  const Method& findGivenMethod() const;
+
   Scenario scenario_;
-  std::set<std::string, std::less<>> given_;
+  std::map<std::string, std::string, std::less<>> given_;  ///< key and where it was last set
 };
 
 }  // namespace spring_pendulum

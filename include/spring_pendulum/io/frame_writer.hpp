@@ -1,0 +1,59 @@
+// Frame files: where the particles are at the times t = 0, T, 2T, ...
+//
+// `frame_0000.txt`, `frame_0001.txt`, ...: a line `x y` (m) for each particle, every number as the
+// shortest text that reads back as the same double. Above 9999 the index grows wider.
+#pragma once
+
+#include <spring_pendulum/io/file_descriptor.hpp>
+#include <spring_pendulum/model/state.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Writes the frames of one run into a folder. A frame is whole or absent, whenever the program is
+/// stopped. While a writer lives, its folder is locked against a second one.
+class FrameWriter {
+ public:
+  /// Makes the folder if it is absent, makes sure that it can be written, and removes the frames
+  /// of an earlier run: regular files named `frame_` + at least four digits + `.txt`, nothing else.
+  /// \param frames how many frames are going to be written
+  /// \throws FileError naming the folder or file
+  FrameWriter(const std::string& folder, std::int64_t frames);
+  ~FrameWriter();
+  FrameWriter(const FrameWriter&) = delete;
+  FrameWriter& operator=(const FrameWriter&) = delete;
+
+  /// Writes frame `index`, 0 <= index < frames.
+  /// \throws FileError naming the file
+  void write(std::int64_t index, const State& state);
+
+  /// Ends the run; the folder is free for another one. No write after this.
+  void finish();
+
+  /// Absolute path of the folder.
+  std::string folder() const { return folder_; }
+  /// Wall-clock time spent in this class, s.
+  double seconds() const { return seconds_; }
+
+ private:
+  void openFolder();
+  void checkFolderIsWritable();
+  void removeEarlierFrames();
+  void writeFile(const std::string& name, const char* data, std::size_t size);
+  [[noreturn]] void refuse(const std::string& name, const std::string& reason) const;
+  [[noreturn]] void refuseForErrno(const std::string& name) const;
+
+  std::string folder_;
+  std::int64_t frames_;
+  FileDescriptor folder_descriptor_;
+  std::vector<char> text_;  ///< of one frame, reused
+  double seconds_ = 0.0;
+};
+
+/// "frame_0042.txt"
+std::string frameName(std::int64_t index);
+
+}  // namespace spring_pendulum
