@@ -1,0 +1,35 @@
+# Where things go: catkin's folders in a catkin workspace, the usual ones without it.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+if(catkin_FOUND)
+  set(install_lib ${CATKIN_PACKAGE_LIB_DESTINATION})
+  set(install_bin ${CATKIN_PACKAGE_BIN_DESTINATION})
+  set(install_share ${CATKIN_PACKAGE_SHARE_DESTINATION})
+else()
+  set(install_lib ${CMAKE_INSTALL_LIBDIR})
+  set(install_bin ${CMAKE_INSTALL_BINDIR})
+  set(install_share ${CMAKE_INSTALL_DATADIR}/spring_pendulum)
+endif()
+
+install(TARGETS spring_pendulum EXPORT spring_pendulumTargets
+  LIBRARY DESTINATION ${install_lib} ARCHIVE DESTINATION ${install_lib})
+install(TARGETS Exercise3 RUNTIME DESTINATION ${install_bin})
+install(DIRECTORY include/spring_pendulum DESTINATION include
+  PATTERN "ros" EXCLUDE)
+install(DIRECTORY data config DESTINATION ${install_share})
+
+# find_package(spring_pendulum) gives the target spring_pendulum::spring_pendulum. catkin writes the
+# package's configuration itself and takes the targets in through cmake/spring_pendulum-extras.cmake.
+install(EXPORT spring_pendulumTargets NAMESPACE spring_pendulum::
+  DESTINATION ${install_share}/cmake)
+export(EXPORT spring_pendulumTargets NAMESPACE spring_pendulum::
+  FILE ${CMAKE_CURRENT_BINARY_DIR}/spring_pendulumTargets.cmake)
+if(NOT catkin_FOUND)
+  configure_package_config_file(cmake/spring_pendulumConfig.cmake.in spring_pendulumConfig.cmake
+    INSTALL_DESTINATION ${install_share}/cmake)
+  write_basic_package_version_file(spring_pendulumConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/spring_pendulumConfig.cmake
+    ${CMAKE_CURRENT_BINARY_DIR}/spring_pendulumConfigVersion.cmake
+    DESTINATION ${install_share}/cmake)
+endif()
