@@ -27,3 +27,12 @@ compile() {
 
 # Whether this machine has, or its package lists offer, ROS 1.
 ros_available() { [ -e /usr/bin/catkin_make ] || apt-cache show catkin libroscpp-dev > /dev/null 2>&1; }
+
+# program NAME: where the build put it (catkin has its own folder for executables).
+program() {
+  local folder
+  for folder in "$build/devel/lib/spring_pendulum" "$build"; do
+    [ -x "$folder/$1" ] && { echo "$folder/$1"; return; }
+  done
+  die "the build made no $1"
+}

@@ -13,7 +13,7 @@ compile "$build" Exercise3
 method=Runge-Kutta-4
 if [ $# -gt 0 ] && [[ $1 != -* ]]; then method=$1; shift; fi
 
-"$build/Exercise3" "$method" --particles "$project/data/particle.txt" --output "$output" "$@"
+"$(program Exercise3)" "$method" --particles "$project/data/particle.txt" --output "$output" "$@"
 (cd "$output" && gnuplot -e "load \"$project/data/animate_pendulum.plt\"")
 say "frames: $output/frame_0000.txt to $(ls "$output" | grep '^frame_' | tail -n 1)"
 say "moving picture: $output/pendulum.gif"
