@@ -1,17 +1,20 @@
 // The exercise: carries a chain of particles through time and writes a file a frame.
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/command_line.hpp>
+#include <spring_pendulum/io/energy_file.hpp>
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/interruption.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/progress.hpp>
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <optional>
@@ -25,22 +28,35 @@ enum ExitStatus { kDone = 0, kFileFailed = 1, kBadInput = 2, kDiverged = 3, kSig
 /// What the closing line tells.
 struct Summary {
   std::int64_t frames = 0;
-  bool diverged = false;
   double seconds = 0.0;
 };
 
+/// Where a frame goes; null where it is not wanted.
+struct Outputs {
+  FrameWriter* frames = nullptr;
+  EnergyFile* energy = nullptr;
+};
+
+/// What diverged is never shown, unless somebody wants to see it and there still is something.
+bool isShown(const Judge& judge, bool continues) {
+  if (judge.latest().kind != VerdictKind::kDiverged) return true;
+  return continues && std::isfinite(judge.entry().energy.total());
+}
+
 /// The simulation loop: advance, judge, hand the frame to each output that is wanted.
-Summary simulate(const Scenario& scenario, State& state, Integrator& integrator,
-                 FrameWriter* writer) {
+Summary simulate(const Scenario& scenario, State& state, Integrator& integrator, Judge& judge,
+                 const Outputs& outputs) {
   const auto start = std::chrono::steady_clock::now();
   const FrameSteps step = frameSteps(scenario);
+  const bool continues = scenario.on_divergence == "continue";
   Progress progress(scenario.frames);
   Summary summary;
   while (summary.frames < scenario.frames && interruption() == 0) {
     if (summary.frames > 0) integrator.advance(state, step.time_step, step.steps);
-    summary.diverged = !state.values().allFinite();
-    if (summary.diverged) break;
-    if (writer != nullptr) writer->write(summary.frames, state);
+    judge.judge(step.timeOfFrame(summary.frames), state, integrator.dissipatedEnergy());
+    if (!isShown(judge, continues)) break;
+    if (outputs.frames != nullptr) outputs.frames->write(summary.frames, state);
+    if (outputs.energy != nullptr) outputs.energy->write(summary.frames, judge.entry());
     progress.show(++summary.frames);
   }
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -51,39 +67,50 @@ std::string counted(std::int64_t count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-void printSummary(const Scenario& scenario, const Summary& summary, Eigen::Index particles,
-                  std::int64_t force_evaluations, double writing_seconds,
-                  const std::string& folder) {
+void printSummary(const Scenario& scenario, const Summary& summary, const Chain& chain,
+                  const Integrator& integrator, const FrameWriter* writer, const Judge& judge) {
   const bool fixed = findMethod(scenario.method).control == StepControl::kFixed;
   const std::int64_t steps =
       std::max<std::int64_t>(summary.frames - 1, 0) * scenario.steps_per_frame;
-  fmt::print(
-      "{}: {}, {}, {}{}, {:.3f} s integrating, "
-      "{:.3f} s writing{}\n",
-      scenario.method, particles, summary.frames, fixed ? fmt::format("{} steps, ", steps) : "",
-      force_evaluations, std::max(summary.seconds - writing_seconds, 0.0), writing_seconds,
-      folder.empty() ? "" : " to " + folder);
+  const double writing_seconds = writer == nullptr ? 0.0 : writer->seconds();
+  fmt::print("{}: {}, {}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, verdict: {}\n",
+             scenario.method, counted(chain.size(), "particle"), counted(summary.frames, "frame"),
+             fixed ? counted(steps, "step") + ", " : "",
+             counted(integrator.forceEvaluations(), "force evaluation"),
+             std::max(summary.seconds - writing_seconds, 0.0), writing_seconds,
+             writer == nullptr ? "" : " to " + writer->folder(), toString(judge.worst().kind));
+}
+
+/// The warning or error on standard error, and the exit status.
+int concludeFrom(const Verdict& verdict) {
+  if (verdict.kind == VerdictKind::kDiverged) {
+    fmt::print(stderr, "{}\n", verdict.text);
+    return kDiverged;
+  }
+  if (verdict.kind != VerdictKind::kOk) fmt::print(stderr, "warning: {}\n", verdict.text);
+  return interruption() == 0 ? kDone : kSignalled + interruption();
 }
 
 int run(const Scenario& scenario) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
-  const auto integrator = makeIntegrator(scenario.method, chain, {scenario.tolerance});
+  const bool wants_ledger = !scenario.energy.empty();
+  const auto integrator =
+      makeIntegrator(scenario.method, chain, {scenario.tolerance, wants_ledger});
+  Judge judge(chain, particles.state, wants_ledger);
+  std::optional<EnergyFile> energy;
+  if (wants_ledger) energy.emplace(scenario.energy);
   std::optional<FrameWriter> writer;
   if (!scenario.no_frames) writer.emplace(scenario.output, scenario.frames);
 
   catchInterruptions();
   State state = particles.state;
-  const Summary summary = simulate(scenario, state, *integrator, writer ? &*writer : nullptr);
+  const Outputs outputs{writer ? &*writer : nullptr, energy ? &*energy : nullptr};
+  const Summary summary = simulate(scenario, state, *integrator, judge, outputs);
   if (writer) writer->finish();
-  printSummary(scenario, summary, chain.size(), integrator->forceEvaluations(),
-               writer ? writer->seconds() : 0.0, writer ? writer->folder() : "");
-  if (summary.diverged) {
-    fmt::print(stderr, "the motion diverged before t = {:.6g} s: a smaller step would be right\n",
-               frameSteps(scenario).timeOfFrame(summary.frames));
-    return kDiverged;
-  }
-  return interruption() == 0 ? kDone : kSignalled + interruption();
+  if (energy) energy->finish();
+  printSummary(scenario, summary, chain, *integrator, outputs.frames, judge);
+  return concludeFrom(judge.worst());
 }
 
 int runCommandLine(int argc, const char* const* argv) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -36,6 +37,20 @@ bool inRange(const Parameter& parameter, double value) {
          (value > parameter.least || (parameter.least_allowed && value == parameter.least));
 }
 
+bool isChoice(const Parameter& parameter, std::string_view text) {
+  const auto& choices = parameter.choices;
+  return choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end();
+}
+
+/// Frame times are computed from a whole number of steps.
+void checkLength(const Scenario& scenario, bool fixed) {
+  const std::int64_t steps = fixed ? scenario.steps_per_frame : 1;
+  if (scenario.frames <= std::numeric_limits<std::int64_t>::max() / steps) return;
+  throw InputError(
+      fmt::format("frames is '{}' and steps_per_frame is '{}': must be at most {} steps in all",
+                  scenario.frames, steps, std::numeric_limits<std::int64_t>::max()));
+}
+
 std::optional<bool> parseBool(std::string_view text) {
   if (text == "true") return true;
   if (text == "false") return false;
@@ -50,6 +65,16 @@ const std::vector<Parameter>& parameterTable() {
       {"particles", &Scenario::particles, "", "a file", "the particle file, a line \"x y m\" each"},
       {"output", &Scenario::output, "", "a folder", "where frame files go; made if absent"},
       {"no_frames", &Scenario::no_frames, "", "true or false", "write no frame files"},
+      {"energy", &Scenario::energy, "", "a file", "CSV file for the energy ledger, a row a frame"},
+      {"on_divergence",
+       &Scenario::on_divergence,
+       "",
+       "stop or continue",
+       "whether a motion that diverged is carried on as long as every number is finite",
+       AppliesTo::kAllMethods,
+       0.0,
+       false,
+       {"stop", "continue"}},
       {"frames", &Scenario::frames, "", "a whole number of at least 1", "number of frames",
        AppliesTo::kAllMethods, 1.0, true},
       {"steps_per_frame", &Scenario::steps_per_frame, "", "a whole number of at least 1",
@@ -108,7 +133,10 @@ void ScenarioBuilder::set(std::string_view key, std::string_view text, std::stri
         if (!value) refuse(parameter, text, where);
         scenario_.*member = *value;
       },
-      [&](std::string Scenario::*member) { scenario_.*member = std::string(text); },
+      [&](std::string Scenario::*member) {
+        if (!isChoice(parameter, text)) refuse(parameter, text, where);
+        scenario_.*member = std::string(text);
+      },
   };
   std::visit(store, parameter.member);
   given_.insert_or_assign(std::string(key), std::string(where));
@@ -135,6 +163,7 @@ Scenario ScenarioBuilder::build() const {
                     fixed ? "a fixed-step method: it is told time_step and steps_per_frame"
                           : "which controls its error: it is told tolerance and frame_interval"));
   }
+  checkLength(scenario_, fixed);
   return scenario_;
 }
 

@@ -29,6 +29,7 @@ struct Parameter {
   AppliesTo applies_to = AppliesTo::kAllMethods;
   double least = 0.0;          ///< numbers: smallest allowed value
   bool least_allowed = false;  ///< numbers: whether `least` itself is allowed
+  std::vector<std::string_view> choices = {};  ///< text: the allowed ones; empty: any
 };
 
 /// All parameters, in the order in which they are listed to a user.

@@ -13,6 +13,8 @@ struct Scenario {
   std::string particles = "particle.txt";  ///< the particle file
   std::string output = ".";                ///< where frame files go
   bool no_frames = false;                  ///< write no frame files
+  std::string energy;                      ///< where the energy ledger goes; empty: nowhere
+  std::string on_divergence = "stop";      ///< or "continue", as long as every number is finite
 
   std::int64_t frames = 500;
   std::int64_t steps_per_frame = 10;  ///< fixed-step methods
