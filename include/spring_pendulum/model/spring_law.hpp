@@ -43,4 +43,13 @@ PlaneVector<Value> springForce(const SpringLaw& law, const PlaneVector<Value>& s
   return {factor * separation.x, factor * separation.y};
 }
 
+/// The same, to the last bit, of a spring whose damping is 0 (as long as w·d is finite).
+template <typename Value>
+PlaneVector<Value> undampedSpringForce(const SpringLaw& law, const PlaneVector<Value>& separation) {
+  const Value square = separation.x * separation.x + separation.y * separation.y;
+  const Value inner = -(law.stiffness * law.rest_length) * inverseSquareRoot(square);
+  const Value factor = law.stiffness + inner;
+  return {factor * separation.x, factor * separation.y};
+}
+
 }  // namespace spring_pendulum

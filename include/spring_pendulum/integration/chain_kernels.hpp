@@ -1,0 +1,72 @@
+// The inner loops of the explicit methods, on raw numbers, compiled once for every instruction set
+// and picked when the program runs:
+//
+//     slope of a stage     k = F(z + w_1 k_1 + w_2 k_2 + ...)
+//     combination          z + w_1 k_1 + w_2 k_2 + ...
+//     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
+//
+// Every particle sees the operations of the plain code (computeAccelerations) in its order and
+// nothing is contracted, so the bits are the same for every instruction set. Eigen's types change
+// their layout with the instruction set; nothing but pointers and numbers crosses this border.
+#pragma once
+
+#include <spring_pendulum/model/spring_law.hpp>
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// A chain of N particles as the kernels read it. Column c of a state or a slope of particle i is
+/// number c * pitch + i, aligned and padded as `StateBuffer` does it.
+struct KernelChain {
+  SpringLaw spring;
+  double gravity = 0.0;  ///< m/s²
+  /// 1/kg, aligned as a column; if `mass_stride` is 0 only eight equal numbers, for all particles
+  const double* inverse_masses = nullptr;
+  std::ptrdiff_t mass_stride = 1;
+  std::ptrdiff_t size = 0;   ///< N >= 1; the first particle is fixed
+  std::ptrdiff_t pitch = 0;  ///< distance of two columns, a multiple of 8 and at least N
+};
+
+/// w k: a weight (the step times a coefficient of the tableau) and the N×4 slope it weighs.
+struct WeightedSlope {
+  double weight;
+  const double* slope;
+};
+
+/// Terms are added in their order, which is part of the arithmetic.
+struct SlopeSum {
+  const WeightedSlope* terms = nullptr;
+  std::ptrdiff_t count = 0;
+};
+
+/// Largest absolute values in a combination of slopes; NaN if it is not finite.
+struct LargestChange {
+  double position;  ///< of the x and y columns
+  double velocity;  ///< of the vx and vy columns
+};
+
+/// The kernels of one instruction set. Outputs must not overlap inputs.
+struct ChainKernels {
+  std::string_view name;  ///< "baseline", "avx2", "avx512"
+
+  /// slope = F(state + sum); with no terms F(state). Row 0 is zero: the first particle is fixed.
+  void (*stageSlope)(const KernelChain& chain, const double* state, SlopeSum sum, double* slope);
+
+  /// out = state + sum
+  void (*combine)(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out);
+
+  /// Of the sum alone, over the first `size` particles. A maximum, so no order matters.
+  LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);
+};
+
+/// The kernels of every instruction set that this processor has, the fastest first. The last is the
+/// baseline, which all processors of the architecture have.
+const std::vector<const ChainKernels*>& supportedChainKernels();
+
+/// The fastest of them.
+const ChainKernels& fastestChainKernels();
+
+}  // namespace spring_pendulum

@@ -1,0 +1,65 @@
+// Workspace of the integrators: states and slopes laid out for vector instructions.
+#pragma once
+
+#include <spring_pendulum/model/state.hpp>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace spring_pendulum {
+
+/// Doubles that begin on a cache line, zero when made.
+class AlignedNumbers {
+ public:
+  static constexpr std::size_t kAlignment = 64;
+
+  AlignedNumbers() = default;
+  explicit AlignedNumbers(Eigen::Index size)
+      : numbers_(new (std::align_val_t{kAlignment}) double[static_cast<std::size_t>(size)]()) {}
+
+  double* data() { return numbers_.get(); }
+  const double* data() const { return numbers_.get(); }
+
+ private:
+  struct Delete {
+    void operator()(double* numbers) const {
+      ::operator delete[](numbers, std::align_val_t{kAlignment});
+    }
+  };
+  std::unique_ptr<double[], Delete> numbers_;
+};
+
+/// N rows of the columns x, y, vx, vy (or of their derivatives), as `State`, but every column
+/// begins on a cache line and goes on behind row N with zeros up to row `pitch()`, so that whole
+/// vectors may be read and written there. Number c of particle i is `data()[c * pitch() + i]`.
+class StateBuffer {
+ public:
+  StateBuffer() = default;
+  explicit StateBuffer(Eigen::Index particles)
+      : size_(particles), pitch_(paddedSize(particles)), numbers_(4 * pitch_) {}
+
+  /// The least multiple of the longest vector, 8 doubles, that holds `particles` rows.
+  static Eigen::Index paddedSize(Eigen::Index particles) { return (particles + 7) / 8 * 8; }
+
+  Eigen::Index size() const { return size_; }
+  Eigen::Index pitch() const { return pitch_; }
+  double* data() { return numbers_.data(); }
+  const double* data() const { return numbers_.data(); }
+
+  /// The N×4 numbers without the padding.
+  auto values() { return Map(data(), size_, 4, Eigen::OuterStride<>(pitch_)); }
+  auto values() const { return ConstMap(data(), size_, 4, Eigen::OuterStride<>(pitch_)); }
+
+ private:
+  using Map = Eigen::Map<State::Matrix, Eigen::Unaligned, Eigen::OuterStride<>>;
+  using ConstMap = Eigen::Map<const State::Matrix, Eigen::Unaligned, Eigen::OuterStride<>>;
+
+  Eigen::Index size_ = 0;
+  Eigen::Index pitch_ = 0;
+  AlignedNumbers numbers_;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,51 @@
+#include <spring_pendulum/integration/chain_kernels.hpp>
+#include <spring_pendulum/integration/kernel_constants.hpp>
+
+#include <algorithm>
+
+#include "kernels/instruction_sets.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+std::vector<const ChainKernels*> findSupportedKernels() {
+  std::vector<const ChainKernels*> found;
+#ifdef SPRING_PENDULUM_X86_KERNELS
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+      __builtin_cpu_supports("avx512vl") != 0) {
+    found.push_back(&kAvx512Kernels);
+  }
+  if (__builtin_cpu_supports("avx2") != 0) found.push_back(&kAvx2Kernels);
+#endif
+  found.push_back(&kBaselineKernels);
+  return found;
+}
+
+}  // namespace
+
+const std::vector<const ChainKernels*>& supportedChainKernels() {
+  static const std::vector<const ChainKernels*> kSupported = findSupportedKernels();
+  return kSupported;
+}
+
+const ChainKernels& fastestChainKernels() {
+  return *supportedChainKernels().front();
+}
+
+KernelConstants::KernelConstants(const Chain& chain)
+    : inverse_masses_(StateBuffer::paddedSize(chain.size())) {
+  chain_.spring = chain.spring();
+  chain_.gravity = chain.gravity();
+  chain_.inverse_masses = inverse_masses_.data();
+  chain_.mass_stride = chain.equalMasses() ? 0 : 1;
+  chain_.size = chain.size();
+  chain_.pitch = StateBuffer::paddedSize(chain.size());
+  if (chain.equalMasses() && chain.size() > 1) {
+    std::fill_n(inverse_masses_.data(), 8, chain.inverseMasses()[1]);
+  } else {
+    std::copy_n(chain.inverseMasses().data(), chain.size(), inverse_masses_.data());
+  }
+}
+
+}  // namespace spring_pendulum

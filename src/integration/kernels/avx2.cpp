@@ -1,0 +1,8 @@
+#include "all_kernels.hpp"
+#include "instruction_sets.hpp"
+
+namespace spring_pendulum {
+
+const ChainKernels kAvx2Kernels = kernelsNamed("avx2");
+
+}  // namespace spring_pendulum

@@ -1,0 +1,8 @@
+#include "all_kernels.hpp"
+#include "instruction_sets.hpp"
+
+namespace spring_pendulum {
+
+const ChainKernels kAvx512Kernels = kernelsNamed("avx512");
+
+}  // namespace spring_pendulum

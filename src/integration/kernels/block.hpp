@@ -1,0 +1,82 @@
+// A block: `kLanes` neighbouring particles, and their accelerations.
+#pragma once
+
+#include <spring_pendulum/integration/chain_kernels.hpp>
+#include <spring_pendulum/model/spring_law.hpp>
+
+#include <cstddef>
+
+#include "pack.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+/// State or slope of a block.
+struct Block {
+  Pack x, y, vx, vy;
+};
+
+inline Block loadBlock(const double* columns, std::ptrdiff_t pitch, std::ptrdiff_t block) {
+  const double* first = columns + block * kLanes;
+  return {Pack::load(first), Pack::load(first + pitch), Pack::load(first + 2 * pitch),
+          Pack::load(first + 3 * pitch)};
+}
+
+inline void storeBlock(const Block& value, double* columns, std::ptrdiff_t pitch,
+                       std::ptrdiff_t block) {
+  double* first = columns + block * kLanes;
+  value.x.store(first);
+  value.y.store(first + pitch);
+  value.vx.store(first + 2 * pitch);
+  value.vy.store(first + 3 * pitch);
+}
+
+/// state + weight * slope
+inline Block plusWeighted(const Block& state, double weight, const Block& slope) {
+  return {state.x + weight * slope.x, state.y + weight * slope.y, state.vx + weight * slope.vx,
+          state.vy + weight * slope.vy};
+}
+
+inline std::ptrdiff_t blocksOf(std::ptrdiff_t size) {
+  return (size + kLanes - 1) / kLanes;
+}
+
+/// Forces on the particles of a block from the springs to their right neighbours, none on the last
+/// of the chain. Without damping no velocity is read; no bit changes.
+template <bool kDamped>
+PlaneVector<Pack> forcesFromRight(const KernelChain& chain, const Block& here, const Block& right,
+                                  std::ptrdiff_t block) {
+  const PlaneVector<Pack> separation{rightNeighbours(here.x, right.x) - here.x,
+                                     rightNeighbours(here.y, right.y) - here.y};
+  PlaneVector<Pack> force;
+  if constexpr (kDamped) {
+    const PlaneVector<Pack> approach{rightNeighbours(here.vx, right.vx) - here.vx,
+                                     rightNeighbours(here.vy, right.vy) - here.vy};
+    force = springForce(chain.spring, separation, approach);
+  } else {
+    force = undampedSpringForce(chain.spring, separation);
+  }
+  const std::ptrdiff_t springs = chain.size - 1 - block * kLanes;
+  if (springs < kLanes) force = {only(force.x, 0, springs), only(force.y, 0, springs)};
+  return force;
+}
+
+/// The slope of a block from the forces of its springs and those of the block to its left.
+template <bool kGravity>
+Block slopeOf(const KernelChain& chain, const Block& here, const PlaneVector<Pack>& left,
+              const PlaneVector<Pack>& right, std::ptrdiff_t block) {
+  const Pack inverse_mass = Pack::load(chain.inverse_masses + chain.mass_stride * (block * kLanes));
+  Block slope{here.vx, here.vy, (right.x - leftNeighbours(left.x, right.x)) * inverse_mass,
+              (right.y - leftNeighbours(left.y, right.y)) * inverse_mass};
+  if constexpr (kGravity) slope.vy = slope.vy - chain.gravity;
+  const std::ptrdiff_t particles = chain.size - block * kLanes;
+  if (block == 0 || particles < kLanes) {
+    const std::ptrdiff_t first_moving = block == 0 ? 1 : 0;
+    slope = {only(slope.x, first_moving, particles), only(slope.y, first_moving, particles),
+             only(slope.vx, first_moving, particles), only(slope.vy, first_moving, particles)};
+  }
+  return slope;
+}
+
+}  // namespace
+}  // namespace spring_pendulum
