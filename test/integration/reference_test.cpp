@@ -33,7 +33,8 @@ struct KnownError {
   double error;  ///< m, computed independently of this package
 };
 
-void PrintTo(const KnownError& known, std::ostream* out) {
+// googletest looks for this name.
+void PrintTo(const KnownError& known, std::ostream* out) {  // NOLINT(readability-identifier-naming)
   *out << known.method << " on " << known.scene << " after " << known.seconds << " s";
 }
 
