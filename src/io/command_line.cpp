@@ -63,7 +63,7 @@ class Parser {
  public:
   Parser() {
     app_.allow_extras();
-    app_.option_defaults()->always_capture_default(false);
+    app_.option_defaults()->take_last();  // so that a script can be given options to overrule
     app_.get_formatter()->column_width(30);
     app_.set_help_flag("--help,-h", "show this help");
     app_.set_version_flag("--version", "spring_pendulum " SPRING_PENDULUM_VERSION,

@@ -1,0 +1,131 @@
+// Particle files: what is accepted, and the message for everything that is not.
+#include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/model/errors.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr const char* kPlain = "0 0 1\n1 -0.5 2.5\n";
+
+void expectPlain(const std::string& text) {
+  const Particles particles = parseParticles(text, "particle.txt");
+  ASSERT_EQ(particles.state.size(), 2) << text;
+  EXPECT_EQ(particles.state.x()[0], 0.0);
+  EXPECT_EQ(particles.state.x()[1], 1.0);
+  EXPECT_EQ(particles.state.y()[1], -0.5);
+  EXPECT_EQ(particles.masses[0], 1.0);
+  EXPECT_EQ(particles.masses[1], 2.5);
+  EXPECT_TRUE(particles.state.velocities().isZero(0.0));
+}
+
+TEST(ParticleFile, AcceptsEveryWayToWriteIt) {
+  expectPlain(kPlain);
+  expectPlain("0 0 1\n1 -0.5 2.5");                            // no newline at the end
+  expectPlain("0 0 1\r\n1 -0.5 2.5\r\n");                      // CRLF
+  expectPlain("\n0 0 1\n \n\t\n\r\n1 -0.5 2.5\n\n");           // blank lines
+  expectPlain("# a scene\n0 0 1 # fixed\n1 -.5 2.5#\n #end");  // comments
+  expectPlain("\t0\t0\t1\n  1 \t -5e-1   2.5  \n");            // tabs, spaces around
+  expectPlain("+0 +0.0 +1\n+1.0 -0.50 25E-1\n");               // leading +, exponents
+}
+
+TEST(ParticleFile, ReadsTheNearestDouble) {
+  const Particles particles = parseParticles("0.1 1e-310 1\n1.7976931348623157e100 0.3 5e-300", "");
+  EXPECT_EQ(particles.state.x()[0], 0.1);
+  EXPECT_EQ(particles.state.y()[0], 1e-310);
+  EXPECT_EQ(particles.state.x()[1], 1.7976931348623157e100);
+  EXPECT_EQ(particles.masses[1], 5e-300);
+}
+
+TEST(ParticleFile, HasNoNegativeZero) {
+  const Particles particles = parseParticles("-0 -0.0 1\n1 -1e-400 1", "");
+  EXPECT_FALSE(std::signbit(particles.state.x()[0]));
+  EXPECT_FALSE(std::signbit(particles.state.y()[0]));
+  EXPECT_FALSE(std::signbit(particles.state.y()[1]));
+}
+
+TEST(ParticleFile, OneParticleIsAScene) {
+  EXPECT_EQ(parseParticles("1 2 3", "").state.size(), 1);
+}
+
+TEST(ParticleFile, MassOfTheFixedParticleIsFree) {
+  for (const char* mass : {"0", "-1", "1e300"}) {
+    EXPECT_NO_THROW(parseParticles(std::string("0 0 ") + mass + "\n1 0 1", "")) << mass;
+  }
+}
+
+struct BadText {
+  std::string text;
+  std::string message;
+};
+
+std::ostream& operator<<(std::ostream& stream, const BadText& bad) {
+  return stream << bad.message;
+}
+
+class ParticleFileRefuses : public testing::TestWithParam<BadText> {};
+
+TEST_P(ParticleFileRefuses, WithOneLineThatTellsWhere) {
+  try {
+    parseParticles(GetParam().text, "particle.txt");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), GetParam().message);
+  }
+}
+
+std::string noNumber(const std::string& line, const std::string& word) {
+  return "particle.txt:" + line + ": " + word +
+         " is no number, must be finite and decimal such as 0.5 or -2e-3";
+}
+
+const std::string kNoParticles = "particle.txt: no particles, must hold a line 'x y m' for each";
+const std::string kMass = ", must be above 0 kg for a moving particle";
+
+INSTANTIATE_TEST_SUITE_P(
+    BadRows, ParticleFileRefuses,
+    testing::Values(
+        BadText{"", kNoParticles}, BadText{"\n# nothing\n\n", kNoParticles},
+        BadText{"0 0 1\n1 0\n", "particle.txt:2: 2 numbers, must be 3: x y m"},
+        BadText{"7", "particle.txt:1: 1 number, must be 3: x y m"},
+        BadText{"0 0 1\n\n# c\n1 0 1 0\n", "particle.txt:4: 4 numbers, must be 3: x y m"},
+        BadText{"0 0 1\n1 zero 1\n", noNumber("2", "'zero'")},
+        BadText{"0 0 1\n1.0x 0 1\n", noNumber("2", "'1.0x'")},
+        BadText{"0 0 1\n1 0 1;\n", noNumber("2", "'1;'")},
+        BadText{"0 0 1\n1,5 0 1\n", noNumber("2", "'1,5'")},
+        BadText{"0 0 1\nnan 0 1\n", noNumber("2", "'nan'")},
+        BadText{"0 0 1\n0 -inf 1\n", noNumber("2", "'-inf'")},
+        BadText{"0 0 1\n0 infinity 1\n", noNumber("2", "'infinity'")},
+        BadText{"0 0 1\n1e400 0 1\n", noNumber("2", "'1e400'")},
+        BadText{"0 0 1\n0x10 0 1\n", noNumber("2", "'0x10'")},
+        BadText{"0 0 1\n+-1 0 1\n", noNumber("2", "'+-1'")},
+        BadText{"0 0 1\n++1 0 1\n", noNumber("2", "'++1'")},
+        BadText{"0 0 1\n+ 0 1\n", noNumber("2", "'+'")},
+        BadText{std::string("0 0 1\n1\0 0 1\n", 13), noNumber("2", "'1?'")},
+        BadText{"0 0 1\r1 0 1", noNumber("1", "'1?1'")},
+        BadText{"0 0 1\n1 0 1\v\n", noNumber("2", "'1?'")},
+        BadText{"0 0 " + std::string(1000, 'm'),
+                noNumber("1", "'" + std::string(40, 'm') + "...'")},
+        BadText{"0 0 1\n1 0 0\n", "particle.txt:2: mass 0" + kMass},
+        BadText{"0 0 1\n1 0 -0\n", "particle.txt:2: mass 0" + kMass},
+        BadText{"0 0 1\n1 0 -2\n", "particle.txt:2: mass -2" + kMass},
+        BadText{"0 0 1\n1 0 1e-310\n", "particle.txt:2: mass 1e-310" + kMass},
+        BadText{"0 0 1\n\n0 -0 1\n",
+                "particle.txt:3: same place as the particle of line 1, neighbours must lie apart"},
+        BadText{"0 0 1\n1e-170 0 1\n",
+                "particle.txt:2: same place as the particle of line 1, neighbours must lie apart"},
+        BadText{"0 0 1\n1e200 0 1\n",
+                "particle.txt:2: too far from the particle of line 1, the square of their "
+                "distance must be a finite number"}));
+
+TEST(ParticleFile, TwoParticlesThatAreNoNeighboursMayShareAPlace) {
+  EXPECT_EQ(parseParticles("0 0 1\n1 0 1\n0 0 1\n", "").state.size(), 3);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
