@@ -24,6 +24,11 @@ struct Entry {
   std::string comment;  ///< the lines above it
 };
 
+std::string unquoted(const std::string& text) {
+  const bool is_quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
+  return is_quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 /// By key, also those that stand commented out: `#tolerance: 1.0e-6`.
 std::map<std::string, Entry> readEntries() {
   std::istringstream lines(readTextFile(kFile));
@@ -34,7 +39,8 @@ std::map<std::string, Entry> readEntries() {
   const std::regex entry("(#?)([a-z_]+): (.*)");
   while (std::getline(lines, line)) {
     if (std::regex_match(line, match, entry)) {
-      const bool is_new = entries.insert({match[2], {match[3], match[1] == "#", comment}}).second;
+      const bool is_new =
+          entries.insert({match[2], {unquoted(match[3]), match[1] == "#", comment}}).second;
       EXPECT_TRUE(is_new) << line;
     }
     comment = line.rfind("# ", 0) == 0 ? comment + line : "";
