@@ -1,0 +1,19 @@
+// Runs a piece of work in a process of its own, so that a peer that crashes, leaves the process or
+// never ends costs one point of a benchmark and not the benchmark.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace spring_pendulum::benchmark {
+
+struct Isolated {
+  enum class Ending { kDone, kFailed, kTooSlow } ending;
+  std::string text;  ///< what the work returned, or why it failed
+};
+
+/// \param work  its result is handed over as text; an exception means failure
+/// \param limit s; after that it is ended
+Isolated runIsolated(const std::function<std::string()>& work, double limit);
+
+}  // namespace spring_pendulum::benchmark

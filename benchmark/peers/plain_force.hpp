@@ -1,0 +1,42 @@
+// The right-hand side that every library peer calls: a plain structure-of-arrays loop, as a
+// competent person writes it, compiled with the vector flags of the machine.
+#pragma once
+
+#include "../peer.hpp"
+
+namespace spring_pendulum::benchmark {
+
+class PlainForce {
+ public:
+  explicit PlainForce(const Problem& problem);
+
+  /// z' = F(z); z and z' hold x, y, vx, vy, each N numbers.
+  void operator()(const double* state, double* derivative);
+
+  /// The same with the four numbers of a particle side by side, which gives a banded Jacobian of
+  /// 7 diagonals below and 5 above the main one.
+  void interleaved(const double* state, double* derivative);
+
+  /// The banded Jacobian of `interleaved`, at least 12 diagonals: entry (row, column) is
+  /// columns[column][row - column], as SUNDIALS stores band matrices.
+  void interleavedJacobian(const double* state, double* const* columns) const;
+
+  std::size_t size() const { return size_; }
+  std::int64_t evaluations() const { return evaluations_; }
+
+ private:
+  void springForces(const double* state);
+
+  std::size_t size_;
+  double stiffness_, damping_, rest_length_, gravity_;
+  std::vector<double> inverse_masses_;
+  std::vector<double> force_x_, force_y_;  ///< of spring i on particle i, N
+  std::vector<double> sorted_, sorted_derivative_;
+  std::int64_t evaluations_ = 0;
+};
+
+/// x y vx vy of each particle side by side, from a structure of arrays, and back.
+void interleave(std::size_t size, const double* arrays, double* interleaved);
+void separate(std::size_t size, const double* interleaved, double* arrays);
+
+}  // namespace spring_pendulum::benchmark

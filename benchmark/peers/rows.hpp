@@ -1,0 +1,25 @@
+// What each file of peers adds to the list of all peers.
+#pragma once
+
+#include "../peer.hpp"
+
+namespace spring_pendulum::benchmark {
+
+std::vector<PeerRow> ownRows();
+std::vector<PeerRow> plainRows();
+std::vector<PeerRow> boostRows();
+std::vector<PeerRow> gslRows();
+std::vector<PeerRow> arkodeRows();
+std::vector<PeerRow> cvodeRows();
+std::vector<PeerRow> mujocoRows();
+std::vector<PeerRow> simbodyRows();
+
+/// The usual `PeerRow::make`: a `Kind` made from problem, run, and whatever else it needs.
+template <typename Kind, typename... More>
+auto makerOf(More... more) {
+  return [=](const Problem& problem, const Run& run) -> std::unique_ptr<Peer> {
+    return std::make_unique<Kind>(problem, run, more...);
+  };
+}
+
+}  // namespace spring_pendulum::benchmark

@@ -1,0 +1,240 @@
+// Work against precision: the time and the force evaluations of every method of this package and
+// of every peer, against its true error, over step sizes and tolerances, on all scenes whose exact
+// motion is known.
+//
+// The state at the end is all that is asked for; making a solver is not timed. Every point runs in
+// a process of its own, several times in several passes over all points of a scene, and its least
+// time counts: whatever else the machine does can only add to it, and passes make a disturbance
+// that lasts a while hit all methods alike.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "isolated.hpp"
+#include "peer.hpp"
+#include "result_file.hpp"
+#include "scenes.hpp"
+
+namespace spring_pendulum::benchmark {
+namespace {
+
+struct Options {
+  std::string output = ".";
+  std::string scene;     ///< empty: all
+  std::string peer;      ///< empty: all
+  double limit = 2.0;    ///< s; a point that takes longer is recorded as too slow
+  double budget = 0.03;  ///< s spent on one point in one pass, at least
+  int passes = 2;
+  bool smoke = false;
+};
+
+struct Point {
+  std::string status = "ok";
+  std::string note;
+  double seconds = std::numeric_limits<double>::infinity();
+  double error = std::numeric_limits<double>::infinity();
+  long long evaluations = 0;
+};
+
+double secondsOf(Peer& peer) {
+  peer.reset();
+  const auto start = std::chrono::steady_clock::now();
+  peer.advance();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Runs in a process of its own.
+std::string measure(const ReferenceScene& scene, const PeerRow& row, const Run& run,
+                    double budget) {
+  const std::unique_ptr<Peer> peer = row.make(scene.problem, run);
+  const long long before = peer->forceEvaluations();
+  double least = secondsOf(*peer);
+  const long long evaluations = peer->forceEvaluations() - before;
+  const double error = positionError(peer->state(), scene.exact);
+  if (!std::isfinite(error)) throw PeerError("the motion diverged");
+  double spent = least;
+  for (int count = 1; spent < budget || (count < 3 && spent < 10.0 * budget); ++count) {
+    const double seconds = secondsOf(*peer);
+    least = std::min(least, seconds);
+    spent += seconds;
+  }
+  return fmt::format("{} {} {}", least, error, evaluations);
+}
+
+Point measured(const ReferenceScene& scene, const PeerRow& row, const Run& run,
+               const Options& options) {
+  Point point;
+  const double limit = options.limit + 10.0 * options.budget;
+  const Isolated result =
+      runIsolated([&] { return measure(scene, row, run, options.budget); }, limit);
+  point.note = result.text;
+  if (result.ending == Isolated::Ending::kTooSlow) point.status = "too slow";
+  if (result.ending == Isolated::Ending::kFailed) point.status = "failed";
+  if (result.ending != Isolated::Ending::kDone) return point;
+  point.note.clear();
+  std::sscanf(result.text.c_str(), "%lf %lf %lld", &point.seconds, &point.error,
+              &point.evaluations);
+  return point;
+}
+
+constexpr double kBestError = 2e-12;  // m; below, rounding decides and there is nothing to show
+
+/// Step sizes halving from 20 ms, each dividing the duration.
+std::vector<Run> fixedRuns(double duration, bool smoke) {
+  std::vector<Run> runs;
+  const int halvings = smoke ? 3 : 18;
+  for (int k = 0; k < halvings; ++k) {
+    const auto steps = static_cast<std::int64_t>(std::lround(duration / 0.02)) << k;
+    runs.push_back({duration / static_cast<double>(steps), steps, 0.0, 1});
+  }
+  return runs;
+}
+
+/// Tolerances from 1e-2 to 1e-12, two a decade.
+std::vector<Run> controlledRuns(double duration, bool smoke) {
+  std::vector<Run> runs;
+  for (int k = 4; k <= 24; k += smoke ? 8 : 1) {
+    runs.push_back({duration, 1, std::pow(10.0, -0.5 * k), 1});
+  }
+  return runs;
+}
+
+struct Line {
+  const PeerRow* row;
+  std::vector<Run> runs;
+  std::vector<Point> points;
+};
+
+/// A first pass takes the points of one method in order and stops where the rest cannot help.
+void firstPass(const ReferenceScene& scene, Line& line, const Options& options) {
+  int worthless = 0;
+  for (std::size_t k = 0; k < line.runs.size(); ++k) {
+    const bool fixed = line.row->stepping == Stepping::kFixed;
+    Point point;
+    const double previous = k > 0 && fixed ? line.points[k - 1].seconds : 0.0;
+    if (std::isfinite(previous) && 2.0 * previous > options.limit) {
+      point.status = "too slow";
+      point.note = "twice the steps of the last point";
+    } else {
+      point = measured(scene, *line.row, line.runs[k], options);
+    }
+    line.points.push_back(point);
+    if (point.status == "too slow") ++worthless;
+    const double last_error = k > 0 ? line.points[k - 1].error : point.error;
+    const bool rounding = point.error < 1e-8 && point.error > 0.7 * last_error;
+    if (point.status == "ok" && (point.error < kBestError || rounding)) worthless += 2;
+    if (worthless >= 2 || (fixed && point.status == "too slow")) break;
+  }
+  line.runs.resize(line.points.size());
+}
+
+void laterPass(const ReferenceScene& scene, Line& line, const Options& options) {
+  for (std::size_t k = 0; k < line.runs.size(); ++k) {
+    Point& point = line.points[k];
+    if (point.status != "ok" || point.seconds > 5.0 * options.budget) continue;
+    const Point again = measured(scene, *line.row, line.runs[k], options);
+    if (again.status == "ok") point.seconds = std::min(point.seconds, again.seconds);
+  }
+}
+
+/// What a method must reach somewhere on its line, or the numbers mean nothing: it solves the same
+/// problem as the reference.
+constexpr double kAgreement = 1e-2;  // m
+
+bool agrees(const ReferenceScene& scene, const Line& line) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const Point& point : line.points) best = std::min(best, point.error);
+  if (best <= kAgreement) return true;
+  const bool every_point_hampered =
+      std::all_of(line.points.begin(), line.points.end(),
+                  [](const Point& point) { return point.status != "ok"; });
+  const Point& last = line.points.back();
+  std::fprintf(stderr, "%s, %s: no point within %g m (best %g)%s%s\n", scene.problem.name.c_str(),
+               line.row->name.c_str(), kAgreement, best, every_point_hampered ? ": " : "",
+               every_point_hampered ? last.note.c_str() : "");
+  return every_point_hampered || last.status == "too slow";
+}
+
+void write(const ReferenceScene& scene, const Line& line, ResultFile& file) {
+  for (std::size_t k = 0; k < line.points.size(); ++k) {
+    const Run& run = line.runs[k];
+    const Point& point = line.points[k];
+    const bool fixed = line.row->stepping == Stepping::kFixed;
+    file.add(fmt::format(
+        "{},{},{},{},{:.6g},{},{},{},{},{}", scene.problem.name, line.row->library,
+        quoted(line.row->name), fixed ? "step" : "tolerance", fixed ? run.time_step : run.tolerance,
+        point.status, point.status == "ok" ? fmt::format("{:.6g}", 1e3 * point.seconds) : "",
+        point.status == "ok" ? fmt::format("{:.4g}", point.error) : "",
+        point.status == "ok" ? fmt::format("{}", point.evaluations) : "", quoted(point.note)));
+  }
+}
+
+bool runScene(const ReferenceScene& scene, const Options& options, ResultFile& file) {
+  std::vector<Line> lines;
+  for (const PeerRow& row : allPeers()) {
+    if (!options.peer.empty() && row.library != options.peer && row.name != options.peer) continue;
+    lines.push_back({&row,
+                     row.stepping == Stepping::kFixed
+                         ? fixedRuns(scene.duration, options.smoke)
+                         : controlledRuns(scene.duration, options.smoke),
+                     {}});
+  }
+  bool all_agree = true;
+  for (Line& line : lines) {
+    firstPass(scene, line, options);
+    if (!options.smoke) all_agree = agrees(scene, line) && all_agree;
+    std::printf("%s: %s done\n", scene.problem.name.c_str(), line.row->name.c_str());
+  }
+  for (int pass = 1; pass < options.passes; ++pass) {
+    for (Line& line : lines) laterPass(scene, line, options);
+  }
+  for (const Line& line : lines) write(scene, line, file);
+  return all_agree;
+}
+
+Options parse(int count, char** words) {
+  Options options;
+  for (int i = 1; i + 1 < count; i += 2) {
+    const std::string key = words[i];
+    const std::string value = words[i + 1];
+    if (key == "--output") options.output = value;
+    if (key == "--scene") options.scene = value;
+    if (key == "--peer") options.peer = value;
+    if (key == "--limit") options.limit = std::stod(value);
+    if (key == "--budget") options.budget = std::stod(value);
+    if (key == "--passes") options.passes = std::stoi(value);
+    if (key == "--smoke") options.smoke = value == "1";
+  }
+  return options;
+}
+
+int run(const Options& options) {
+  ResultFile file(
+      options.output + "/work_precision.csv",
+      {"Time and force evaluations against the true error: largest distance of a particle from the",
+       "reference solution at the end. One thread; least time of several runs; making a solver is",
+       "not timed. Points that failed or took too long stand here too."},
+      "scene,library,method,control,value_s_or_m,status,time_ms,error_m,force_evaluations,note");
+  bool all_agree = true;
+  for (const ReferenceScene& scene : referenceScenes()) {
+    if (!options.scene.empty() && scene.problem.name != options.scene) continue;
+    all_agree = runScene(scene, options, file) && all_agree;
+  }
+  return all_agree ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace spring_pendulum::benchmark
+
+int main(int count, char** words) {
+  using namespace spring_pendulum::benchmark;
+  return run(parse(count, words));
+}
