@@ -1,0 +1,230 @@
+// Bad input: a message of one line, the exit status, and nothing written or removed.
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+#include <sys/stat.h>
+
+#include "process/exercise3.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct BadInput {
+  std::string name;
+  std::vector<std::string> options;
+  int status;
+  std::string message;  ///< how it starts
+};
+
+std::ostream& operator<<(std::ostream& stream, const BadInput& input) {
+  return stream << input.name;
+}
+
+/// A folder with what the options below refer to, and a frame of an earlier run.
+void fill(const TemporaryFolder& folder) {
+  folder.write("particle.txt", kTwoParticles);
+  folder.write("frame_0007.txt", "earlier\n");
+  folder.write("empty.txt", "");
+  folder.write("columns.txt", "0 0 1\n1 0\n");
+  folder.write("trailing.txt", "0 0 1\n1.0x 0 1\n");
+  folder.write("massless.txt", "0 0 1\n\n1 0 0\n");
+  folder.write("same_place.txt", "0 0 1\n0 0 1\n");
+  folder.write("secret.txt", kTwoParticles);
+  folder.write("secret.yaml", "frames: 5\n");
+  folder.write("unknown.yaml", "# comment\nframes: 5\nframse: 6\n");
+  folder.write("twice.yaml", "frames: 5\nframes: 6\n");
+  folder.write("no_yaml.yaml", "frames: 5\n\tgravity: 3\n");
+  folder.write("value.yaml", "time_step: -1\n");
+  folder.write("tolerance.yaml", "method: Euler\ntolerance: 1.0e-3\n");
+  folder.write("frames.yaml", "frames: 5\n");
+  folder.write("method.yaml", "method: Oiler\n");
+  std::filesystem::create_directory(folder.path("folder"));
+  chmod(folder.path("secret.txt").c_str(), 0);
+  chmod(folder.path("secret.yaml").c_str(), 0);
+  mkfifo(folder.path("pipe").c_str(), 0600);
+}
+
+class Exercise3Refuses : public testing::TestWithParam<BadInput> {};
+
+TEST_P(Exercise3Refuses, InOneLineAndTouchesNothing) {
+  const TemporaryFolder folder;
+  fill(folder);
+  const std::vector<std::string> before = listFolder(folder.path());
+  Command command = exercise3(folder, GetParam().options);
+  command.prepare = respectPermissions;
+  const Result result = run(command);
+  EXPECT_EQ(result.status, GetParam().status);
+  EXPECT_EQ(result.output, "");
+  EXPECT_THAT(result.errors, StartsWith(GetParam().message));
+  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+  EXPECT_EQ(result.errors.back(), '\n');
+  EXPECT_EQ(listFolder(folder.path()), before);
+  EXPECT_EQ(readFile(folder.path("frame_0007.txt")), "earlier\n");
+}
+
+BadInput particles(const std::string& name, const std::string& file, int status,
+                   const std::string& message) {
+  return {name, {"Euler", "--particles", file}, status, file + message};
+}
+
+BadInput value(const std::string& name, const std::string& option, const std::string& text,
+               const std::string& right) {
+  std::string key = option.substr(2);
+  std::replace(key.begin(), key.end(), '-', '_');
+  return {name,
+          {"Euler", option, text},
+          2,
+          option + ": " + key + " is '" + text + "': must be " + right + "\n"};
+}
+
+std::string nameOf(const testing::TestParamInfo<BadInput>& info) {
+  return info.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Particles, Exercise3Refuses,
+    testing::Values(
+        particles("NoFile", "none.txt", 1, ": could not be read: No such file or directory\n"),
+        particles("AFolder", "folder", 1, ": could not be read: it is a folder"),
+        particles("APipe", "pipe", 1, ": could not be read: it is a pipe or a device"),
+        particles("ADevice", "/dev/zero", 1, ": could not be read: it is a pipe or a device"),
+        particles("Unreadable", "secret.txt", 1, ": could not be read: Permission denied\n"),
+        particles("Empty", "empty.txt", 2, ": no particles, must hold a line 'x y m' for each\n"),
+        particles("Columns", "columns.txt", 2, ":2: 2 numbers, must be 3: x y m\n"),
+        particles("TrailingGarbage", "trailing.txt", 2, ":2: '1.0x' is no number, must be"),
+        particles("Massless", "massless.txt", 2, ":3: mass 0, must be above 0 kg"),
+        particles("SamePlace", "same_place.txt", 2, ":2: same place as the particle of line 1")),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, Exercise3Refuses,
+    testing::Values(
+        BadInput{"NoMethod", {}, 2, "METHOD is missing: known are Euler, Runge-Kutta-2, "},
+        BadInput{"UnknownMethod",
+                 {"Oiler"},
+                 2,
+                 "METHOD: unknown method 'Oiler': known are Euler, Runge-Kutta-2, "},
+        BadInput{"MethodInOtherCase", {"euler"}, 2, "METHOD: unknown method 'euler': known are "},
+        BadInput{"TwoMethods", {"Euler", "Euler"}, 2, "unexpected argument 'Euler': "},
+        BadInput{"UnknownOption",
+                 {"Euler", "--frame", "5"},
+                 2,
+                 "unknown option '--frame': known are --config, "},
+        BadInput{"TwoLinesInAnOption", {"Euler", "--no\nway"}, 2, "unknown option '--no?way': "},
+        BadInput{"NoValue", {"Euler", "--frames"}, 2, "--frames: "},
+        value("NegativeTimeStep", "--time-step", "-0.01", "a number above 0 s"),
+        value("ZeroTimeStep", "--time-step", "0", "a number above 0 s"),
+        value("InfiniteTimeStep", "--time-step", "inf", "a number above 0 s"),
+        value("DecimalComma", "--time-step", "0,01", "a number above 0 s"),
+        value("NegativeFrames", "--frames", "-1", "a whole number of at least 1"),
+        value("NoFrames", "--frames", "0", "a whole number of at least 1"),
+        value("BrokenFrames", "--frames", "5.5", "a whole number of at least 1"),
+        value("NoSteps", "--steps-per-frame", "0", "a whole number of at least 1"),
+        value("NegativeStiffness", "--stiffness", "-1", "a number of at least 0 N/m"),
+        value("NanDamping", "--damping", "nan", "a number of at least 0 N·s/m"),
+        value("NoRestLength", "--rest-length", "long", "a number of at least 0 m"),
+        value("InfiniteGravity", "--gravity", "-1e999", "a finite number m/s²")),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Config, Exercise3Refuses,
+    testing::Values(
+        BadInput{"NoFile",
+                 {"Euler", "--config", "none.yaml"},
+                 1,
+                 "none.yaml: could not be read: No such file"},
+        BadInput{"AFolder", {"Euler", "--config", "folder"}, 1, "folder: could not be read: "},
+        BadInput{"Unreadable",
+                 {"Euler", "--config", "secret.yaml"},
+                 1,
+                 "secret.yaml: could not be read: Permission denied\n"},
+        BadInput{"UnknownKey",
+                 {"Euler", "--config", "unknown.yaml"},
+                 2,
+                 "unknown.yaml:3: unknown parameter 'framse': known are method, particles, "},
+        BadInput{"KeyGivenTwice",
+                 {"Euler", "--config", "twice.yaml"},
+                 2,
+                 "twice.yaml:2: frames is given twice"},
+        BadInput{"NoYaml", {"Euler", "--config", "no_yaml.yaml"}, 2, "no_yaml.yaml:2: no YAML "},
+        BadInput{"Value",
+                 {"Euler", "--config", "value.yaml"},
+                 2,
+                 "value.yaml:1: time_step is '-1': must be a number above 0 s\n"},
+        BadInput{"NoUse",
+                 {"--config", "tolerance.yaml"},
+                 2,
+                 "tolerance.yaml:2: tolerance has no meaning for Euler, a fixed-step method"},
+        BadInput{"UnknownMethod",
+                 {"--config", "method.yaml"},
+                 2,
+                 "method.yaml:1: unknown method 'Oiler': known are Euler, "},
+        BadInput{"NoMethod", {"--config", "frames.yaml"}, 2, "METHOD is missing: known are "}),
+    nameOf);
+
+std::vector<BadInput> meaningless() {
+  std::vector<BadInput> rows;
+  for (const Method& method : methodTable()) {
+    const bool fixed = method.control == StepControl::kFixed;
+    const std::vector<std::string> options =
+        fixed ? std::vector<std::string>{"--tolerance", "--frame-interval"}
+              : std::vector<std::string>{"--time-step", "--steps-per-frame"};
+    for (const std::string& option : options) {
+      std::string name = std::string(method.name) + option;
+      name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return !isalnum(c); }),
+                 name.end());
+      rows.push_back({name, {std::string(method.name), option, "1"}, 2, option + ": "});
+      rows.back().message += option == "--time-step" ? "time_step has no meaning for " : "";
+    }
+  }
+  return rows;
+}
+
+INSTANTIATE_TEST_SUITE_P(Meaningless, Exercise3Refuses, testing::ValuesIn(meaningless()), nameOf);
+
+TEST(Exercise3, CommandLineWinsOverTheFile) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  folder.write("run.yaml", "method: Euler\nframes: 5\nno_frames: true\n");
+  const Result from_file = run(exercise3(folder, {"--config", "run.yaml"}));
+  EXPECT_EQ(from_file.status, 0) << from_file.errors;
+  EXPECT_THAT(from_file.output, StartsWith("Euler: 2 particles, 5 frames, 40 steps, "));
+  const Result result =
+      run(exercise3(folder, {"--config", "run.yaml", "Runge-Kutta-2", "--frames", "7"}));
+  EXPECT_THAT(result.output, StartsWith("Runge-Kutta-2: 2 particles, 7 frames, 60 steps, "));
+  EXPECT_THAT(listFolder(folder.path()), testing::ElementsAre("particle.txt", "run.yaml"));
+}
+
+TEST(Exercise3, AnswersWithoutARun) {
+  const TemporaryFolder folder;
+  const Result help = run(exercise3(folder, {"--help"}));
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.output, HasSubstr("--steps-per-frame N"));
+  const Result version = run(exercise3(folder, {"--version"}));
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.output, StartsWith("spring_pendulum "));
+  const Result methods = run(exercise3(folder, {"--list-methods"}));
+  EXPECT_EQ(methods.status, 0);
+  for (const Method& method : methodTable()) {
+    EXPECT_THAT(methods.output, HasSubstr(std::string(method.name) + " "));
+  }
+  EXPECT_EQ(help.errors + version.errors + methods.errors, "");
+}
+
+TEST(Exercise3, TellsWhenItsOutputIsLost) {
+  const TemporaryFolder folder;
+  const Result result = run({{"/bin/sh", "-c", EXERCISE3 " --help > /dev/full"}, folder.path()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors, "standard output: could not be written\n");
+}
+
+}  // namespace
+}  // namespace spring_pendulum

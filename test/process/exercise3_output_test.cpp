@@ -1,0 +1,259 @@
+// What Exercise3 leaves in a folder: whole frames of this run, and everything that is not its own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <sched.h>
+#include <sstream>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "process/exercise3.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+/// A horizontal chain, a metre between neighbours.
+std::string chainOf(int particles) {
+  std::string text;
+  for (int i = 0; i < particles; ++i) text += std::to_string(i) + " 0 1\n";
+  return text;
+}
+
+std::string frame(int index) {
+  std::string number = std::to_string(index);
+  number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
+  return "frame_" + number + ".txt";
+}
+
+int countFrames(const std::string& folder) {
+  const std::vector<std::string> names = listFolder(folder);
+  return static_cast<int>(std::count_if(names.begin(), names.end(), [](const std::string& name) {
+    return name.substr(0, 6) == "frame_";
+  }));
+}
+
+/// A chain long enough for a run of some tenths of a second, and all frames of that run.
+class LongRun : public testing::Test {
+ protected:
+  static constexpr int kFrames = 200;
+
+  LongRun() { folder_.write("particle.txt", chainOf(2000)); }
+
+  Command command(const std::string& output, int frames = kFrames) const {
+    return exercise3(folder_, {"Euler", "--output", output, "--frames", std::to_string(frames),
+                               "--time-step", "0.001"});
+  }
+
+  void waitForFrame(const std::string& output, int index) const {
+    while (access(folder_.path(output + "/" + frame(index)).c_str(), F_OK) != 0) usleep(200);
+  }
+
+  /// The frames that are there are the same as in a run that nobody stopped.
+  void expectWholeFrames(const std::string& output, const std::string& complete) const {
+    const int count = countFrames(folder_.path(output));
+    for (int i = 0; i < count; ++i) {
+      ASSERT_EQ(readFile(folder_.path(output + "/" + frame(i))),
+                readFile(folder_.path(complete + "/" + frame(i))))
+          << i;
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LongRun, KilledAtAnyTimeLeavesOnlyWholeFrames) {
+  ASSERT_EQ(run(command("complete")).status, 0);
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const std::string killed = "killed" + std::to_string(attempt);
+    Process process(command(killed));
+    waitForFrame(killed, 5 * attempt);
+    usleep(100 * attempt);  // in another phase of writing each time
+    process.sendSignal(SIGKILL);
+    ASSERT_EQ(process.wait().status, 128 + SIGKILL);
+    ASSERT_LT(countFrames(folder_.path(killed)), kFrames);
+    expectWholeFrames(killed, "complete");
+  }
+}
+
+TEST_F(LongRun, WhatAKilledRunLeftIsRemovedByTheNext) {
+  Process process(command("killed"));
+  waitForFrame("killed", 10);
+  process.sendSignal(SIGKILL);
+  process.wait();
+  folder_.write("killed/.frame.tmp", "0 0\n0.99");  // whether it was caught writing or not
+  ASSERT_EQ(run(command("killed", 3)).status, 0);
+  EXPECT_THAT(listFolder(folder_.path("killed")), ElementsAre(frame(0), frame(1), frame(2)));
+}
+
+TEST_F(LongRun, InterruptedEndsWithAWholeFrameAndTheClosingLine) {
+  ASSERT_EQ(run(command("complete")).status, 0);
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    const std::string stopped = "stopped" + std::to_string(signal_number);
+    Process process(command(stopped));
+    waitForFrame(stopped, 3);
+    process.sendSignal(signal_number);
+    const Result result = process.wait();
+    EXPECT_EQ(result.status, 128 + signal_number);
+    const int count = countFrames(folder_.path(stopped));
+    EXPECT_LT(count, kFrames);
+    EXPECT_EQ(listFolder(folder_.path(stopped)).size(), static_cast<std::size_t>(count));
+    EXPECT_THAT(result.output,
+                StartsWith("Euler: 2000 particles, " + std::to_string(count) + " frames, "));
+    expectWholeFrames(stopped, "complete");
+  }
+}
+
+TEST_F(LongRun, ASecondRunIntoTheSameFolderIsRefused) {
+  Process first(command("shared"));
+  waitForFrame("shared", 0);
+  const Result second = run(command("shared", 1));
+  EXPECT_EQ(second.status, 1);
+  EXPECT_EQ(second.errors, folder_.path("shared") +
+                               ": another run writes its frames here, must be a folder of its "
+                               "own\n");
+  EXPECT_EQ(first.wait().status, 0);
+  EXPECT_EQ(countFrames(folder_.path("shared")), kFrames);
+  EXPECT_EQ(run(command("shared", 1)).status, 0);
+  EXPECT_EQ(countFrames(folder_.path("shared")), 1);
+}
+
+TEST(Exercise3Output, FiveHundredFramesByDefault) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  const Result result = run(exercise3(folder, {"Runge-Kutta-4"}));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.errors, "");
+  EXPECT_THAT(result.output,
+              MatchesRegex("Runge-Kutta-4: 2 particles, 500 frames, 4990 steps, 19960 force "
+                           "evaluations, [0-9.]+ s integrating, [0-9.]+ s writing to " +
+                           folder.path() + ".*\n"));
+  EXPECT_EQ(listFolder(folder.path()).size(), 501U);
+  EXPECT_EQ(readFile(folder.path(frame(0))), "0 0\n1 0\n");
+  EXPECT_TRUE(std::filesystem::exists(folder.path(frame(499))));
+}
+
+TEST(Exercise3Output, AFrameIsTenStepsFromTheNext) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  ASSERT_EQ(run(exercise3(folder, {"Euler", "--frames", "3"})).status, 0);
+  ASSERT_EQ(run(exercise3(folder, {"Euler", "--frames", "21", "--steps-per-frame", "1", "--output",
+                                   "every/step"}))
+                .status,
+            0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(readFile(folder.path(frame(i))),
+              readFile(folder.path("every/step/" + frame(10 * i))));
+  }
+}
+
+TEST(Exercise3Output, StaleFramesGoAndNothingElse) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  const std::vector<std::string> kept{"frame_12.txt",    "frame_0001.txt.bak", "frame_000a.txt",
+                                      "xframe_0001.txt", "frame_0001.csv",     "frame_.txt",
+                                      "frame_-0001.txt", "Frame_0001.txt",     "notes.txt"};
+  for (const std::string& name : kept) folder.write(name, "kept\n");
+  for (const int stale : {0, 1, 5, 9999, 10000, 123456789}) folder.write(frame(stale), "stale\n");
+  ASSERT_EQ(run(exercise3(folder, {"Euler", "--frames", "2"})).status, 0);
+  for (const std::string& name : kept) EXPECT_EQ(readFile(folder.path(name)), "kept\n") << name;
+  EXPECT_EQ(listFolder(folder.path()).size(), kept.size() + 3);
+  EXPECT_EQ(readFile(folder.path(frame(0))), "0 0\n1 0\n");
+  EXPECT_TRUE(std::filesystem::exists(folder.path(frame(1))));
+}
+
+TEST(Exercise3Output, WhatIsNoFileIsNeverRemoved) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  folder.write(frame(0), "earlier\n");
+  std::filesystem::create_directory(folder.path(frame(3)));
+  const Result result = run(exercise3(folder, {"Euler"}));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.errors, StartsWith(folder.path(frame(3)) + ": is in the way of the frames"));
+  EXPECT_EQ(readFile(folder.path(frame(0))), "earlier\n");
+}
+
+TEST(Exercise3Output, NoFramesTouchesNothing) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  folder.write(frame(0), "earlier\n");
+  EXPECT_EQ(run(exercise3(folder, {"Euler", "--no-frames"})).status, 0);
+  EXPECT_THAT(listFolder(folder.path()), ElementsAre(frame(0), "particle.txt"));
+  EXPECT_EQ(readFile(folder.path(frame(0))), "earlier\n");
+}
+
+TEST(Exercise3Output, FolderThatCannotBeUsed) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  std::filesystem::create_directory(folder.path("locked"));
+  chmod(folder.path("locked").c_str(), 0555);
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"locked", "/locked: could not be written: Permission denied\n"},
+      {"locked/new", "/locked/new: could not be made: Permission denied\n"},
+      {"particle.txt", "/particle.txt: could not be made: Not a directory\n"},
+      {"particle.txt/new", "/particle.txt/new: could not be made: Not a directory\n"},
+  };
+  for (const auto& [output, message] : cases) {
+    Command command = exercise3(folder, {"Euler", "--output", output});
+    command.prepare = respectPermissions;
+    const Result result = run(command);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.output, "");
+    EXPECT_EQ(result.errors, folder.path() + message);
+  }
+  EXPECT_THAT(listFolder(folder.path()), ElementsAre("locked", "particle.txt"));
+}
+
+/// Makes the folder "full" a disk with room for some frames only or, where mounting is forbidden,
+/// lets no file grow beyond the size of the first frame.
+void fillDisk() {
+  if (unshare(CLONE_NEWNS) == 0 && mount("", "/", "", MS_REC | MS_PRIVATE, nullptr) == 0 &&
+      mount("tmpfs", "full", "tmpfs", 0, "size=64k") == 0) {
+    return;
+  }
+  const rlimit limit{16384, 16384};
+  if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(1);
+  signal(SIGXFSZ, SIG_IGN);
+}
+
+TEST(Exercise3Output, FullDiskIsToldAndLeavesOnlyWholeFrames) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", chainOf(1000));
+  std::filesystem::create_directory(folder.path("full"));
+  // The disk is gone when the program ends, so the shell looks at it.
+  const Result result = run({{"/bin/sh", "-c",
+                              "\"$0\" Euler --output full; echo \"status $?\"; ls -A full; "
+                              "wc -l full/* | grep -v -e ' 1000 ' -e total",
+                              EXERCISE3},
+                             folder.path(),
+                             {},
+                             fillDisk});
+  EXPECT_THAT(result.errors,
+              MatchesRegex(folder.path("full") + "/frame_000[1-9].txt: could not be written: "
+                                                 "(No space left on device|File too large)\n"));
+  EXPECT_THAT(result.output, MatchesRegex("status 1\n(frame_000[0-9].txt\n)+"));
+}
+
+TEST(Exercise3Output, DivergedMotionIsNeverShown) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", chainOf(5));
+  const Result result = run(exercise3(folder, {"Euler", "--time-step", "1"}));
+  EXPECT_EQ(result.status, 3);
+  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+  EXPECT_LT(countFrames(folder.path()), 500);
+  for (const std::string& name : listFolder(folder.path())) {
+    EXPECT_EQ(readFile(folder.path(name)).find_first_of("an"), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,122 @@
+#include "support/process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <linux/capability.h>
+#include <sstream>
+#include <stdexcept>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr int kCouldNotStart = 127;
+
+[[noreturn]] void becomeProgram(const Command& command, int output, int errors) {
+  std::vector<char*> arguments;
+  for (const std::string& argument : command.arguments) {
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  }
+  arguments.push_back(nullptr);
+  for (const auto& [name, value] : command.environment) setenv(name.c_str(), value.c_str(), 1);
+  dup2(output, STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+  if (chdir(command.folder.c_str()) != 0) _exit(kCouldNotStart);
+  if (command.prepare) command.prepare();
+  execvp(arguments[0], arguments.data());
+  std::perror(arguments[0]);
+  _exit(kCouldNotStart);
+}
+
+std::string takeText(int& descriptor) {
+  std::string text;
+  std::array<char, 4096> piece{};
+  lseek(descriptor, 0, SEEK_SET);
+  for (ssize_t count = 1; count > 0;) {
+    count = read(descriptor, piece.data(), piece.size());
+    if (count > 0) text.append(piece.data(), static_cast<std::size_t>(count));
+  }
+  close(std::exchange(descriptor, -1));
+  return text;
+}
+
+}  // namespace
+
+Process::Process(const Command& command)
+    : output_(memfd_create("output", MFD_CLOEXEC)), errors_(memfd_create("errors", MFD_CLOEXEC)) {
+  pid_ = fork();
+  if (pid_ == 0) becomeProgram(command, output_, errors_);
+  if (pid_ < 0) throw std::runtime_error("could not fork");
+}
+
+Process::~Process() {
+  if (pid_ < 0) return;
+  sendSignal(SIGKILL);
+  wait();
+}
+
+void Process::sendSignal(int signal_number) const {
+  kill(pid_, signal_number);
+}
+
+Result Process::wait() {
+  int status = 0;
+  if (waitpid(std::exchange(pid_, -1), &status, 0) < 0) throw std::runtime_error("no such child");
+  const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {exit_status, takeText(output_), takeText(errors_)};
+}
+
+Result run(const Command& command) {
+  return Process(command).wait();
+}
+
+// Without these two capabilities in its bounding set, root does not get them back when the program
+// starts.
+void respectPermissions() {
+  if (geteuid() != 0) return;
+  if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0) _exit(kCouldNotStart);
+  if (prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH) != 0) _exit(kCouldNotStart);
+}
+
+TemporaryFolder::TemporaryFolder()
+    : path_((std::filesystem::temp_directory_path() / "spring_pendulum_XXXXXX").string()) {
+  if (mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name), std::ios::binary) << text;
+  return path(name);
+}
+
+std::vector<std::string> listFolder(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string readFile(const std::string& path) {
+  const std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace spring_pendulum
