@@ -1,0 +1,32 @@
+// The colours of the chain on a dark background.
+#pragma once
+
+#include <std_msgs/ColorRGBA.h>
+
+#include <optional>
+#include <string_view>
+
+namespace spring_pendulum {
+
+/// "#rrggbb", opaque; nothing if the text is anything else.
+std::optional<std_msgs::ColorRGBA> parseColor(std::string_view text);
+
+/// Blue for a shortened spring, white for one without force, red for a stretched one.
+/// \param strain -1 and below: full blue; 0: white; 1 and above: full red
+std_msgs::ColorRGBA strainColor(double strain);
+
+/// From pale yellow (light) to violet (heavy).
+/// \param weight 0 for the lightest particle, 1 for the heaviest
+std_msgs::ColorRGBA massColor(double weight);
+
+/// Half-way to white, so that particles stand out from springs of the same colour.
+std_msgs::ColorRGBA lighter(const std_msgs::ColorRGBA& color);
+
+std_msgs::ColorRGBA anchorColor();
+std_msgs::ColorRGBA textColor();
+/// The whole chain when its energy is wrong though finite.
+std_msgs::ColorRGBA doubtColor();
+/// The whole chain when the motion has diverged.
+std_msgs::ColorRGBA divergedColor();
+
+}  // namespace spring_pendulum

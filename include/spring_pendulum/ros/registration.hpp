@@ -1,0 +1,50 @@
+// Keeps a node known to the ROS master. A master that was restarted knows nobody, and roscpp
+// registers a topic only once, when it is advertised.
+#pragma once
+
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Asks the master now and then, on a thread of its own, whether it still knows the node, and if
+/// not registers the topics and services again. Connections that exist are not touched.
+class Registration {
+ public:
+  Registration() = default;
+  ~Registration() { stop(); }
+  Registration(const Registration&) = delete;
+  Registration& operator=(const Registration&) = delete;
+
+  void addTopic(const std::string& topic, const std::string& type);
+  void addService(const std::string& service);
+  /// Starts the thread; add nothing after this.
+  void keep();
+  void stop();
+
+ private:
+  struct Topic {
+    std::string name;
+    std::string type;
+  };
+  struct Service {
+    std::string name;
+    std::string uri;  ///< "rosrpc://host:port"
+  };
+
+  void watch();
+  void renew() const;
+
+  std::string node_uri_;
+  std::vector<Topic> topics_;
+  std::vector<Service> services_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,41 @@
+// The files of a run: frames and energy ledger, as Exercise3 writes them.
+#pragma once
+
+#include <spring_pendulum/io/energy_file.hpp>
+#include <spring_pendulum/io/frame_writer.hpp>
+#include <spring_pendulum/ros/run.hpp>
+
+#include <optional>
+
+namespace spring_pendulum {
+
+/// Writes every frame once: after a reset the same frames come again, bit for bit.
+class RunFiles {
+ public:
+  /// With `no_frames` or an empty `output` there are no frames, with an empty `energy` no ledger.
+  /// \throws FileError naming the folder or file
+  explicit RunFiles(const Scenario& scenario);
+
+  /// Writes the frame if the run stands at one that is new and may be shown, and closes the files
+  /// after the last one.
+  /// \throws FileError naming the file
+  void write(const Run& run);
+
+  /// Closes the files; nothing is written after this.
+  void finish();
+
+  /// "frames go to /home/me/frames, the energy ledger to ..."
+  std::string description() const;
+  std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
+  /// Wall-clock time spent writing frames, s.
+  double seconds() const { return frames_ ? frames_->seconds() : 0.0; }
+
+ private:
+  std::optional<FrameWriter> frames_;
+  std::optional<EnergyFile> energy_;
+  std::string energy_path_;
+  std::int64_t next_frame_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace spring_pendulum

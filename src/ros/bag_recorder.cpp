@@ -1,0 +1,119 @@
+#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/ros/bag_recorder.hpp>
+#include <spring_pendulum/ros/marker_builder.hpp>
+#include <spring_pendulum/ros/publisher.hpp>
+#include <spring_pendulum/ros/stamps.hpp>
+#include <spring_pendulum/ros/state_builder.hpp>
+
+#include <boost/make_shared.hpp>
+#include <fmt/format.h>
+
+#include <rosbag/bag.h>
+
+#include <filesystem>
+
+namespace spring_pendulum {
+namespace {
+
+/// The header of a connection, as a node has it that latches its topic.
+template <typename Message>
+boost::shared_ptr<ros::M_string> connectionHeader(const std::string& topic, bool latching) {
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["topic"] = topic;
+  (*header)["type"] = ros::message_traits::datatype<Message>();
+  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+  (*header)["message_definition"] = ros::message_traits::definition<Message>();
+  if (latching) (*header)["latching"] = "1";
+  return header;
+}
+
+class BagRecorder {
+ public:
+  BagRecorder(rosbag::Bag& bag, const Run& run, const NodeOptions& options,
+              const std::string& prefix)
+      : bag_(bag),
+        frame_id_(options.frame_id),
+        marker_builder_(run, options),
+        state_builder_(options.y_offset),
+        markers_topic_(prefix + "markers"),
+        state_topic_(prefix + "state"),
+        status_topic_(prefix + "status"),
+        status_header_(connectionHeader<PendulumStatus>(status_topic_, true)) {}
+
+  void write(const Run& run) {
+    std_msgs::Header header;
+    header.frame_id = frame_id_;
+    header.stamp = stamps_.next(run.time());
+    marker_builder_.trackTip(run);
+    bag_.write(markers_topic_, header.stamp, marker_builder_.build(run, header, ""));
+    bag_.write(state_topic_, header.stamp, state_builder_.build(run, header));
+    messages_ += 2;
+    writeStatus(run, header);
+  }
+
+  std::int64_t messages() const { return messages_; }
+
+ private:
+  void writeStatus(const Run& run, const std_msgs::Header& header) {
+    PendulumStatus status = statusOf(run, false);
+    if (status.text == last_status_) return;
+    last_status_ = status.text;
+    status.header = header;
+    bag_.write(status_topic_, header.stamp, status, status_header_);
+    ++messages_;
+  }
+
+  rosbag::Bag& bag_;
+  std::string frame_id_;
+  MarkerBuilder marker_builder_;
+  StateBuilder state_builder_;
+  Stamps stamps_{true};
+  std::string markers_topic_;
+  std::string state_topic_;
+  std::string status_topic_;
+  boost::shared_ptr<ros::M_string> status_header_;
+  std::string last_status_;
+  std::int64_t messages_ = 0;
+};
+
+/// "/euler/" from "euler" or "/euler/", "/" from nothing
+std::string topicPrefix(const std::string& name_space) {
+  std::string prefix = "/" + name_space + "/";
+  for (std::size_t twice = prefix.find("//"); twice != std::string::npos;
+       twice = prefix.find("//")) {
+    prefix.erase(twice, 1);
+  }
+  return prefix;
+}
+
+}  // namespace
+
+BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to) {
+  Run run(scenario, readParticleFile(scenario.particles), options.track_energy,
+          options.display_rate > 0.0 ? 1.0 / options.display_rate : 0.0);
+  BagSummary summary;
+  try {
+    summary.path = std::filesystem::absolute(to.path).lexically_normal().string();
+    const std::string written = to.append ? summary.path : summary.path + ".active";
+    rosbag::Bag bag(written, to.append ? rosbag::bagmode::Append : rosbag::bagmode::Write);
+    BagRecorder recorder(bag, run, options, topicPrefix(to.name_space));
+    recorder.write(run);
+    while (!run.isOver()) {
+      run.advance(true);
+      recorder.write(run);
+    }
+    bag.close();
+    if (!to.append) std::filesystem::rename(written, summary.path);
+    summary.messages = recorder.messages();
+    summary.bytes = std::filesystem::file_size(summary.path);
+  } catch (const rosbag::BagException& error) {
+    throw FileError(fmt::format("{}: {}", to.path, error.what()));
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw FileError(fmt::format("{}: {}", to.path, error.code().message()));
+  }
+  summary.frames = run.frame() + (run.isShown() ? 1 : 0);
+  summary.verdict = run.verdict();
+  return summary;
+}
+
+}  // namespace spring_pendulum

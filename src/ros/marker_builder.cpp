@@ -1,0 +1,234 @@
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/ros/color.hpp>
+#include <spring_pendulum/ros/marker_builder.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spring_pendulum {
+namespace {
+
+enum MarkerIndex : std::size_t { kSprings, kParticles, kAnchor, kTrail, kText, kMarkers };
+
+/// rviz has been seen to crash on a LINE_STRIP of more than 16384 points.
+constexpr std::size_t kMostTrailPoints = 4096;
+
+// Sizes in parts of the chain's reach, so that scenes of any size look alike.
+constexpr double kLeastDiameter = 0.008;
+constexpr double kLargestDiameter = 0.05;
+constexpr double kDiameterInSprings = 0.25;
+constexpr double kSpringWidth = 0.4;  ///< in diameters
+constexpr double kTextHeight = 0.045;
+constexpr double kFirstTextRow = 0.14;
+constexpr double kTextRowDistance = 0.12;
+
+/// How far the chain reaches at rest, m; never 0.
+double reachOf(const Run& run) {
+  const Chain& chain = run.chain();
+  const State& start = run.start();
+  const auto springs = static_cast<double>(chain.size() - 1);
+  double length = 0.0;
+  for (Eigen::Index i = 0; i + 1 < start.size(); ++i) {
+    length += (start.positions().row(i + 1) - start.positions().row(i)).norm();
+  }
+  const double reach = std::max(length, springs * chain.spring().rest_length);
+  return reach > 0.0 ? reach : 1.0;
+}
+
+/// Length over rest length less 1; in m for a spring without rest length.
+double strainOf(double length, double rest_length) {
+  return rest_length > 0.0 ? length / rest_length - 1.0 : length;
+}
+
+/// The strain shown in full colour: twice what the whole chain's weight gives the first spring.
+double fullColorStrain(const Chain& chain) {
+  const SpringLaw& spring = chain.spring();
+  const double weight = chain.masses().tail(chain.size() - 1).sum() * std::abs(chain.gravity());
+  const double stretch = spring.stiffness > 0.0 ? weight / spring.stiffness : 0.0;
+  const double strain = spring.rest_length > 0.0 ? stretch / spring.rest_length : stretch;
+  return std::clamp(2.0 * strain, 0.05, 5.0);
+}
+
+std::vector<std_msgs::ColorRGBA> massColors(const Chain& chain,
+                                            const std::vector<Eigen::Index>& drawn,
+                                            const std::string& color) {
+  std::vector<std_msgs::ColorRGBA> colors;
+  if (drawn.size() < 2) return {anchorColor()};
+  const auto moving = chain.masses().tail(chain.size() - 1).array().log();
+  const double lightest = moving.minCoeff();
+  const double span = moving.maxCoeff() - lightest;
+  for (const Eigen::Index i : drawn) {
+    const double weight =
+        span > 0.0 && i > 0 ? (std::log(chain.masses()[i]) - lightest) / span : 0.0;
+    colors.push_back(color.empty() ? massColor(weight) : lighter(*parseColor(color)));
+  }
+  return colors;
+}
+
+visualization_msgs::Marker emptyMarker(std::string name, int type) {
+  visualization_msgs::Marker marker;
+  marker.ns = std::move(name);
+  marker.id = 0;
+  marker.type = type;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.color = textColor();
+  return marker;
+}
+
+void setScale(visualization_msgs::Marker& marker, double size) {
+  marker.scale.x = marker.scale.y = marker.scale.z = size;
+}
+
+/// rviz complains about a list without points.
+void hideIfEmpty(visualization_msgs::Marker& marker) {
+  marker.action = marker.points.size() < 2 ? visualization_msgs::Marker::DELETE
+                                           : visualization_msgs::Marker::ADD;
+}
+
+}  // namespace
+
+MarkerBuilder::MarkerBuilder(const Run& run, const NodeOptions& options) : options_(options) {
+  const Chain& chain = run.chain();
+  const Eigen::Index stride =
+      (chain.size() + options.display_limit - 3) / (options.display_limit - 1);
+  for (Eigen::Index i = 0; i + 1 < chain.size(); i += stride) drawn_.push_back(i);
+  drawn_.push_back(chain.size() - 1);
+  mass_colors_ = massColors(chain, drawn_, options.color);
+  full_color_strain_ = fullColorStrain(chain);
+
+  using visualization_msgs::Marker;
+  const double reach = reachOf(run);
+  const double diameter =
+      std::clamp(kDiameterInSprings * reach / static_cast<double>(drawn_.size()),
+                 kLeastDiameter * reach, kLargestDiameter * reach);
+  markers_.markers = {emptyMarker("springs", Marker::LINE_LIST),
+                      emptyMarker("particles", Marker::SPHERE_LIST),
+                      emptyMarker("anchor", Marker::CUBE), emptyMarker("trail", Marker::LINE_STRIP),
+                      emptyMarker("text", Marker::TEXT_VIEW_FACING)};
+  setScale(markers_.markers[kSprings], kSpringWidth * diameter);
+  setScale(markers_.markers[kParticles], diameter);
+  setScale(markers_.markers[kAnchor], 1.5 * diameter);
+  markers_.markers[kAnchor].color = anchorColor();
+  markers_.markers[kAnchor].pose.position = pointOf(run.start(), 0);
+  setScale(markers_.markers[kTrail], 0.5 * kSpringWidth * diameter);
+  Marker& text = markers_.markers[kText];
+  setScale(text, kTextHeight * reach);
+  text.pose.position = pointOf(run.start(), 0);
+  text.pose.position.z +=
+      reach * (kFirstTextRow + kTextRowDistance * static_cast<double>(options.text_row));
+  if (!options.color.empty()) text.color = *parseColor(options.color);
+}
+
+geometry_msgs::Point MarkerBuilder::pointOf(const State& state, Eigen::Index i) const {
+  geometry_msgs::Point point;
+  point.x = state.x()[i];
+  point.y = options_.y_offset;
+  point.z = state.y()[i];
+  return point;
+}
+
+void MarkerBuilder::trackTip(const Run& run) {
+  if (!trail_.empty() && run.time() < trail_.back().time) trail_.clear();
+  if (options_.trail <= 0.0 || !run.isFinite() || !run.isShown()) return;
+  if (!trail_.empty() && run.time() == trail_.back().time) return;
+  trail_.push_back({run.time(), pointOf(run.state(), run.chain().size() - 1)});
+  while (trail_.front().time < run.time() - options_.trail || trail_.size() > kMostTrailPoints) {
+    trail_.pop_front();
+  }
+}
+
+const visualization_msgs::MarkerArray& MarkerBuilder::build(const Run& run,
+                                                            const std_msgs::Header& header,
+                                                            const std::string& pace) {
+  for (visualization_msgs::Marker& marker : markers_.markers) marker.header = header;
+  if (run.isFinite() && run.isShown()) place(run);
+  if (placed_) paint(run);
+  drawTrail();
+  label(run, pace);
+  hideIfEmpty(markers_.markers[kSprings]);
+  hideIfEmpty(markers_.markers[kParticles]);
+  hideIfEmpty(markers_.markers[kTrail]);
+  return markers_;
+}
+
+void MarkerBuilder::place(const Run& run) {
+  auto& particles = markers_.markers[kParticles].points;
+  auto& springs = markers_.markers[kSprings].points;
+  particles.clear();
+  springs.clear();
+  strains_.clear();
+  placed_ = true;
+  if (drawn_.size() < 2) return;
+  for (std::size_t n = 0; n < drawn_.size(); ++n) {
+    particles.push_back(pointOf(run.state(), drawn_[n]));
+    if (n == 0) continue;
+    springs.push_back(particles[n - 1]);
+    springs.push_back(particles[n]);
+    double length = 0.0;
+    for (Eigen::Index i = drawn_[n - 1]; i < drawn_[n]; ++i) {
+      length += (run.state().positions().row(i + 1) - run.state().positions().row(i)).norm();
+    }
+    const auto thinned = static_cast<double>(drawn_[n] - drawn_[n - 1]);
+    strains_.push_back(strainOf(length / thinned, run.chain().spring().rest_length));
+  }
+}
+
+std_msgs::ColorRGBA MarkerBuilder::springColor(const Run& run, std::size_t spring) const {
+  if (run.verdict().kind == VerdictKind::kDiverged) return divergedColor();
+  if (!options_.color.empty()) return *parseColor(options_.color);
+  if (run.verdict().kind != VerdictKind::kOk) return doubtColor();
+  return strainColor(strains_[spring] / full_color_strain_);
+}
+
+void MarkerBuilder::paint(const Run& run) {
+  auto& springs = markers_.markers[kSprings];
+  auto& particles = markers_.markers[kParticles];
+  springs.colors.clear();
+  for (std::size_t spring = 0; spring < strains_.size(); ++spring) {
+    springs.colors.insert(springs.colors.end(), 2, springColor(run, spring));
+  }
+  particles.colors.assign(particles.points.size(), divergedColor());
+  if (run.verdict().kind != VerdictKind::kDiverged && particles.points.size() > 1) {
+    particles.colors = mass_colors_;
+  }
+}
+
+void MarkerBuilder::drawTrail() {
+  auto& trail = markers_.markers[kTrail];
+  trail.points.clear();
+  trail.colors.clear();
+  for (const TrailPoint& point : trail_) {
+    trail.points.push_back(point.point);
+    std_msgs::ColorRGBA color = mass_colors_.back();
+    const double age = (trail_.back().time - point.time) / options_.trail;
+    color.a = static_cast<float>(std::max(0.7 * (1.0 - age), 0.02));
+    trail.colors.push_back(color);
+  }
+}
+
+void MarkerBuilder::label(const Run& run, const std::string& pace) {
+  const Scenario& scenario = run.scenario();
+  const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
+  const LedgerEntry entry = run.ledgerEntry();
+  std::string text =
+      fixed_step ? fmt::format("{}, step {:.3g} s", scenario.method, scenario.time_step)
+                 : fmt::format("{}, tolerance {:.3g} m", scenario.method, scenario.tolerance);
+  text += fmt::format(", t = {:.2f} s\n", run.time());
+  if (entry.relative_residual) {
+    text += fmt::format("energy error {:.1e}, ", *entry.relative_residual);
+  }
+  text += pace.empty() ? "" : pace + ", ";
+  text += toString(run.verdict().kind);
+  if (run.verdict().kind != VerdictKind::kOk)
+    text += fmt::format(" at {:.4g} s", run.verdict().time);
+  if (static_cast<Eigen::Index>(drawn_.size()) < run.chain().size()) {
+    text += fmt::format("\n{} of {} particles drawn", drawn_.size(), run.chain().size());
+  }
+  markers_.markers[kText].text = std::move(text);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,38 @@
+#include <spring_pendulum/ros/pacer.hpp>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kLateness = 0.1;     // s behind that can still be caught up
+constexpr double kMeasureOver = 0.5;  // s
+
+}  // namespace
+
+void Pacer::start(double simulated_time, ros::WallTime now) {
+  start_simulated_ = measured_simulated_ = simulated_time;
+  start_ = measured_ = now;
+}
+
+ros::WallTime Pacer::dueTime(double simulated_time) const {
+  if (factor_ <= 0.0) return start_;
+  return start_ + ros::WallDuration((simulated_time - start_simulated_) / factor_);
+}
+
+bool Pacer::isLate(double simulated_time, ros::WallTime now) const {
+  return factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > 0.5 * kLateness;
+}
+
+void Pacer::note(double simulated_time, ros::WallTime now) {
+  const double seconds = (now - measured_).toSec();
+  if (seconds >= kMeasureOver) {
+    speed_ = (simulated_time - measured_simulated_) / seconds;
+    measured_simulated_ = simulated_time;
+    measured_ = now;
+  }
+  if (factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > kLateness) {
+    start_simulated_ = simulated_time;
+    start_ = now;
+  }
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,137 @@
+#include <spring_pendulum/ros/player.hpp>
+
+#include <fmt/format.h>
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kShowAgainInterval = 0.5;  // s, while the run stands
+constexpr double kLongestWait = 0.1;        // s, how fast the end of ROS is noticed
+constexpr double kLoopPause = 1.0;          // s, the last frame is looked at before a loop
+
+void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
+  response.success = success;
+  response.message = std::move(sentence);
+}
+
+}  // namespace
+
+Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
+               const NodeOptions& options, Registration& registration)
+    : run_(run), options_(options), pacer_(options.real_time_factor) {
+  pause_ = private_node.advertiseService("pause", &Player::onPause, this);
+  step_ = private_node.advertiseService("step", &Player::onStep, this);
+  reset_ = private_node.advertiseService("reset", &Player::onReset, this);
+  for (const auto& service : {pause_, step_, reset_}) registration.addService(service.getService());
+  if (!options.follow.empty()) {
+    leader_ = node.subscribe(options.follow, 100, &Player::onLeaderState, this);
+  }
+}
+
+Player::Action Player::next() {
+  if (!pacer_.isStarted()) pacer_.start(run_.time(), ros::WallTime::now());
+  pacer_.note(run_.time(), ros::WallTime::now());
+  while (ros::ok()) {
+    serveUntilDue();
+    if (!ros::ok()) break;
+    const ros::WallTime now = ros::WallTime::now();
+    if (reset_wanted_) return reset();
+    if (isDue()) {
+      stands_since_ = ros::WallTime();
+      if (steps_wanted_ > 0) --steps_wanted_;
+      const bool hurry =
+          paused_ || (options_.follow.empty() && pacer_.isLate(run_.nextTime(), now));
+      return hurry ? Action::kAdvanceFrame : Action::kAdvance;
+    }
+    if (run_.isOver() && options_.at_end == "exit") return Action::kQuit;
+    if (!run_.isOver() && !paused_) continue;
+    if (stands_since_.isZero()) {
+      stands_since_ = last_shown_ = now;
+      return Action::kShowAgain;
+    }
+    if (run_.isOver() && options_.at_end == "loop" && (now - stands_since_).toSec() >= kLoopPause) {
+      return reset();
+    }
+    if ((now - last_shown_).toSec() < kShowAgainInterval) continue;
+    last_shown_ = now;
+    return Action::kShowAgain;
+  }
+  return Action::kQuit;
+}
+
+Player::Action Player::reset() {
+  reset_wanted_ = false;
+  steps_wanted_ = 0;
+  stands_since_ = ros::WallTime();
+  pacer_.start(0.0, ros::WallTime::now());
+  return Action::kReset;
+}
+
+bool Player::isDue() const {
+  if (run_.isOver()) return false;
+  if (paused_) return steps_wanted_ > 0;
+  if (!options_.follow.empty()) return run_.nextTime() <= leader_time_;
+  return ros::WallTime::now() >= pacer_.dueTime(run_.nextTime());
+}
+
+void Player::serveUntilDue() {
+  auto* callbacks = ros::getGlobalCallbackQueue();
+  callbacks->callAvailable();
+  if (reset_wanted_ || isDue() || (run_.isOver() && options_.at_end == "exit")) return;
+  double wait = kLongestWait;
+  if (!run_.isOver() && !paused_ && options_.follow.empty()) {
+    wait = std::min(wait, (pacer_.dueTime(run_.nextTime()) - ros::WallTime::now()).toSec());
+  }
+  if (wait > 0.0) callbacks->callAvailable(ros::WallDuration(wait));
+}
+
+std::string Player::pace() const {
+  if (paused_) return "paused";
+  return pacer_.speed() > 0.0 ? fmt::format("{:.2f} x real time", pacer_.speed()) : "";
+}
+
+bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  const bool pause = request.data != 0;
+  response.success = 1;
+  response.message =
+      fmt::format("{}{} at frame {}, t = {:.6g} s", pause == paused_ ? "already " : "",
+                  pause ? "paused" : "running", run_.frame(), run_.time());
+  if (pause == paused_) return true;
+  paused_ = pause;
+  steps_wanted_ = 0;
+  stands_since_ = ros::WallTime();
+  pacer_.start(run_.time(), ros::WallTime::now());
+  return true;
+}
+
+bool Player::onStep(TriggerRequest&, TriggerResponse& response) {
+  if (run_.isOver()) {
+    answer(response, false,
+           fmt::format("the run is over at frame {}: ~reset starts it again", run_.frame()));
+  } else if (!paused_) {
+    answer(response, false, "the run is not paused: call ~pause first");
+  } else {
+    ++steps_wanted_;
+    answer(response, true, fmt::format("going to frame {}", run_.frame() + steps_wanted_));
+  }
+  return true;
+}
+
+bool Player::onReset(TriggerRequest&, TriggerResponse& response) {
+  reset_wanted_ = true;
+  answer(response, true,
+         fmt::format("back to frame 0 from frame {}{}", run_.frame(), paused_ ? ", paused" : ""));
+  return true;
+}
+
+void Player::onLeaderState(const PendulumState::ConstPtr& state) {
+  if (state->time < leader_time_) reset_wanted_ = true;
+  leader_time_ = state->time;
+}
+
+}  // namespace spring_pendulum

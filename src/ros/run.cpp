@@ -1,0 +1,95 @@
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/ros/run.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spring_pendulum {
+namespace {
+
+/// More than this no display needs, and no integer overflows.
+constexpr double kMostParts = 1024.0;
+
+/// How many states a frame is shown with.
+std::int64_t partsPerFrame(const FrameSteps& frame, bool fixed_step, double display_interval) {
+  if (display_interval <= 0.0) return 1;
+  const double wanted = std::clamp(frame.timeOfFrame(1) / display_interval, 1.0, kMostParts);
+  if (fixed_step) {
+    // A hair below, so that a frame of exactly 3 intervals has 3 parts and not 4.
+    return std::min(static_cast<std::int64_t>(std::ceil(wanted - 1e-9)), frame.steps);
+  }
+  std::int64_t parts = 1;
+  while (static_cast<double>(parts) < wanted - 1e-9) parts *= 2;
+  return parts;
+}
+
+}  // namespace
+
+Run::Run(const Scenario& scenario, const Particles& particles, bool track_energy,
+         double display_interval)
+    : scenario_(scenario),
+      chain_(particles.masses, scenario.spring(), scenario.gravity),
+      start_(particles.state),
+      state_(particles.state),
+      track_energy_(track_energy),
+      frame_steps_(frameSteps(scenario)),
+      integrator_(makeIntegrator(scenario.method, chain_, {scenario.tolerance, track_energy})),
+      ledger_(chain_, start_, track_energy),
+      judge_(chain_, start_, track_energy) {
+  const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
+  parts_ = partsPerFrame(frame_steps_, fixed_step, display_interval);
+  if (!fixed_step) {
+    frame_steps_ = {scenario.frame_interval / static_cast<double>(parts_), parts_};
+  }
+  judgeFrame();
+}
+
+void Run::advance(bool in_between) {
+  const std::int64_t target = in_between ? part_ + 1 : parts_;
+  integrator_->advance(state_, frame_steps_.time_step, stepOfPart(target) - stepOfPart(part_));
+  part_ = target % parts_;
+  if (part_ != 0) return;
+  ++frame_;
+  judgeFrame();
+}
+
+void Run::reset() {
+  state_ = start_;
+  integrator_->restart();
+  judge_ = Judge(chain_, start_, track_energy_);
+  frame_ = 0;
+  part_ = 0;
+  judgeFrame();
+}
+
+bool Run::isShown() const {
+  if (judge_.latest().kind != VerdictKind::kDiverged) return true;
+  return scenario_.on_divergence == "continue" && std::isfinite(judge_.entry().energy.total());
+}
+
+void Run::judgeFrame() {
+  judge_.judge(time(), state_, integrator_->dissipatedEnergy());
+}
+
+LedgerEntry Run::ledgerEntry() const {
+  return atFrame() ? judge_.entry()
+                   : ledger_.entry(time(), state_, integrator_->dissipatedEnergy());
+}
+
+std::int64_t Run::steps() const {
+  return frame_ * frame_steps_.steps + stepOfPart(part_);
+}
+
+std::int64_t Run::stepOfPart(std::int64_t part) const {
+  // part * steps / parts, but without a product that could overflow.
+  const std::int64_t quotient = frame_steps_.steps / parts_;
+  const std::int64_t remainder = frame_steps_.steps % parts_;
+  return part * quotient + part * remainder / parts_;
+}
+
+double Run::timeOfPart(std::int64_t part) const {
+  return static_cast<double>(frame_ * frame_steps_.steps + stepOfPart(part)) *
+         frame_steps_.time_step;
+}
+
+}  // namespace spring_pendulum

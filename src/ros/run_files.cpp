@@ -1,0 +1,40 @@
+#include <spring_pendulum/ros/run_files.hpp>
+
+#include <filesystem>
+
+namespace spring_pendulum {
+
+RunFiles::RunFiles(const Scenario& scenario) {
+  if (!scenario.energy.empty()) {
+    energy_.emplace(scenario.energy);
+    energy_path_ = std::filesystem::absolute(scenario.energy).lexically_normal().string();
+  }
+  if (!scenario.no_frames && !scenario.output.empty()) {
+    frames_.emplace(scenario.output, scenario.frames);
+  }
+}
+
+void RunFiles::write(const Run& run) {
+  if (finished_ || !run.atFrame() || run.frame() < next_frame_) return;
+  if (run.isShown()) {
+    if (frames_) frames_->write(run.frame(), run.state());
+    if (energy_) energy_->write(run.frame(), run.ledgerEntry());
+    next_frame_ = run.frame() + 1;
+  }
+  if (run.isOver()) finish();
+}
+
+void RunFiles::finish() {
+  if (finished_) return;
+  finished_ = true;
+  if (frames_) frames_->finish();
+  if (energy_) energy_->finish();
+}
+
+std::string RunFiles::description() const {
+  std::string text = frames_ ? "frames go to " + frames_->folder() : "no frame files";
+  if (energy_) text += ", the energy ledger to " + energy_path_;
+  return text;
+}
+
+}  // namespace spring_pendulum
