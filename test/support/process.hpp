@@ -8,6 +8,8 @@
 #include <sys/types.h>
 #include <vector>
 
+#include "support/temporary_folder.hpp"
+
 namespace spring_pendulum {
 
 struct Command {
@@ -44,27 +46,5 @@ Result run(const Command& command);
 
 /// For Command::prepare: root is bound by the permissions of files like everybody else.
 void respectPermissions();
-
-/// A new empty folder, removed with all it holds at the end of its scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::string& path() const { return path_; }
-  std::string path(const std::string& name) const { return path_ + "/" + name; }
-  /// \return the path of the file
-  std::string write(const std::string& name, const std::string& text) const;
-
- private:
-  std::string path_;
-};
-
-/// Names of all entries of a folder, hidden ones too, sorted.
-std::vector<std::string> listFolder(const std::string& folder);
-
-std::string readFile(const std::string& path);
 
 }  // namespace spring_pendulum

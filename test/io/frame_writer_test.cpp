@@ -1,0 +1,73 @@
+// Frame files: their names, and that each number reads back as the same double, in few digits.
+#include <spring_pendulum/io/frame_writer.hpp>
+#include <spring_pendulum/model/numbers.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "support/temporary_folder.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+TEST(FrameWriter, NamesGrowAboveFourDigits) {
+  EXPECT_EQ(frameName(0), "frame_0000.txt");
+  EXPECT_EQ(frameName(42), "frame_0042.txt");
+  EXPECT_EQ(frameName(9999), "frame_9999.txt");
+  EXPECT_EQ(frameName(10000), "frame_10000.txt");
+}
+
+TEST(FrameWriter, TellsTheWholePathOfItsFolder) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(FrameWriter(folder.path("a/./b/"), 1).folder(), folder.path("a/b"));
+}
+
+std::string textOfFrame(const State& state) {
+  const TemporaryFolder folder;
+  FrameWriter writer(folder.path(), 1);
+  writer.write(0, state);
+  writer.finish();
+  return readFile(folder.path("frame_0000.txt"));
+}
+
+TEST(FrameWriter, WritesTheFewestDigits) {
+  State state(4);
+  state.x() << 0.0, 0.1, -1.0 / 3.0, 1e-7;
+  state.y() << -2.0, 123456.75, 5e-324, -1.7976931348623157e308;
+  EXPECT_EQ(textOfFrame(state),
+            "0 -2\n0.1 123456.75\n-0.3333333333333333 5e-324\n1e-07 -1.7976931348623157e+308\n");
+}
+
+TEST(FrameWriter, EveryNumberReadsBackAsTheSameDouble) {
+  constexpr Eigen::Index kParticles = 20000;
+  std::mt19937_64 random(5);
+  State state(kParticles);
+  for (Eigen::Index i = 0; i < 2 * kParticles; ++i) {
+    double& value = state.values().data()[i];  // columns x and y
+    // Any bit pattern but those of infinities and NaN: every exponent comes up.
+    std::uint64_t bits = 0;
+    do {
+      bits = random();
+    } while ((bits >> 52 & 0x7ff) == 0x7ff);
+    std::memcpy(&value, &bits, sizeof value);
+  }
+  std::istringstream lines(textOfFrame(state));
+  std::string x;
+  std::string y;
+  for (Eigen::Index i = 0; i < kParticles; ++i) {
+    ASSERT_TRUE(lines >> x >> y);
+    ASSERT_EQ(parseNumber(x), state.x()[i]);
+    ASSERT_EQ(parseNumber(y), state.y()[i]);
+    ASSERT_LE(x.size(), 24U);  // what the writer's buffer has room for
+    ASSERT_LE(y.size(), 24U);
+  }
+  EXPECT_FALSE(lines >> x);
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,45 @@
+// Numbers have a point in files, also in a program that has switched to a decimal comma.
+#include <spring_pendulum/io/frame_writer.hpp>
+#include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/io/scenario_file.hpp>
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <locale>
+
+#include "support/temporary_folder.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+class DecimalComma : public testing::Test {
+ protected:
+  void SetUp() override {
+    constexpr const char* kGerman = "de_DE.UTF-8";
+    ASSERT_NE(std::setlocale(LC_ALL, kGerman), nullptr) << "needs the Debian package locales-all";
+    std::locale::global(std::locale(kGerman));
+    ASSERT_STREQ(std::localeconv()->decimal_point, ",");
+  }
+  void TearDown() override { std::locale::global(std::locale::classic()); }
+};
+
+TEST_F(DecimalComma, DoesNotChangeWhatIsReadAndWritten) {
+  const TemporaryFolder folder;
+  const Particles particles =
+      readParticleFile(folder.write("particle.txt", "0.5 0 1\n1234.25 0.5 1\n"));
+  EXPECT_EQ(particles.state.x()[1], 1234.25);
+  FrameWriter(folder.path(), 1).write(0, particles.state);
+  EXPECT_EQ(readFile(folder.path("frame_0000.txt")), "0.5 0\n1234.25 0.5\n");
+}
+
+TEST_F(DecimalComma, DoesNotChangeParameters) {
+  ScenarioBuilder builder;
+  parseScenario("time_step: 0.125\nframes: 1000\n", "run.yaml", builder);
+  EXPECT_EQ(builder.build().time_step, 0.125);
+  EXPECT_EQ(formatValue(findParameter("time_step"), builder.build()), "0.125");
+  EXPECT_EQ(formatValue(findParameter("frames"), builder.build()), "1000");
+}
+
+}  // namespace
+}  // namespace spring_pendulum

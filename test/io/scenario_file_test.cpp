@@ -1,0 +1,115 @@
+// Parameters from YAML: what is accepted, and the message for everything that is not.
+#include <spring_pendulum/io/scenario_file.hpp>
+#include <spring_pendulum/model/errors.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+
+namespace spring_pendulum {
+namespace {
+
+Scenario parse(const std::string& text) {
+  ScenarioBuilder builder;
+  parseScenario(text, "run.yaml", builder);
+  return builder.build();
+}
+
+TEST(ScenarioFile, SetsWhatIsGivenAndNothingElse) {
+  const Scenario scenario = parse(
+      "# a run\n"
+      "method: Runge-Kutta-2   # midpoint\n"
+      "frames: 7\n"
+      "time_step: 1.0e-3\n"
+      "damping: 0\n"
+      "no_frames: true\n"
+      "output: \"a folder\"\n");
+  EXPECT_EQ(scenario.method, "Runge-Kutta-2");
+  EXPECT_EQ(scenario.frames, 7);
+  EXPECT_EQ(scenario.time_step, 1e-3);
+  EXPECT_EQ(scenario.damping, 0.0);
+  EXPECT_TRUE(scenario.no_frames);
+  EXPECT_EQ(scenario.output, "a folder");
+  EXPECT_EQ(scenario.steps_per_frame, Scenario{}.steps_per_frame);
+  EXPECT_EQ(scenario.stiffness, Scenario{}.stiffness);
+}
+
+TEST(ScenarioFile, MayBeEmpty) {
+  for (const char* text : {"", "\n", "# nothing\n", "---\n", "{}\n"}) {
+    EXPECT_EQ(parse(text).frames, Scenario{}.frames) << text;
+  }
+}
+
+TEST(ScenarioFile, AcceptsFlowStyleAndWindowsLines) {
+  EXPECT_EQ(parse("{frames: 3, damping: 0.5}").frames, 3);
+  EXPECT_EQ(parse("frames: 3\r\ndamping: 0.5\r\n").damping, 0.5);
+}
+
+struct BadText {
+  std::string text;
+  std::string message;  ///< how it starts
+};
+
+std::ostream& operator<<(std::ostream& stream, const BadText& bad) {
+  return stream << bad.message;
+}
+
+class ScenarioFileRefuses : public testing::TestWithParam<BadText> {};
+
+TEST_P(ScenarioFileRefuses, WithOneLineThatTellsWhere) {
+  try {
+    parse(GetParam().text);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith(GetParam().message));
+    EXPECT_THAT(error.what(), testing::HasSubstr("must be"));
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, ScenarioFileRefuses,
+    testing::Values(
+        BadText{"frames: 5\nframes: 5\n", "run.yaml:2: frames is given twice"},
+        BadText{"\nframes: 5.5\n", "run.yaml:2: frames is '5.5': must be a whole number of at"},
+        BadText{"frames: 99999999999999999999\n", "run.yaml:1: frames is '9999"},
+        BadText{"frames: \"5\"\n",
+                "run.yaml:1: frames must be a whole number of at least 1, "
+                "a single value without quotes"},
+        BadText{"frames: !!int 5\n", "run.yaml:1: frames must be a whole"},
+        BadText{"frames:\n", "run.yaml:1: frames must be a whole"},
+        BadText{"frames: ~\n", "run.yaml:1: frames must be a whole"},
+        BadText{"method: null\n", "run.yaml:1: method must be the name of a method"},
+        BadText{"frames: [5]\n", "run.yaml:1: frames must be a whole"},
+        BadText{"damping:\n  value: 5\n", "run.yaml:1: damping must be a number of at least 0"},
+        BadText{"damping: .nan\n", "run.yaml:1: damping is '.nan': must be a number"},
+        BadText{"damping: .inf\n", "run.yaml:1: damping is '.inf': must be a number"},
+        BadText{"damping: 0x10\n", "run.yaml:1: damping is '0x10': must be a number"},
+        BadText{"no_frames: yes\n", "run.yaml:1: no_frames is 'yes': must be true or false"},
+        BadText{"no_frames: \"true\"\n", "run.yaml:1: no_frames must be true or false, a single"},
+        BadText{"- frames\n", "run.yaml:1: must be lines 'key: value'"},
+        BadText{"frames\n", "run.yaml:1: must be lines 'key: value'"},
+        BadText{"[a, b]: 5\n", "run.yaml:1: a key that is no name, must be lines"},
+        BadText{"a: b: c\n", "run.yaml:1: no YAML ("}, BadText{"frames: 5\n}\n", "run.yaml:2: no"},
+        BadText{"frames: [1\n", "run.yaml:2: no YAML ("},
+        BadText{"frames: *five\n", "run.yaml:1: no YAML ("},
+        BadText{"frames: 5\n---\ngravity: 1\n", "run.yaml: 2 documents, must be one"},
+        BadText{std::string(20000, '['), "run.yaml"}));
+
+TEST(ScenarioFile, UnknownKeyListsTheKnownOnes) {
+  try {
+    parse("frames: 1\n\nframse: 5\n");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::StartsWith("run.yaml:3: unknown parameter 'framse': known are method, "));
+    for (const Parameter& parameter : parameterTable()) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(std::string(parameter.key)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum
