@@ -1,15 +1,27 @@
+#include <spring_pendulum/integration/error_controlled.hpp>
 #include <spring_pendulum/integration/explicit_runge_kutta.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/integration/rosenbrock.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace spring_pendulum {
 namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
                                                    const IntegratorOptions& options) {
   return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, options.track_dissipation);
+}
+
+std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,
+                                        const IntegratorOptions& options) {
+  return std::make_unique<ErrorControlled>(
+      std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options));
 }
 
 }  // namespace
@@ -28,6 +40,10 @@ const std::vector<Method>& methodTable() {
        "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
        "the sound choice with a fixed step, as long as no particle is very light",
        &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
+      {"Rodas5P", 5, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
+       "G. Steinebach, BIT Numer. Math. 63 (2023) 27, doi:10.1007/s10543-023-00967-x",
+       "linearly implicit: for very light particles (k_d/m beyond 1e5/s) and coarse tolerances",
+       nullptr, makeRodas5P},
   };
   return kTable;
 }

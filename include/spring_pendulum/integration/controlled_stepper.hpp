@@ -1,0 +1,63 @@
+// What one-step methods with an error estimate share: repeating a step until its error is small
+// enough, choosing the next length, and the heat of a step.
+#pragma once
+
+#include <spring_pendulum/integration/adaptive_stepper.hpp>
+#include <spring_pendulum/integration/chain_kernels.hpp>
+#include <spring_pendulum/integration/kernel_constants.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/integration/state_buffer.hpp>
+#include <spring_pendulum/integration/step_controller.hpp>
+#include <spring_pendulum/model/chain.hpp>
+
+namespace spring_pendulum {
+
+class ControlledStepper : public AdaptiveStepper {
+ public:
+  void start(const State& state) final;
+  double step() final;
+  /// By Gauss-Legendre quadrature of the dissipated power along the dense output.
+  double dissipated(double fraction) const final;
+  StepStatistics statistics() const final { return statistics_; }
+
+ protected:
+  /// \param allowed_error position error allowed in a step, m
+  /// \param error_order   power of h with which the estimated error grows
+  ControlledStepper(const Chain& chain, const IntegratorOptions& options, double allowed_error,
+                    int error_order);
+
+  /// Is told that `begin()` holds a new state, before the first attempt from there.
+  virtual void prepare() = 0;
+
+  /// Makes `end()` from `begin()`.
+  /// \returns the estimated position error, m; NaN if anything is not finite
+  virtual double attempt(double h) = 0;
+
+  /// The longest step the method may take, at most h, s.
+  virtual double admissible(double h) { return h; }
+
+  const Chain& chain() const { return chain_; }
+  const KernelChain& kernelChain() const { return constants_.chain(); }
+  const ChainKernels& kernels() const { return kernels_; }
+  StateBuffer& begin() { return begin_; }
+  StateBuffer& end() { return end_; }
+  const StateBuffer& begin() const { return begin_; }
+  const StateBuffer& end() const { return end_; }
+  StepStatistics& counters() { return statistics_; }
+
+ private:
+  Chain chain_;
+  bool track_dissipation_;
+  double allowed_error_;
+  int error_order_;
+  KernelConstants constants_;
+  const ChainKernels& kernels_;
+  StepController controller_;
+  StateBuffer begin_;
+  StateBuffer end_;
+  double next_step_ = 0.0;
+  StepStatistics statistics_;
+  mutable State sample_;  ///< workspace of `dissipated`
+};
+
+}  // namespace spring_pendulum
