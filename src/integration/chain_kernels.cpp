@@ -2,6 +2,7 @@
 #include <spring_pendulum/integration/kernel_constants.hpp>
 
 #include <algorithm>
+#include <cassert>
 
 #include "kernels/instruction_sets.hpp"
 
@@ -33,19 +34,29 @@ const ChainKernels& fastestChainKernels() {
   return *supportedChainKernels().front();
 }
 
-KernelConstants::KernelConstants(const Chain& chain)
-    : inverse_masses_(StateBuffer::paddedSize(chain.size())) {
+KernelConstants::KernelConstants(const Chain& chain, bool skip_masses) {
+  const bool skipped = skip_masses && chain.equalMasses() && chain.size() > 1;
   chain_.spring = chain.spring();
   chain_.gravity = chain.gravity();
-  chain_.inverse_masses = inverse_masses_.data();
-  chain_.mass_stride = chain.equalMasses() ? 0 : 1;
+  chain_.mass_stride = skipped ? 0 : 1;
   chain_.size = chain.size();
   chain_.pitch = StateBuffer::paddedSize(chain.size());
-  if (chain.equalMasses() && chain.size() > 1) {
+  inverse_masses_ = AlignedNumbers(skipped ? 8 : chain_.pitch);
+  chain_.inverse_masses = inverse_masses_.data();
+  if (skipped) {
     std::fill_n(inverse_masses_.data(), 8, chain.inverseMasses()[1]);
   } else {
     std::copy_n(chain.inverseMasses().data(), chain.size(), inverse_masses_.data());
   }
+}
+
+KernelChain KernelConstants::piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const {
+  assert(begin % 8 == 0 && 0 <= begin && begin < end && end <= chain_.size);
+  KernelChain piece = chain_;
+  piece.inverse_masses += begin * piece.mass_stride;
+  piece.size = end - begin;
+  piece.pitch = pitch;
+  return piece;
 }
 
 }  // namespace spring_pendulum

@@ -1,6 +1,7 @@
 #include <spring_pendulum/integration/error_controlled.hpp>
 #include <spring_pendulum/integration/explicit_runge_kutta.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/integration/plain_runge_kutta.hpp>
 #include <spring_pendulum/integration/rosenbrock.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -15,7 +16,12 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
                                                    const IntegratorOptions& options) {
-  return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, options.track_dissipation);
+  if (options.track_dissipation) {
+    return std::make_unique<PlainRungeKutta>(chain, *method.tableau, true);
+  }
+  EngineOptions engine;
+  engine.threads = options.threads;
+  return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, engine);
 }
 
 std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,

@@ -1,8 +1,8 @@
 // The three methods of the exercise against exact solutions.
 #include "support/reference.hpp"
 
-#include <spring_pendulum/integration/explicit_runge_kutta.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/integration/plain_runge_kutta.hpp>
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ TEST(Order, IsLostWithOneAlteredCoefficient) {
     altered.b[0] += 0.01;
     for (const char* scene_name : {"single_vertical", "two_masses_45deg"}) {
       const Scene scene = referenceScene(scene_name);
-      ExplicitRungeKutta integrator(scene.chain, altered, false);
+      PlainRungeKutta integrator(scene.chain, altered, false);
       EXPECT_LT(slope(integrator, scene_name, 2, stepsPerSecond(method)), method.order - 0.5)
           << name << " on " << scene_name;
     }

@@ -10,8 +10,10 @@
 // their layout with the instruction set; nothing but pointers and numbers crosses this border.
 #pragma once
 
+#include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -42,6 +44,30 @@ struct SlopeSum {
   std::ptrdiff_t count = 0;
 };
 
+/// The coefficients of a tableau with the step multiplied in: `after[i][j]` is the weight of slope
+/// j in the state that follows stage i, of stage i+1 or of the next step.
+struct StepWeights {
+  std::array<std::array<double, ButcherTableau::kMaxStages>, ButcherTableau::kMaxStages> after{};
+};
+
+/// How many blocks are under way between the first and the last stage while whole steps are taken
+/// along the chain, rounded up to a power of two.
+constexpr std::ptrdiff_t ringBlocks(std::size_t stages) {
+  std::ptrdiff_t blocks = 8;
+  while (blocks < 2 * static_cast<std::ptrdiff_t>(stages)) blocks *= 2;
+  return blocks;
+}
+
+/// How many doubles of workspace whole steps need: states and slopes of the stages.
+constexpr std::ptrdiff_t stepWorkspaceSize(std::size_t stages) {
+  return static_cast<std::ptrdiff_t>(stages) * (2 * ringBlocks(stages) * 4 + 2) * 8;
+}
+
+/// Takes `steps` steps, in place.
+/// \param workspace `stepWorkspaceSize` doubles, aligned as a column, that were zero once
+using AdvanceKernel = void (*)(const KernelChain& chain, const StepWeights& weights,
+                               std::ptrdiff_t steps, double* state, double* workspace);
+
 /// Largest absolute values in a combination of slopes; NaN if it is not finite.
 struct LargestChange {
   double position;  ///< of the x and y columns
@@ -60,6 +86,10 @@ struct ChainKernels {
 
   /// Of the sum alone, over the first `size` particles. A maximum, so no order matters.
   LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);
+
+  /// Whole steps of a tableau, for chains with or without damping and gravity; null if none was
+  /// compiled for this tableau (which is known by its address).
+  AdvanceKernel (*advanceKernel)(const ButcherTableau& tableau, bool damped, bool gravity);
 };
 
 /// The kernels of every instruction set that this processor has, the fastest first. The last is the

@@ -7,6 +7,13 @@
 
 namespace spring_pendulum {
 
+/// Work that a method leaves out because the chain does not need it. No bit of a result changes.
+struct Skips {
+  bool damping = false;  ///< no dashpots: no velocity differences
+  bool gravity = false;  ///< none to add
+  bool masses = false;   ///< all equal: none is read
+};
+
 /// Solves z' = F(z) for the chain it was made for. The workspace belongs to the integrator and is
 /// allocated when it is made, never while stepping. Time belongs to the caller, as a step count.
 ///
@@ -30,6 +37,9 @@ class Integrator {
   /// Heat in J that the dashpots took up since the integrator was made or restarted, integrated
   /// with the method's own order; 0 unless `IntegratorOptions::track_dissipation` is set.
   virtual double dissipatedEnergy() const = 0;
+
+  /// What this method skips for its chain.
+  virtual Skips skips() const { return {}; }
 
   /// Tells that the next `advance` gets a state that the last one did not return. Only methods that
   /// remember something between calls care.

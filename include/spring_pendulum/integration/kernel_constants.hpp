@@ -10,7 +10,12 @@ namespace spring_pendulum {
 /// A chain's constants as the kernels read them.
 class KernelConstants {
  public:
-  explicit KernelConstants(const Chain& chain);
+  /// \param skip_masses whether equal masses are to be read once instead of for every particle
+  explicit KernelConstants(const Chain& chain, bool skip_masses = true);
+
+  /// Of the particles begin <= i < end as a chain of its own, in columns `pitch` apart; `begin` is
+  /// a multiple of 8.
+  KernelChain piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const;
 
   const KernelChain& chain() const { return chain_; }
 

@@ -17,6 +17,7 @@ namespace spring_pendulum {
 struct IntegratorOptions {
   double tolerance = 1e-6;         ///< error-controlled methods: position error aimed at, m
   bool track_dissipation = false;  ///< integrate the dissipated power along, at extra cost
+  int threads = 0;                 ///< at most; 0: as many as the processor runs at once
 };
 
 enum class StepControl { kFixed, kErrorControlled };

@@ -33,8 +33,9 @@ inline double inverseSquareRoot(double q) {
 /// \param separation d = p_other - p_this, m
 /// \param approach   w = v_other - v_this, m/s
 template <typename Value>
-PlaneVector<Value> springForce(const SpringLaw& law, const PlaneVector<Value>& separation,
-                               const PlaneVector<Value>& approach) {
+[[gnu::always_inline]] inline PlaneVector<Value> springForce(const SpringLaw& law,
+                                                             const PlaneVector<Value>& separation,
+                                                             const PlaneVector<Value>& approach) {
   const Value square = separation.x * separation.x + separation.y * separation.y;
   const Value inverse_length = inverseSquareRoot(square);
   const Value dot = approach.x * separation.x + approach.y * separation.y;
@@ -45,7 +46,8 @@ PlaneVector<Value> springForce(const SpringLaw& law, const PlaneVector<Value>& s
 
 /// The same, to the last bit, of a spring whose damping is 0 (as long as w·d is finite).
 template <typename Value>
-PlaneVector<Value> undampedSpringForce(const SpringLaw& law, const PlaneVector<Value>& separation) {
+[[gnu::always_inline]] inline PlaneVector<Value> undampedSpringForce(
+    const SpringLaw& law, const PlaneVector<Value>& separation) {
   const Value square = separation.x * separation.x + separation.y * separation.y;
   const Value inner = -(law.stiffness * law.rest_length) * inverseSquareRoot(square);
   const Value factor = law.stiffness + inner;

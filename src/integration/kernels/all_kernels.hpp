@@ -5,13 +5,14 @@
 
 #include <string_view>
 
+#include "conveyor.hpp"
 #include "stage_kernels.hpp"
 
 namespace spring_pendulum {
 namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
-  return {name, stageSlope, combine, largestChange};
+  return {name, stageSlope, combine, largestChange, advanceKernel};
 }
 
 }  // namespace

@@ -16,36 +16,43 @@ struct Block {
   Pack x, y, vx, vy;
 };
 
-inline Block loadBlock(const double* columns, std::ptrdiff_t pitch, std::ptrdiff_t block) {
-  const double* first = columns + block * kLanes;
-  return {Pack::load(first), Pack::load(first + pitch), Pack::load(first + 2 * pitch),
-          Pack::load(first + 3 * pitch)};
+/// Where a block is: its x are at `first`, its y, vx and vy `pitch` doubles further each.
+template <typename Number>
+struct BlockPlace {
+  Number* first;
+  std::ptrdiff_t pitch;
+};
+
+[[gnu::always_inline]] inline Block load(BlockPlace<const double> from) {
+  return {Pack::load(from.first), Pack::load(from.first + from.pitch),
+          Pack::load(from.first + 2 * from.pitch), Pack::load(from.first + 3 * from.pitch)};
 }
 
-inline void storeBlock(const Block& value, double* columns, std::ptrdiff_t pitch,
-                       std::ptrdiff_t block) {
-  double* first = columns + block * kLanes;
-  value.x.store(first);
-  value.y.store(first + pitch);
-  value.vx.store(first + 2 * pitch);
-  value.vy.store(first + 3 * pitch);
+[[gnu::always_inline]] inline void store(const Block& value, BlockPlace<double> to) {
+  value.x.store(to.first);
+  value.y.store(to.first + to.pitch);
+  value.vx.store(to.first + 2 * to.pitch);
+  value.vy.store(to.first + 3 * to.pitch);
 }
 
 /// state + weight * slope
-inline Block plusWeighted(const Block& state, double weight, const Block& slope) {
+[[gnu::always_inline]] inline Block plusWeighted(const Block& state, double weight,
+                                                 const Block& slope) {
   return {state.x + weight * slope.x, state.y + weight * slope.y, state.vx + weight * slope.vx,
           state.vy + weight * slope.vy};
 }
 
-inline std::ptrdiff_t blocksOf(std::ptrdiff_t size) {
+[[gnu::always_inline]] inline std::ptrdiff_t blocksOf(std::ptrdiff_t size) {
   return (size + kLanes - 1) / kLanes;
 }
 
 /// Forces on the particles of a block from the springs to their right neighbours, none on the last
 /// of the chain. Without damping no velocity is read; no bit changes.
 template <bool kDamped>
-PlaneVector<Pack> forcesFromRight(const KernelChain& chain, const Block& here, const Block& right,
-                                  std::ptrdiff_t block) {
+[[gnu::always_inline]] inline PlaneVector<Pack> forcesFromRight(const KernelChain& chain,
+                                                                const Block& here,
+                                                                const Block& right,
+                                                                std::ptrdiff_t block) {
   const PlaneVector<Pack> separation{rightNeighbours(here.x, right.x) - here.x,
                                      rightNeighbours(here.y, right.y) - here.y};
   PlaneVector<Pack> force;
@@ -63,8 +70,9 @@ PlaneVector<Pack> forcesFromRight(const KernelChain& chain, const Block& here, c
 
 /// The slope of a block from the forces of its springs and those of the block to its left.
 template <bool kGravity>
-Block slopeOf(const KernelChain& chain, const Block& here, const PlaneVector<Pack>& left,
-              const PlaneVector<Pack>& right, std::ptrdiff_t block) {
+[[gnu::always_inline]] inline Block slopeOf(const KernelChain& chain, const Block& here,
+                                            const PlaneVector<Pack>& left,
+                                            const PlaneVector<Pack>& right, std::ptrdiff_t block) {
   const Pack inverse_mass = Pack::load(chain.inverse_masses + chain.mass_stride * (block * kLanes));
   Block slope{here.vx, here.vy, (right.x - leftNeighbours(left.x, right.x)) * inverse_mass,
               (right.y - leftNeighbours(left.y, right.y)) * inverse_mass};

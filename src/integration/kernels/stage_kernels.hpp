@@ -10,11 +10,11 @@
 namespace spring_pendulum {
 namespace {
 
-inline Block combinedBlock(std::ptrdiff_t pitch, const double* state, SlopeSum sum,
-                           std::ptrdiff_t block) {
-  Block result = loadBlock(state, pitch, block);
+[[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
+                                                  SlopeSum sum, std::ptrdiff_t block) {
+  Block result = load({state + block * kLanes, pitch});
   for (std::ptrdiff_t k = 0; k < sum.count; ++k) {
-    const Block slope = loadBlock(sum.terms[k].slope, pitch, block);
+    const Block slope = load({sum.terms[k].slope + block * kLanes, pitch});
     result = plusWeighted(result, sum.terms[k].weight, slope);
   }
   return result;
@@ -26,10 +26,10 @@ void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, dou
   Block here = combinedBlock(chain.pitch, state, sum, 0);
   PlaneVector<Pack> left{};
   for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-    const Block next =
-        block + 1 < blocks ? combinedBlock(chain.pitch, state, sum, block + 1) : here;
+    const std::ptrdiff_t next_block = block + 1 < blocks ? block + 1 : block;
+    const Block next = combinedBlock(chain.pitch, state, sum, next_block);
     const PlaneVector<Pack> right = forcesFromRight<kDamped>(chain, here, next, block);
-    storeBlock(slopeOf<true>(chain, here, left, right, block), slope, chain.pitch, block);
+    store(slopeOf<true>(chain, here, left, right, block), {slope + block * kLanes, chain.pitch});
     left = right;
     here = next;
   }
@@ -42,7 +42,7 @@ void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, dou
 
 void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out) {
   for (std::ptrdiff_t block = 0; block < pitch / kLanes; ++block) {
-    storeBlock(combinedBlock(pitch, state, sum, block), out, pitch, block);
+    store(combinedBlock(pitch, state, sum, block), {out + block * kLanes, pitch});
   }
 }
 
@@ -74,7 +74,7 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
   for (std::ptrdiff_t block = 0; block < blocksOf(size); ++block) {
     Block change{};
     for (std::ptrdiff_t k = 0; k < sum.count; ++k) {
-      const Block slope = loadBlock(sum.terms[k].slope, pitch, block);
+      const Block slope = load({sum.terms[k].slope + block * kLanes, pitch});
       change = plusWeighted(change, sum.terms[k].weight, slope);
     }
     position.add(change.x);
