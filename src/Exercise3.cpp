@@ -8,6 +8,7 @@
 #include <spring_pendulum/io/progress.hpp>
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <fmt/format.h>
@@ -81,41 +82,51 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
              writer == nullptr ? "" : " to " + writer->folder(), toString(judge.worst().kind));
 }
 
+void warn(const std::string& text) {
+  if (!text.empty()) fmt::print(stderr, "warning: {}\n", text);
+}
+
 /// The warning or error on standard error, and the exit status.
-int concludeFrom(const Verdict& verdict) {
+int conclude(const Scenario& scenario, const Chain& chain, const State& start,
+             const Verdict& verdict) {
   if (verdict.kind == VerdictKind::kDiverged) {
-    fmt::print(stderr, "{}\n", verdict.text);
+    fmt::print(stderr, "{}; {}\n", verdict.text, remedyForDivergence(chain, start, scenario));
     return kDiverged;
   }
-  if (verdict.kind != VerdictKind::kOk) fmt::print(stderr, "warning: {}\n", verdict.text);
+  if (verdict.kind != VerdictKind::kOk) warn(verdict.text);
   return interruption() == 0 ? kDone : kSignalled + interruption();
 }
 
-int run(const Scenario& scenario) {
+int run(const Scenario& scenario, bool only_check) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   const bool wants_ledger = !scenario.energy.empty();
   const auto integrator =
       makeIntegrator(scenario.method, chain, {scenario.tolerance, wants_ledger});
   Judge judge(chain, particles.state, wants_ledger);
+  if (only_check) {
+    fmt::print("{}", describeStability(chain, particles.state, scenario));
+    return kDone;
+  }
   std::optional<EnergyFile> energy;
   if (wants_ledger) energy.emplace(scenario.energy);
   std::optional<FrameWriter> writer;
   if (!scenario.no_frames) writer.emplace(scenario.output, scenario.frames);
 
   catchInterruptions();
+  warn(warnOfInstability(chain, particles.state, scenario));
   State state = particles.state;
   const Outputs outputs{writer ? &*writer : nullptr, energy ? &*energy : nullptr};
   const Summary summary = simulate(scenario, state, *integrator, judge, outputs);
   if (writer) writer->finish();
   if (energy) energy->finish();
   printSummary(scenario, summary, chain, *integrator, outputs.frames, judge);
-  return concludeFrom(judge.worst());
+  return conclude(scenario, chain, particles.state, judge.worst());
 }
 
 int runCommandLine(int argc, const char* const* argv) {
   const CommandLine command_line = parseCommandLine(argc, argv);
-  if (command_line.answer.empty()) return run(command_line.scenario);
+  if (command_line.answer.empty()) return run(command_line.scenario, command_line.check);
   fmt::print("{}", command_line.answer);
   return kDone;
 }

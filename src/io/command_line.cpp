@@ -18,6 +18,7 @@ namespace {
 constexpr std::string_view kMethodKey = "method";
 constexpr const char* kConfigOption = "--config";
 constexpr const char* kListMethodsOption = "--list-methods";
+constexpr const char* kCheckOption = "--check";
 
 std::string optionFor(const Parameter& parameter) {
   std::string name = fmt::format("--{}", parameter.key);
@@ -69,6 +70,8 @@ class Parser {
     app_.set_version_flag("--version", "spring_pendulum " SPRING_PENDULUM_VERSION,
                           "show the version");
     app_.add_flag(kListMethodsOption, list_methods_, "list the methods");
+    app_.add_flag(kCheckOption, check_,
+                  "validate the input, print the stability advice, integrate nothing");
     app_.add_option(kConfigOption, config_, "YAML file with the same names; the command line wins")
         ->type_name("FILE");
     for (const Parameter& parameter : parameterTable()) addOption(parameter);
@@ -78,15 +81,15 @@ class Parser {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-      return {{}, app_.help()};
+      return {{}, false, app_.help()};
     } catch (const CLI::CallForVersion& version) {
-      return {{}, fmt::format("{}\n", version.what())};
+      return {{}, false, fmt::format("{}\n", version.what())};
     } catch (const CLI::ParseError& error) {
       throw InputError(fmt::format("{}, see --help", error.what()));
     }
-    if (list_methods_) return {{}, listOfMethods()};
+    if (list_methods_) return {{}, false, listOfMethods()};
     refuseExtras();
-    return {scenario(), ""};
+    return {scenario(), check_, ""};
   }
 
  private:
@@ -117,7 +120,8 @@ class Parser {
                       "--help",
                       extras.front()));
     }
-    std::string known = fmt::format("{}, {}, --help, --version", kConfigOption, kListMethodsOption);
+    std::string known = fmt::format("{}, {}, {}, --help, --version", kConfigOption,
+                                    kListMethodsOption, kCheckOption);
     for (const Parameter& parameter : parameterTable()) {
       if (parameter.key != kMethodKey) known += ", " + optionFor(parameter);
     }
@@ -145,6 +149,7 @@ class Parser {
       "Exercise3"};
   std::string config_;
   bool list_methods_ = false;
+  bool check_ = false;
   std::map<std::string_view, Given> given_;  ///< by key
 };
 

@@ -11,6 +11,7 @@ namespace spring_pendulum {
 /// What a command line asks for.
 struct CommandLine {
   Scenario scenario;   ///< the run, if `answer` is empty
+  bool check = false;  ///< only validate the input and print the stability advice
   std::string answer;  ///< the text to print instead of a run: --help, --version, --list-methods
 };
 

@@ -27,8 +27,8 @@ struct Parameter {
   std::string_view range;    ///< in words
   std::string_view meaning;  ///< one line
   AppliesTo applies_to = AppliesTo::kAllMethods;
-  double least = 0.0;          ///< numbers: smallest allowed value
-  bool least_allowed = false;  ///< numbers: whether `least` itself is allowed
+  double least = 0.0;                          ///< numbers: smallest allowed value
+  bool least_allowed = false;                  ///< numbers: whether `least` itself is allowed
   std::vector<std::string_view> choices = {};  ///< text: the allowed ones; empty: any
 };
 
