@@ -3,11 +3,12 @@
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <set>
+#include <sstream>
 #include <variant>
-#include <vector>
 
 namespace spring_pendulum {
 namespace {
@@ -20,45 +21,96 @@ bool isText(const Parameter& parameter) {
   return std::holds_alternative<std::string Scenario::*>(parameter.member);
 }
 
-/// yaml-cpp marks a plain scalar with the tag "?" and a quoted one, which is text, with "!".
-bool hasRightType(const Parameter& parameter, const YAML::Node& value) {
-  return value.IsScalar() && (value.Tag() == "?" || (isText(parameter) && value.Tag() == "!"));
-}
+/// Takes the one document of a file as yaml-cpp comes across it and stops it at the first thing
+/// that is no entry of a flat map. So nothing nested is ever built, however deep it is; and
+/// YAML::LoadAll, which does not end for some broken files, is not needed.
+class ScenarioHandler : public YAML::EventHandler {
+ public:
+  ScenarioHandler(std::string_view name, ScenarioBuilder& builder)
+      : name_(name), builder_(builder) {}
 
-void setFromEntry(const YAML::Node& key_node, const YAML::Node& value, std::string_view name,
-                  std::set<std::string>& keys, ScenarioBuilder& builder) {
-  const std::string where = placeOf(name, key_node.Mark());
-  if (!key_node.IsScalar()) {
-    throw InputError(where + ": a key that is no name, must be lines 'key: value'");
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (has_document_) refuse(mark, "a second document, must be one");
+    has_document_ = true;
   }
-  const std::string& key = key_node.Scalar();
-  const Parameter& parameter = findParameter(key, where);
-  if (!keys.insert(key).second) {
-    throw InputError(fmt::format("{}: {} is given twice, must be given once", where, key));
+
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    if (is_in_map_) refuseNested(mark);
+    is_in_map_ = true;
   }
-  if (!hasRightType(parameter, value)) {
-    throw InputError(fmt::format("{}: {} must be {}, a single value{}", where, key, parameter.range,
-                                 isText(parameter) ? "" : " without quotes"));
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& value) override {
+    if (!is_in_map_) refuseNested(mark);
+    if (parameter_ == nullptr) {
+      takeKey(mark, value);
+    } else {
+      takeValue(tag, value);
+    }
   }
-  builder.set(key, value.Scalar(), where);
-}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+    if (is_in_map_) refuseNested(mark);  // else it is an empty file
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuseNested(mark); }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    refuseNested(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapEnd() override {}
+  void OnDocumentEnd() override {}
+
+ private:
+  void takeKey(const YAML::Mark& mark, const std::string& key) {
+    where_ = placeOf(name_, mark);
+    parameter_ = &findParameter(key, where_);
+    if (!keys_.insert(parameter_->key).second) {
+      refuse(mark, fmt::format("{} is given twice, must be given once", key));
+    }
+  }
+
+  /// yaml-cpp gives a plain scalar the tag "?" and a quoted one, which is text, the tag "!".
+  void takeValue(const std::string& tag, const std::string& value) {
+    if (tag != "?" && !(tag == "!" && isText(*parameter_))) refuseValue();
+    builder_.set(parameter_->key, value, where_);
+    parameter_ = nullptr;
+  }
+
+  [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", placeOf(name_, mark), what));
+  }
+
+  [[noreturn]] void refuseValue() const {
+    throw InputError(fmt::format("{}: {} must be {}, a single value{}", where_, parameter_->key,
+                                 parameter_->range, isText(*parameter_) ? "" : " without quotes"));
+  }
+
+  [[noreturn]] void refuseNested(const YAML::Mark& mark) const {
+    if (parameter_ != nullptr) refuseValue();
+    refuse(mark, "must be lines 'key: value'");
+  }
+
+  std::string_view name_;
+  ScenarioBuilder& builder_;
+  bool has_document_ = false;
+  bool is_in_map_ = false;
+  const Parameter* parameter_ = nullptr;  ///< whose value is to come
+  std::string where_;                     ///< its key stands
+  std::set<std::string_view> keys_;
+};
 
 }  // namespace
 
 void parseScenario(std::string_view text, std::string_view name, ScenarioBuilder& builder) {
+  std::istringstream stream{std::string(text)};
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
-    if (documents.empty() || (documents.size() == 1 && documents[0].IsNull())) return;
-    if (documents.size() > 1) {
-      throw InputError(fmt::format("{}: {} documents, must be one", name, documents.size()));
-    }
-    if (!documents[0].IsMap()) {
-      throw InputError(placeOf(name, documents[0].Mark()) + ": must be lines 'key: value'");
-    }
-    std::set<std::string> keys;
-    for (const auto& entry : documents[0]) {
-      setFromEntry(entry.first, entry.second, name, keys, builder);
-    }
+    YAML::Parser parser(stream);
+    ScenarioHandler handler(name, builder);
+    // The second call only finds out that there is no second document.
+    if (parser.HandleNextDocument(handler)) parser.HandleNextDocument(handler);
   } catch (const YAML::Exception& error) {
     throw InputError(fmt::format("{}: no YAML ({}), must be lines 'key: value'",
                                  placeOf(name, error.mark), error.msg));

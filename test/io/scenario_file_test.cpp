@@ -91,11 +91,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"no_frames: \"true\"\n", "run.yaml:1: no_frames must be true or false, a single"},
         BadText{"- frames\n", "run.yaml:1: must be lines 'key: value'"},
         BadText{"frames\n", "run.yaml:1: must be lines 'key: value'"},
-        BadText{"[a, b]: 5\n", "run.yaml:1: a key that is no name, must be lines"},
-        BadText{"a: b: c\n", "run.yaml:1: no YAML ("}, BadText{"frames: 5\n}\n", "run.yaml:2: no"},
-        BadText{"frames: [1\n", "run.yaml:2: no YAML ("},
+        BadText{"[a, b]: 5\n", "run.yaml:1: must be lines 'key: value'"},
+        BadText{"output: b: c\n", "run.yaml:1: no YAML ("}, BadText{"frames: 5\n}\n", "run.yaml:2: no"},
+        BadText{"frames: [1\n", "run.yaml:1: frames must be a whole"},
         BadText{"frames: *five\n", "run.yaml:1: no YAML ("},
-        BadText{"frames: 5\n---\ngravity: 1\n", "run.yaml: 2 documents, must be one"},
+        BadText{"frames: 5\n---\ngravity: 1\n", "run.yaml:2: a second document, must be one"},
+        BadText{", 5]\n: &x {c: *x}\n", "run.yaml:"},  // YAML::LoadAll never ends on this
         BadText{std::string(20000, '['), "run.yaml"}));
 
 TEST(ScenarioFile, UnknownKeyListsTheKnownOnes) {
