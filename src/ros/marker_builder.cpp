@@ -17,12 +17,12 @@ constexpr std::size_t kMostTrailPoints = 4096;
 
 // Sizes in parts of the chain's reach, so that scenes of any size look alike.
 constexpr double kLeastDiameter = 0.008;
-constexpr double kLargestDiameter = 0.05;
-constexpr double kDiameterInSprings = 0.25;
-constexpr double kSpringWidth = 0.4;  ///< in diameters
-constexpr double kTextHeight = 0.045;
-constexpr double kFirstTextRow = 0.14;
-constexpr double kTextRowDistance = 0.12;
+constexpr double kLargestDiameter = 0.06;
+constexpr double kDiameterInSprings = 0.4;
+constexpr double kSpringWidth = 0.35;  ///< in diameters
+constexpr double kTextHeight = 0.06;
+constexpr double kFirstTextRow = 0.18;
+constexpr double kTextRowDistance = 0.16;
 
 /// How far the chain reaches at rest, m; never 0.
 double reachOf(const Run& run) {
@@ -42,13 +42,13 @@ double strainOf(double length, double rest_length) {
   return rest_length > 0.0 ? length / rest_length - 1.0 : length;
 }
 
-/// The strain shown in full colour: twice what the whole chain's weight gives the first spring.
+/// The strain shown in full colour: what the whole chain's weight gives the first spring.
 double fullColorStrain(const Chain& chain) {
   const SpringLaw& spring = chain.spring();
   const double weight = chain.masses().tail(chain.size() - 1).sum() * std::abs(chain.gravity());
   const double stretch = spring.stiffness > 0.0 ? weight / spring.stiffness : 0.0;
   const double strain = spring.rest_length > 0.0 ? stretch / spring.rest_length : stretch;
-  return std::clamp(2.0 * strain, 0.05, 5.0);
+  return std::clamp(strain, 0.05, 5.0);
 }
 
 std::vector<std_msgs::ColorRGBA> massColors(const Chain& chain,
@@ -115,6 +115,8 @@ MarkerBuilder::MarkerBuilder(const Run& run, const NodeOptions& options) : optio
   markers_.markers[kAnchor].color = anchorColor();
   markers_.markers[kAnchor].pose.position = pointOf(run.start(), 0);
   setScale(markers_.markers[kTrail], 0.5 * kSpringWidth * diameter);
+  // rviz blends a line only if its own colour is not opaque.
+  markers_.markers[kTrail].color.a = 0.5F;
   Marker& text = markers_.markers[kText];
   setScale(text, kTextHeight * reach);
   text.pose.position = pointOf(run.start(), 0);
@@ -203,7 +205,8 @@ void MarkerBuilder::drawTrail() {
   trail.colors.clear();
   for (const TrailPoint& point : trail_) {
     trail.points.push_back(point.point);
-    std_msgs::ColorRGBA color = mass_colors_.back();
+    std_msgs::ColorRGBA color =
+        options_.color.empty() ? mass_colors_.back() : *parseColor(options_.color);
     const double age = (trail_.back().time - point.time) / options_.trail;
     color.a = static_cast<float>(std::max(0.7 * (1.0 - age), 0.02));
     trail.colors.push_back(color);
