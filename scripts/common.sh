@@ -25,8 +25,7 @@ compile() {
     { grep -v '^\[' "$folder/compile.log" >&2; return 1; }
 }
 
-# Whether this machine has, or its package lists offer, ROS 1.
-ros_available() { [ -e /usr/bin/catkin_make ] || apt-cache show catkin libroscpp-dev > /dev/null 2>&1; }
+have_ros() { [ -x /usr/bin/catkin_make ] && [ -x /usr/bin/roslaunch ]; }
 
 # program NAME: where the build put it (catkin has its own folder for executables).
 program() {

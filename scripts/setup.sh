@@ -52,12 +52,26 @@ missing_packages() {
   done
 }
 
-missing=$(missing_packages "$@")
-[ -n "$missing" ] || exit 0
-command -v apt-get > /dev/null || die "needs Debian or Ubuntu; install by hand:" $missing
-say "installing" $missing
+# Not every release carries ROS 1: what of it is not there is left out, whole components at a time.
+offered_components() {
+  local component
+  for component in "$@"; do
+    case $component in
+      ros | rviz | test-ros)
+        apt-cache show $(packages_of "$component") > /dev/null 2>&1 ||
+          { say "this release carries no $component: left out" >&2; continue; } ;;
+    esac
+    echo "$component"
+  done
+}
+
+[ -n "$(missing_packages "$@")" ] || exit 0
+command -v apt-get > /dev/null || die "needs Debian or Ubuntu; install by hand:" $(missing_packages "$@")
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-{ as_root apt-get update &&
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
-} > "$log" 2>&1 || { tail -n 20 "$log" >&2; die "could not install the packages"; }
+as_root apt-get update > "$log" 2>&1 || say "could not update the package lists"
+missing=$(missing_packages $(offered_components "$@"))
+[ -n "$missing" ] || exit 0
+say "installing" $missing
+as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing \
+  > "$log" 2>&1 || { tail -n 20 "$log" >&2; die "could not install the packages"; }
