@@ -23,8 +23,8 @@ constexpr double kScanRatio = 1.02;       ///< narrower than any gap in a stabil
 constexpr double kSlowestMode = 1e-4;     ///< of the fastest one; slower ones decide nothing
 constexpr double kTensionInMotion = 3.0;  ///< over that at rest
 // Share of the gain the verdict allows that the linear estimate may use up. Measured against
-// bisection: without it the advice is up to 6.7 times (Euler) and 1.06 times too large.
-constexpr double kFirstOrderShare = 0.1;
+// bisection: without it the advice is up to 9 times (Euler) and 1.06 times too large.
+constexpr double kFirstOrderShare = 0.07;
 constexpr double kHigherOrderShare = 0.8;
 constexpr double kLeastSwing = 8.0 * 3.14159265358979;  ///< rad; what is gained is gained early
 constexpr double kMostSwingGrowth = 0.05;  ///< also of a swing so small that it may grow more

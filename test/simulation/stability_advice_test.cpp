@@ -6,10 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "support/scenes.hpp"
+#include "support/verdict_of_run.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -22,16 +21,8 @@ constexpr double kDuration = 5.0;  ///< s
 
 /// Whether the verdict on a run of 5 s is better than `gained energy`.
 bool holds(const Scene& scene, const Method& method, double time_step) {
-  const auto integrator = makeIntegrator(method.name, scene.chain);
-  State state = scene.start;
-  Judge judge(scene.chain, state, false);
-  const std::int64_t steps = std::max<std::int64_t>(1, std::llround(0.1 / time_step));
-  for (std::int64_t n = 0; static_cast<double>(n) * time_step < kDuration; n += steps) {
-    integrator->advance(state, time_step, steps);
-    judge.judge(static_cast<double>(n + steps) * time_step, state, 0.0);
-    if (judge.worst().kind >= VerdictKind::kGainedEnergy) return false;
-  }
-  return true;
+  const auto kind = VerdictKind::kGainedEnergy;
+  return test::verdictOfRun(scene, method, time_step, kDuration, false, kind).kind < kind;
 }
 
 /// Methods with a region of stability on the imaginary axis, whose advice is meant to be exact.

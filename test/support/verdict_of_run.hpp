@@ -1,0 +1,33 @@
+// A run without output, for its verdict alone.
+#pragma once
+
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "support/scenes.hpp"
+
+namespace spring_pendulum::test {
+
+/// The verdict on `duration` s with a fixed step, judged every 0.1 s, or every step if that is
+/// longer. Ends where the verdict reaches `enough`.
+/// \param with_ledger whether drift is looked for, too
+inline Verdict verdictOfRun(const Scene& scene, const Method& method, double time_step,
+                            double duration, bool with_ledger,
+                            VerdictKind enough = VerdictKind::kDiverged) {
+  const auto integrator = makeIntegrator(method.name, scene.chain, {1e-6, with_ledger});
+  State state = scene.start;
+  Judge judge(scene.chain, state, with_ledger);
+  const std::int64_t steps = std::max<std::int64_t>(1, std::llround(0.1 / time_step));
+  for (std::int64_t n = 0; static_cast<double>(n) * time_step < duration; n += steps) {
+    integrator->advance(state, time_step, steps);
+    const double time = static_cast<double>(n + steps) * time_step;
+    if (judge.judge(time, state, integrator->dissipatedEnergy()).kind >= enough) break;
+  }
+  return judge.worst();
+}
+
+}  // namespace spring_pendulum::test
