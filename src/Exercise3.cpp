@@ -8,8 +8,10 @@
 #include <spring_pendulum/io/progress.hpp>
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/sleep.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
+#include <spring_pendulum/simulation/work.hpp>
 
 #include <fmt/format.h>
 
@@ -69,13 +71,16 @@ std::string counted(std::int64_t count, const char* noun) {
 }
 
 void printSummary(const Scenario& scenario, const Summary& summary, const Chain& chain,
-                  const Integrator& integrator, const FrameWriter* writer, const Judge& judge) {
+                  const SleepingIntegrator& integrator, const FrameWriter* writer,
+                  const Judge& judge) {
   const bool fixed = findMethod(scenario.method).control == StepControl::kFixed;
+  const std::int64_t slept = integrator.sleptCalls();
   const std::int64_t steps =
-      std::max<std::int64_t>(summary.frames - 1, 0) * scenario.steps_per_frame;
+      std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
   const double writing_seconds = writer == nullptr ? 0.0 : writer->seconds();
-  fmt::print("{}: {}, {}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, verdict: {}\n",
+  fmt::print("{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, verdict: {}\n",
              scenario.method, counted(chain.size(), "particle"), counted(summary.frames, "frame"),
+             slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
              fixed ? counted(steps, "step") + ", " : "",
              counted(integrator.forceEvaluations(), "force evaluation"),
              std::max(summary.seconds - writing_seconds, 0.0), writing_seconds,
@@ -97,14 +102,23 @@ int conclude(const Scenario& scenario, const Chain& chain, const State& start,
   return interruption() == 0 ? kDone : kSignalled + interruption();
 }
 
-int run(const Scenario& scenario, bool only_check) {
+void reportSkips(const Scenario& scenario, const Integrator& integrator) {
+  for (const std::string& skipped : skippedWork(scenario, integrator)) {
+    fmt::print("skipped: {}\n", skipped);
+  }
+}
+
+int run(const CommandLine& command_line) {
+  const Scenario& scenario = command_line.scenario;
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   const bool wants_ledger = !scenario.energy.empty();
-  const auto integrator =
-      makeIntegrator(scenario.method, chain, {scenario.tolerance, wants_ledger});
+  SleepingIntegrator integrator(
+      makeIntegrator(scenario.method, chain, integratorOptions(scenario, wants_ledger)), chain,
+      scenario.sleep);
+  if (command_line.report_skips) reportSkips(scenario, integrator);
   Judge judge(chain, particles.state, wants_ledger);
-  if (only_check) {
+  if (command_line.check) {
     fmt::print("{}", describeStability(chain, particles.state, scenario));
     return kDone;
   }
@@ -117,16 +131,16 @@ int run(const Scenario& scenario, bool only_check) {
   warn(warnOfInstability(chain, particles.state, scenario));
   State state = particles.state;
   const Outputs outputs{writer ? &*writer : nullptr, energy ? &*energy : nullptr};
-  const Summary summary = simulate(scenario, state, *integrator, judge, outputs);
+  const Summary summary = simulate(scenario, state, integrator, judge, outputs);
   if (writer) writer->finish();
   if (energy) energy->finish();
-  printSummary(scenario, summary, chain, *integrator, outputs.frames, judge);
+  printSummary(scenario, summary, chain, integrator, outputs.frames, judge);
   return conclude(scenario, chain, particles.state, judge.worst());
 }
 
 int runCommandLine(int argc, const char* const* argv) {
   const CommandLine command_line = parseCommandLine(argc, argv);
-  if (command_line.answer.empty()) return run(command_line.scenario, command_line.check);
+  if (command_line.answer.empty()) return run(command_line);
   fmt::print("{}", command_line.answer);
   return kDone;
 }

@@ -21,6 +21,10 @@ Eigen::Index usableBlockSize(Eigen::Index wanted, std::size_t stages) {
   return std::max(roundedUp(wanted), 2 * roundedUp(static_cast<Eigen::Index>(stages)));
 }
 
+const ChainKernels& kernelsFor(const EngineOptions& options, Eigen::Index particles) {
+  return options.kernels != nullptr ? *options.kernels : fastestChainKernels(particles);
+}
+
 Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index particles) {
   const auto available = static_cast<Eigen::Index>(std::thread::hardware_concurrency());
   const Eigen::Index threads = options.threads > 0 ? options.threads : available;
@@ -35,7 +39,8 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
       constants_(chain, options.skip_masses),
       stages_(tableau.stages),
       tableau_(tableau),
-      kernel_(options.kernels->advanceKernel(tableau, !skips().damping, !skips().gravity)),
+      kernel_(kernelsFor(options, chain.size())
+                  .advanceKernel(tableau, !skips().damping, !skips().gravity)),
       largest_border_(0) {
   assert(kernel_ != nullptr);
   options_.block_size = usableBlockSize(options.block_size, stages_);

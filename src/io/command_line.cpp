@@ -19,6 +19,7 @@ constexpr std::string_view kMethodKey = "method";
 constexpr const char* kConfigOption = "--config";
 constexpr const char* kListMethodsOption = "--list-methods";
 constexpr const char* kCheckOption = "--check";
+constexpr const char* kReportSkipsOption = "--report-skips";
 
 std::string optionFor(const Parameter& parameter) {
   std::string name = fmt::format("--{}", parameter.key);
@@ -72,6 +73,7 @@ class Parser {
     app_.add_flag(kListMethodsOption, list_methods_, "list the methods");
     app_.add_flag(kCheckOption, check_,
                   "validate the input, print the stability advice, integrate nothing");
+    app_.add_flag(kReportSkipsOption, report_skips_, "print what the run leaves out as not needed");
     app_.add_option(kConfigOption, config_, "YAML file with the same names; the command line wins")
         ->type_name("FILE");
     for (const Parameter& parameter : parameterTable()) addOption(parameter);
@@ -89,7 +91,7 @@ class Parser {
     }
     if (list_methods_) return {{}, false, listOfMethods()};
     refuseExtras();
-    return {scenario(), check_, ""};
+    return {scenario(), check_, "", report_skips_};
   }
 
  private:
@@ -120,8 +122,8 @@ class Parser {
                       "--help",
                       extras.front()));
     }
-    std::string known = fmt::format("{}, {}, {}, --help, --version", kConfigOption,
-                                    kListMethodsOption, kCheckOption);
+    std::string known = fmt::format("{}, {}, {}, {}, --help, --version", kConfigOption,
+                                    kListMethodsOption, kCheckOption, kReportSkipsOption);
     for (const Parameter& parameter : parameterTable()) {
       if (parameter.key != kMethodKey) known += ", " + optionFor(parameter);
     }
@@ -150,6 +152,7 @@ class Parser {
   std::string config_;
   bool list_methods_ = false;
   bool check_ = false;
+  bool report_skips_ = false;
   std::map<std::string_view, Given> given_;  ///< by key
 };
 

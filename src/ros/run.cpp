@@ -1,5 +1,7 @@
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/ros/run.hpp>
+#include <spring_pendulum/simulation/sleep.hpp>
+#include <spring_pendulum/simulation/work.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +35,9 @@ Run::Run(const Scenario& scenario, const Particles& particles, bool track_energy
       state_(particles.state),
       track_energy_(track_energy),
       frame_steps_(frameSteps(scenario)),
-      integrator_(makeIntegrator(scenario.method, chain_, {scenario.tolerance, track_energy})),
+      integrator_(std::make_unique<SleepingIntegrator>(
+          makeIntegrator(scenario.method, chain_, integratorOptions(scenario, track_energy)),
+          chain_, scenario.sleep)),
       ledger_(chain_, start_, track_energy),
       judge_(chain_, start_, track_energy) {
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;

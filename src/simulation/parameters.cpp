@@ -93,6 +93,12 @@ const std::vector<Parameter>& parameterTable() {
        "length L_0 of a spring without force", AppliesTo::kAllMethods, 0.0, true},
       {"gravity", &Scenario::gravity, "m/s²", "a finite number", "g, acting downwards",
        AppliesTo::kAllMethods, kAnyNumber, false},
+      {"threads", &Scenario::threads, "", "a whole number of at least 0",
+       "at most so many threads integrate, 0: as many as the processor runs at once",
+       AppliesTo::kAllMethods, 0.0, true},
+      {"sleep", &Scenario::sleep, "m/s", "a number of at least 0",
+       "a chain slower than this, and not about to be faster, is not stepped, 0: always stepped",
+       AppliesTo::kAllMethods, 0.0, true},
   };
   return kTable;
 }

@@ -13,7 +13,6 @@
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
-#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -47,7 +46,7 @@ struct SlopeSum {
 /// The coefficients of a tableau with the step multiplied in: `after[i][j]` is the weight of slope
 /// j in the state that follows stage i, of stage i+1 or of the next step.
 struct StepWeights {
-  std::array<std::array<double, ButcherTableau::kMaxStages>, ButcherTableau::kMaxStages> after{};
+  double after[ButcherTableau::kMaxStages][ButcherTableau::kMaxStages] = {};
 };
 
 /// How many blocks are under way between the first and the last stage while whole steps are taken
@@ -96,7 +95,8 @@ struct ChainKernels {
 /// baseline, which all processors of the architecture have.
 const std::vector<const ChainKernels*>& supportedChainKernels();
 
-/// The fastest of them.
+/// The fastest of them for a long chain, and for one of so many particles.
 const ChainKernels& fastestChainKernels();
+const ChainKernels& fastestChainKernels(std::ptrdiff_t particles);
 
 }  // namespace spring_pendulum

@@ -29,7 +29,7 @@ struct EngineOptions {
   /// Another thread is given work only if it gets at least so many spring forces a call: below, to
   /// wake it up takes longer than it helps.
   Eigen::Index least_work_per_thread = 50000;
-  const ChainKernels* kernels = &fastestChainKernels();
+  const ChainKernels* kernels = nullptr;  ///< null: the fastest ones
   /// What the scene does not need is not done.
   bool skip_damping = true;
   bool skip_gravity = true;

@@ -13,6 +13,7 @@ struct CommandLine {
   Scenario scenario;   ///< the run, if `answer` is empty
   bool check = false;  ///< only validate the input and print the stability advice
   std::string answer;  ///< the text to print instead of a run: --help, --version, --list-methods
+  bool report_skips = false;  ///< whether the run is to say what it leaves out
 };
 
 /// The command line wins over the file given with --config.

@@ -27,6 +27,9 @@ struct Scenario {
   double rest_length = SpringLaw{}.rest_length;  ///< m
   double gravity = 9.81;                         ///< m/s²
 
+  std::int64_t threads = 0;  ///< at most; 0: as many as the processor runs at once
+  double sleep = 0.0;        ///< speed below which a chain is at rest, m/s; 0: never
+
   SpringLaw spring() const { return {stiffness, damping, rest_length}; }
 };
 

@@ -1,0 +1,27 @@
+#include <spring_pendulum/simulation/work.hpp>
+
+#include <algorithm>
+
+namespace spring_pendulum {
+
+IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipation) {
+  constexpr std::int64_t kMostThreads = 1024;
+  IntegratorOptions options;
+  options.tolerance = scenario.tolerance;
+  options.track_dissipation = track_dissipation;
+  options.threads = static_cast<int>(std::min(scenario.threads, kMostThreads));
+  return options;
+}
+
+std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator) {
+  const Skips skips = integrator.skips();
+  std::vector<std::string> skipped;
+  if (skips.damping) skipped.emplace_back("velocity differences: damping is 0");
+  if (skips.gravity) skipped.emplace_back("gravity: it is 0");
+  if (skips.masses) skipped.emplace_back("reading masses: all moving particles have the same");
+  if (scenario.energy.empty()) skipped.emplace_back("dissipated energy: no ledger is asked for");
+  if (scenario.no_frames) skipped.emplace_back("frame files: not wanted");
+  return skipped;
+}
+
+}  // namespace spring_pendulum
