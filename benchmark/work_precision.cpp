@@ -12,29 +12,18 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "isolated.hpp"
+#include "options.hpp"
 #include "peer.hpp"
 #include "result_file.hpp"
 #include "scenes.hpp"
 
 namespace spring_pendulum::benchmark {
 namespace {
-
-struct Options {
-  std::string output = ".";
-  std::string scene;     ///< empty: all
-  std::string peer;      ///< empty: all
-  double limit = 2.0;    ///< s; a point that takes longer is recorded as too slow
-  double budget = 0.03;  ///< s spent on one point in one pass, at least
-  int passes = 2;
-  bool smoke = false;
-};
 
 struct Point {
   std::string status = "ok";
@@ -200,22 +189,6 @@ bool runScene(const ReferenceScene& scene, const Options& options, ResultFile& f
   return all_agree;
 }
 
-Options parse(int count, char** words) {
-  Options options;
-  for (int i = 1; i + 1 < count; i += 2) {
-    const std::string key = words[i];
-    const std::string value = words[i + 1];
-    if (key == "--output") options.output = value;
-    if (key == "--scene") options.scene = value;
-    if (key == "--peer") options.peer = value;
-    if (key == "--limit") options.limit = std::stod(value);
-    if (key == "--budget") options.budget = std::stod(value);
-    if (key == "--passes") options.passes = std::stoi(value);
-    if (key == "--smoke") options.smoke = value == "1";
-  }
-  return options;
-}
-
 int run(const Options& options) {
   ResultFile file(
       options.output + "/work_precision.csv",
@@ -236,5 +209,5 @@ int run(const Options& options) {
 
 int main(int count, char** words) {
   using namespace spring_pendulum::benchmark;
-  return run(parse(count, words));
+  return run(parseOptions(count, words));
 }

@@ -109,16 +109,18 @@ class ObjectPerParticle : public Peer {
   std::int64_t evaluations_ = 0;
 };
 
+/// Two passes a stage: spring forces, then the accelerations together with all that follows from
+/// them, so that no slope is ever stored.
 class StructureOfArrays : public Peer {
  public:
   StructureOfArrays(const Problem& problem, const Run& run)
       : run_(run),
         start_(problem.start),
+        size_(problem.size()),
         force_(problem),
-        state_(problem.start),
-        stage_(start_.size()),
-        sum_(start_.size()),
-        slope_(start_.size()) {}
+        state_(start_),
+        stage_(start_),
+        sum_(start_) {}
 
   void reset() override { state_ = start_; }
 
@@ -130,40 +132,68 @@ class StructureOfArrays : public Peer {
   std::int64_t forceEvaluations() const override { return force_.evaluations(); }
 
  private:
-  /// sum = from + weight * slope, stage = state + reach * slope, in one pass.
-  void gather(const double* from, double weight, double reach) {
-    const std::size_t n = state_.size();
-    const double* __restrict state = state_.data();
-    const double* __restrict slope = slope_.data();
-    double* __restrict sum = sum_.data();
-    double* __restrict stage = stage_.data();
+  /// sum = from + weight * F(at), to = state + reach * F(at).
+  void stage(const double* at, const double* from, double weight, double* to, double reach) {
+    const std::size_t n = size_;
+    force_.springForces(at);
+    const double* __restrict fx = force_.forceX();
+    const double* __restrict fy = force_.forceY();
+    const double* __restrict inverse_mass = force_.inverseMasses();
+    const double gravity = force_.gravity();
+    const double* state = state_.data();
+    double* sum = sum_.data();
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < n; ++i) {
-      sum[i] = from[i] + weight * slope[i];
-      stage[i] = state[i] + reach * slope[i];
+    for (std::size_t i = 1; i < n; ++i) {
+      const double vx = at[2 * n + i];
+      const double vy = at[3 * n + i];
+      const double ax = (fx[i] - fx[i - 1]) * inverse_mass[i];
+      const double ay = (fy[i] - fy[i - 1]) * inverse_mass[i] - gravity;
+      sum[i] = from[i] + weight * vx;
+      sum[n + i] = from[n + i] + weight * vy;
+      sum[2 * n + i] = from[2 * n + i] + weight * ax;
+      sum[3 * n + i] = from[3 * n + i] + weight * ay;
+      to[i] = state[i] + reach * vx;
+      to[n + i] = state[n + i] + reach * vy;
+      to[2 * n + i] = state[2 * n + i] + reach * ax;
+      to[3 * n + i] = state[3 * n + i] + reach * ay;
+    }
+  }
+
+  /// state = sum + weight * F(at).
+  void lastStage(const double* at, double weight) {
+    const std::size_t n = size_;
+    force_.springForces(at);
+    const double* __restrict fx = force_.forceX();
+    const double* __restrict fy = force_.forceY();
+    const double* __restrict inverse_mass = force_.inverseMasses();
+    const double gravity = force_.gravity();
+    const double* __restrict sum = sum_.data();
+    double* __restrict state = state_.data();
+#pragma GCC ivdep
+    for (std::size_t i = 1; i < n; ++i) {
+      state[i] = sum[i] + weight * at[2 * n + i];
+      state[n + i] = sum[n + i] + weight * at[3 * n + i];
+      state[2 * n + i] = sum[2 * n + i] + weight * ((fx[i] - fx[i - 1]) * inverse_mass[i]);
+      state[3 * n + i] =
+          sum[3 * n + i] + weight * ((fy[i] - fy[i - 1]) * inverse_mass[i] - gravity);
     }
   }
 
   void step(double h) {
-    force_(state_.data(), slope_.data());
-    gather(state_.data(), h / 6, h / 2);
-    force_(stage_.data(), slope_.data());
-    gather(sum_.data(), h / 3, h / 2);
-    force_(stage_.data(), slope_.data());
-    gather(sum_.data(), h / 3, h);
-    force_(stage_.data(), slope_.data());
-    const std::size_t n = state_.size();
-    const double* __restrict slope = slope_.data();
-    const double* __restrict sum = sum_.data();
-    double* __restrict state = state_.data();
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < n; ++i) state[i] = sum[i] + h / 6 * slope[i];
+    double* const state = state_.data();
+    double* const sum = sum_.data();
+    double* const at = stage_.data();
+    stage(state, state, h / 6, at, h / 2);
+    stage(at, sum, h / 3, at, h / 2);
+    stage(at, sum, h / 3, at, h);
+    lastStage(at, h / 6);
   }
 
   Run run_;
   const std::vector<double>& start_;
+  std::size_t size_;
   PlainForce force_;
-  std::vector<double> state_, stage_, sum_, slope_;
+  std::vector<double> state_, stage_, sum_;
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ PlainForce::PlainForce(const Problem& problem)
 }
 
 void PlainForce::springForces(const double* state) {
+  ++evaluations_;
   const std::size_t n = size_;
   const double* __restrict x = state;
   const double* __restrict y = state + n;
@@ -41,7 +42,6 @@ void PlainForce::springForces(const double* state) {
 }
 
 void PlainForce::operator()(const double* state, double* derivative) {
-  ++evaluations_;
   springForces(state);
   const std::size_t n = size_;
   const double* __restrict vx = state + 2 * n;

@@ -22,11 +22,18 @@ class PlainForce {
   void interleavedJacobian(const double* state, double* const* columns) const;
 
   std::size_t size() const { return size_; }
+  /// Computes the forces alone, for a caller that wants to go on with them by itself.
+  void springForces(const double* state);
+  const double* forceX() const {
+    return force_x_.data();
+  }  ///< N, of spring i on particle i; last 0
+  const double* forceY() const { return force_y_.data(); }
+  const double* inverseMasses() const { return inverse_masses_.data(); }
+  double gravity() const { return gravity_; }
+
   std::int64_t evaluations() const { return evaluations_; }
 
  private:
-  void springForces(const double* state);
-
   std::size_t size_;
   double stiffness_, damping_, rest_length_, gravity_;
   std::vector<double> inverse_masses_;

@@ -1,0 +1,34 @@
+#include "options.hpp"
+
+#include <stdexcept>
+
+namespace spring_pendulum::benchmark {
+
+Options parseOptions(int count, char** words) {
+  Options options;
+  for (int i = 1; i < count; i += 2) {
+    const std::string key = words[i];
+    if (i + 1 == count) throw std::invalid_argument(key + " needs a value");
+    const std::string value = words[i + 1];
+    if (key == "--output") {
+      options.output = value;
+    } else if (key == "--scene") {
+      options.scene = value;
+    } else if (key == "--peer") {
+      options.peer = value;
+    } else if (key == "--limit") {
+      options.limit = std::stod(value);
+    } else if (key == "--budget") {
+      options.budget = std::stod(value);
+    } else if (key == "--passes") {
+      options.passes = std::stoi(value);
+    } else if (key == "--smoke") {
+      options.smoke = value == "1";
+    } else {
+      throw std::invalid_argument("unknown option " + key);
+    }
+  }
+  return options;
+}
+
+}  // namespace spring_pendulum::benchmark

@@ -1,0 +1,178 @@
+// Throughput: nanoseconds per spring force of the classical Runge-Kutta method, for chains from 3
+// to ten million particles, ten steps a call.
+//
+// Ratios between candidates are what matters, so all of them take turns within one run: in every
+// round each candidate is timed once, and the median over the rounds counts. A disturbance then
+// hits all alike. (Google Benchmark finishes one candidate before it begins the next.)
+//
+// Before anything is timed, each candidate runs in a process of its own, next to the plain
+// structure-of-arrays loop, and must arrive at the same state.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "isolated.hpp"
+#include "options.hpp"
+#include "peer.hpp"
+#include "result_file.hpp"
+#include "scenes.hpp"
+
+namespace spring_pendulum::benchmark {
+namespace {
+
+// The same method in other order of operations differs by rounding alone. GSL is let off more
+// lightly: its step doubling really takes two half steps.
+constexpr double kAgreement = 1e-10;       // m and m/s
+constexpr double kAgreementGsl = 1e-5;     // m and m/s
+constexpr double kSampleTime = 2e-3;       // s, at least, of one candidate in one round
+constexpr double kProbeLimit = 60.0;       // s, for making a peer and letting it run once
+constexpr std::size_t kLarge = 1'000'000;  // from here on peers live only while they are timed
+
+struct Candidate {
+  const PeerRow* row = nullptr;
+  Run run;
+  std::string status = "ok";
+  std::string note;
+  double difference = 0.0;      // from the plain loop
+  double seconds_a_call = 0.0;  // as the probe saw it
+  std::unique_ptr<Peer> peer;
+  std::vector<double> samples;  // ns per spring force
+  double evaluations_a_step = 0.0;
+};
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+const PeerRow& baseline() {
+  return *std::find_if(allPeers().begin(), allPeers().end(),
+                       [](const PeerRow& row) { return row.name == "structure of arrays"; });
+}
+
+/// Runs in a process of its own: seconds of a call, and the difference from the plain loop.
+std::string runOnce(const Problem& problem, const Candidate& candidate) {
+  const int calls = problem.size() < kLarge ? 10 : 1;
+  const auto peer = candidate.row->make(problem, candidate.run);
+  peer->reset();
+  const auto start = std::chrono::steady_clock::now();
+  for (int call = 0; call < calls; ++call) peer->advance();
+  const double seconds = secondsSince(start) / calls;
+  const auto plain = baseline().make(problem, candidate.run);
+  for (int call = 0; call < calls; ++call) plain->advance();
+  const double difference = stateDifference(peer->state(), plain->state());
+  return fmt::format("{} {}", seconds, difference);
+}
+
+void probe(const Problem& problem, Candidate& candidate) {
+  const Isolated result = runIsolated([&] { return runOnce(problem, candidate); }, kProbeLimit);
+  candidate.note = result.text;
+  if (result.ending == Isolated::Ending::kTooSlow) candidate.status = "too slow";
+  if (result.ending == Isolated::Ending::kFailed) candidate.status = "failed";
+  if (result.ending != Isolated::Ending::kDone) return;
+  candidate.note.clear();
+  std::sscanf(result.text.c_str(), "%lf %lf", &candidate.seconds_a_call, &candidate.difference);
+  const double allowed = candidate.row->library == "GSL" ? kAgreementGsl : kAgreement;
+  if (candidate.difference > allowed) {
+    candidate.status = "disagrees";
+    candidate.note = fmt::format("more than {} m or m/s from the plain loop", allowed);
+  }
+}
+
+void sample(const Problem& problem, Candidate& candidate) {
+  const bool keep = problem.size() < kLarge;
+  if (!candidate.peer) candidate.peer = candidate.row->make(problem, candidate.run);
+  Peer& peer = *candidate.peer;
+  peer.reset();
+  if (keep) peer.advance();
+  const auto calls = static_cast<std::int64_t>(kSampleTime / candidate.seconds_a_call) + 1;
+  const std::int64_t before = peer.forceEvaluations();
+  const auto start = std::chrono::steady_clock::now();
+  for (std::int64_t call = 0; call < calls; ++call) peer.advance();
+  const double seconds = secondsSince(start);
+  const auto evaluations = static_cast<double>(peer.forceEvaluations() - before);
+  candidate.samples.push_back(1e9 * seconds / evaluations /
+                              static_cast<double>(problem.size() - 1));
+  candidate.evaluations_a_step = evaluations / static_cast<double>(calls * candidate.run.steps);
+  if (!keep) candidate.peer.reset();
+}
+
+std::vector<Candidate> candidatesFor(std::size_t particles) {
+  std::vector<Candidate> candidates;
+  for (const PeerRow& row : allPeers()) {
+    if (!row.classical_runge_kutta) continue;
+    const bool own = row.library == "own";
+    Candidate candidate;
+    candidate.row = &row;
+    // Only ours gains from several steps in one call; one is enough to time the others.
+    candidate.run.steps = own || particles < kLarge ? 10 : 1;
+    candidates.push_back(std::move(candidate));
+    if (!own) continue;
+    candidates.emplace_back();
+    candidates.back().row = &row;
+    candidates.back().run.threads = 0;
+  }
+  return candidates;
+}
+
+void write(const Problem& problem, Candidate& candidate, ResultFile& file) {
+  std::vector<double>& samples = candidate.samples;
+  std::sort(samples.begin(), samples.end());
+  const bool done = candidate.status == "ok";
+  file.add(fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{}", problem.size(), candidate.row->library,
+      quoted(candidate.row->name), candidate.run.threads == 0 ? "all" : "1", candidate.status,
+      done ? fmt::format("{:.4g}", samples[samples.size() / 2]) : "",
+      done ? fmt::format("{:.4g}", samples.front()) : "",
+      done ? fmt::to_string(samples.size()) : "",
+      done ? fmt::format("{:.4g}", candidate.evaluations_a_step) : "",
+      done || candidate.status == "disagrees" ? fmt::format("{:.2g}", candidate.difference) : "",
+      quoted(candidate.note)));
+}
+
+bool runSize(std::size_t particles, int rounds, ResultFile& file) {
+  const Problem problem = horizontalChain(particles);
+  std::vector<Candidate> candidates = candidatesFor(particles);
+  bool all_agree = true;
+  for (Candidate& candidate : candidates) {
+    probe(problem, candidate);
+    if (candidate.status == "disagrees") all_agree = false;
+    if (candidate.status != "ok") {
+      std::fprintf(stderr, "%zu particles, %s: %s %s\n", particles, candidate.row->name.c_str(),
+                   candidate.status.c_str(), candidate.note.c_str());
+    }
+  }
+  for (int round = 0; round < rounds; ++round) {
+    for (Candidate& candidate : candidates) {
+      if (candidate.status == "ok") sample(problem, candidate);
+    }
+  }
+  for (Candidate& candidate : candidates) write(problem, candidate, file);
+  std::printf("%zu particles done\n", particles);
+  return all_agree;
+}
+
+}  // namespace
+}  // namespace spring_pendulum::benchmark
+
+int main(int count, char** words) {
+  using namespace spring_pendulum::benchmark;
+  const Options options = parseOptions(count, words);
+  ResultFile file(options.output + "/throughput.csv",
+                  {"Classical Runge-Kutta method: nanoseconds per spring force, by chain length.",
+                   "Candidates take turns; median and least of the rounds. `difference` is the",
+                   "largest one from the plain structure-of-arrays loop after the first calls."},
+                  "particles,library,method,threads,status,median_ns,least_ns,rounds,"
+                  "force_evaluations_a_step,difference_m_or_m_per_s,note");
+  bool all_agree = true;
+  for (std::size_t particles : {3, 11, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000}) {
+    if (options.smoke && particles > 1'000) break;
+    const int rounds = options.smoke ? 3 : particles < kLarge ? 25 : 5;
+    all_agree = runSize(particles, rounds, file) && all_agree;
+  }
+  return all_agree ? 0 : 1;
+}
