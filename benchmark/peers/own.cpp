@@ -18,6 +18,7 @@ Chain chainOf(const Problem& problem) {
 IntegratorOptions optionsOf(const Run& run) {
   IntegratorOptions options;
   if (run.tolerance > 0.0) options.tolerance = run.tolerance;
+  options.threads = run.threads;
   return options;
 }
 

@@ -1,0 +1,25 @@
+// Times several pieces of work in turns, so that what disturbs the machine for a while disturbs all
+// of them and their ratios stand. (Google Benchmark finishes one before it begins the next.)
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum::benchmark {
+
+struct Work {
+  std::string name;
+  std::function<void()> before;  ///< not timed; may be empty
+  std::function<void()> work;    ///< timed
+};
+
+struct Timing {
+  double median = 0.0;  ///< s
+  double least = 0.0;   ///< s
+};
+
+/// One timing for each piece of work, each of which runs once in every round.
+std::vector<Timing> timeInTurns(const std::vector<Work>& pieces, int rounds);
+
+}  // namespace spring_pendulum::benchmark
