@@ -48,7 +48,7 @@ std::string measure(const ReferenceScene& scene, const PeerRow& row, const Run& 
   double least = secondsOf(*peer);
   const long long evaluations = peer->forceEvaluations() - before;
   const double error = positionError(peer->state(), scene.exact);
-  if (!std::isfinite(error)) throw PeerError("the motion diverged");
+  if (!std::isfinite(error)) return fmt::format("{} inf {}", least, evaluations);
   double spent = least;
   for (int count = 1; spent < budget || (count < 3 && spent < 10.0 * budget); ++count) {
     const double seconds = secondsOf(*peer);
@@ -68,9 +68,11 @@ Point measured(const ReferenceScene& scene, const PeerRow& row, const Run& run,
   if (result.ending == Isolated::Ending::kTooSlow) point.status = "too slow";
   if (result.ending == Isolated::Ending::kFailed) point.status = "failed";
   if (result.ending != Isolated::Ending::kDone) return point;
-  point.note.clear();
   std::sscanf(result.text.c_str(), "%lf %lf %lld", &point.seconds, &point.error,
               &point.evaluations);
+  const bool finite = std::isfinite(point.error);
+  point.status = finite ? "ok" : "failed";
+  point.note = finite ? "" : "the motion diverged";
   return point;
 }
 
@@ -79,8 +81,7 @@ constexpr double kBestError = 2e-12;  // m; below, rounding decides and there is
 /// Step sizes halving from 20 ms, each dividing the duration.
 std::vector<Run> fixedRuns(double duration, bool smoke) {
   std::vector<Run> runs;
-  const int halvings = smoke ? 3 : 18;
-  for (int k = 0; k < halvings; ++k) {
+  for (int k = 0; k < 18; k += smoke ? 6 : 1) {
     const auto steps = static_cast<std::int64_t>(std::lround(duration / 0.02)) << k;
     runs.push_back({duration / static_cast<double>(steps), steps, 0.0, 1});
   }
@@ -136,7 +137,7 @@ void laterPass(const ReferenceScene& scene, Line& line, const Options& options) 
 
 /// What a method must reach somewhere on its line, or the numbers mean nothing: it solves the same
 /// problem as the reference.
-constexpr double kAgreement = 1e-2;  // m
+constexpr double kAgreement = 2e-2;  // m
 
 bool agrees(const ReferenceScene& scene, const Line& line) {
   double best = std::numeric_limits<double>::infinity();
@@ -157,12 +158,13 @@ void write(const ReferenceScene& scene, const Line& line, ResultFile& file) {
     const Run& run = line.runs[k];
     const Point& point = line.points[k];
     const bool fixed = line.row->stepping == Stepping::kFixed;
-    file.add(fmt::format(
-        "{},{},{},{},{:.6g},{},{},{},{},{}", scene.problem.name, line.row->library,
-        quoted(line.row->name), fixed ? "step" : "tolerance", fixed ? run.time_step : run.tolerance,
-        point.status, point.status == "ok" ? fmt::format("{:.6g}", 1e3 * point.seconds) : "",
-        point.status == "ok" ? fmt::format("{:.4g}", point.error) : "",
-        point.status == "ok" ? fmt::format("{}", point.evaluations) : "", quoted(point.note)));
+    const bool timed = std::isfinite(point.seconds);
+    file.add(fmt::format("{},{},{},{},{:.6g},{},{},{},{},{}", scene.problem.name, line.row->library,
+                         quoted(line.row->name), fixed ? "step" : "tolerance",
+                         fixed ? run.time_step : run.tolerance, point.status,
+                         timed ? fmt::format("{:.6g}", 1e3 * point.seconds) : "",
+                         point.status == "ok" ? fmt::format("{:.4g}", point.error) : "",
+                         timed ? fmt::to_string(point.evaluations) : "", quoted(point.note)));
   }
 }
 
@@ -179,7 +181,7 @@ bool runScene(const ReferenceScene& scene, const Options& options, ResultFile& f
   bool all_agree = true;
   for (Line& line : lines) {
     firstPass(scene, line, options);
-    if (!options.smoke) all_agree = agrees(scene, line) && all_agree;
+    all_agree = agrees(scene, line) && all_agree;
     std::printf("%s: %s done\n", scene.problem.name.c_str(), line.row->name.c_str());
   }
   for (int pass = 1; pass < options.passes; ++pass) {
@@ -199,6 +201,7 @@ int run(const Options& options) {
   bool all_agree = true;
   for (const ReferenceScene& scene : referenceScenes()) {
     if (!options.scene.empty() && scene.problem.name != options.scene) continue;
+    if (options.smoke && scene.problem.name != "horizontal_11") continue;
     all_agree = runScene(scene, options, file) && all_agree;
   }
   return all_agree ? 0 : 1;

@@ -29,8 +29,8 @@ packages_of() {
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lint) echo clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev gcovr ;;
-    benchmark) echo libbenchmark-dev libboost-dev libgsl-dev libsundials-dev libmujoco-dev \
-                    libsimbody-dev ;;
+    benchmark) echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev \
+                    python3 ;;
     *) die "setup.sh: unknown component '$1'" ;;
   esac
 }

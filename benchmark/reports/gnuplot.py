@@ -1,0 +1,68 @@
+"""Line plots through gnuplot, as PNG and SVG, in the one style of all benchmark plots: this package
+in strong solid lines, peers in thin dashed ones, what failed as a cross at the top edge, the legend
+outside."""
+import subprocess
+
+OWN_COLORS = ("#d00000", "#ff7b00", "#e0a000", "#2d7d2d", "#00a37a", "#0077b6", "#4b2ca0", "#b5179e",
+              "#6d3b1f", "#111111", "#7cb518", "#00b4d8", "#f15bb5", "#8d0801")
+LIBRARY_COLORS = {
+    "plain": ("#8a8a8a", "#333333"),
+    "Boost.odeint": ("#9ecbf0", "#5aa2dc", "#1f6fb2", "#0b4a80", "#3b3fb0"),
+    "GSL": ("#c9a6ea", "#8f5fc4", "#5a2d91"),
+    "SUNDIALS": ("#a8d8a0", "#6dbb6a", "#3f9b58", "#1c7a4a", "#0d5c3c", "#7f9c2f"),
+    "MuJoCo": ("#c77d2e",),
+    "Simbody": ("#c2578f",)}
+POINT_TYPES = (7, 5, 9, 11, 13, 4, 6, 8, 10, 12)
+
+
+def style_of(library, number):
+    """gnuplot's words for the line of a method: its number counts within its library."""
+    point = f"pt {POINT_TYPES[number % len(POINT_TYPES)]}"
+    if library == "own":
+        return f"dt 1 lw 2.6 ps 0.9 {point} lc rgb '{OWN_COLORS[number % len(OWN_COLORS)]}'"
+    colors = LIBRARY_COLORS[library]
+    return f"dt (10,6) lw 1.5 ps 0.8 {point} lc rgb '{colors[number % len(colors)]}'"
+
+
+class Plot:
+    """A log-log plot of lines with points."""
+
+    def __init__(self, title, x_label, y_label, x_range, y_range):
+        self.lines = []
+        self.data = []
+        self.settings = [
+            f'set title "{title}" font ",15"', f'set xlabel "{x_label}"',
+            f'set ylabel "{y_label}"', "set logscale xy",
+            f"set xrange [{x_range[0]}:{x_range[1]}]", f"set yrange [{y_range[0]}:{y_range[1]}]",
+            "set format '10^{%L}'", "set mxtics 10", "set mytics 10",
+            "set grid xtics ytics lc rgb '#dddddd' lt 1", "set border 3 lc rgb '#444444'",
+            "set tics nomirror", "set key outside right top Left reverse spacing 1.15 samplen 4 noenhanced"]
+        self.top = 0.9 * y_range[1]
+
+    def line(self, points, title, style):
+        name = self._block(points or [("NaN", "NaN")])
+        self.lines.append(f'{name} using 1:2 with linespoints {style} title "{title}"')
+
+    def crosses(self, places, style, title=""):
+        """Crosses at the top edge, for what has no place in the plot."""
+        name = self._block([(x, self.top) for x in places])
+        color = style[style.index("lc "):]
+        shown = f'title "{title}"' if title else "notitle"
+        self.lines.append(f"{name} using 1:2 with points pt 2 ps 1.6 lw 2.2 {color} {shown}")
+
+    def write(self, path):
+        """PATH.png and PATH.svg"""
+        script = "\n".join(self.data + self.settings)
+        plot = "plot " + ", ".join(self.lines)
+        for terminal, ending in (("pngcairo size 1500,900 font 'DejaVu Sans,12'", "png"),
+                                 ("svg size 1500,900 font 'DejaVu Sans,14' background '#ffffff'",
+                                  "svg")):
+            text = f"set terminal {terminal}\nset output '{path}.{ending}'\n{script}\n" \
+                   f"set clip one\n{plot}\n"
+            subprocess.run(["gnuplot"], input=text, text=True, check=True)
+
+    def _block(self, points):
+        name = f"$data{len(self.data)}"
+        rows = "\n".join(f"{x} {y}" for x, y in points)
+        self.data.append(f"{name} << EOD\n{rows}\nEOD")
+        return name

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Builds the benchmarks, runs them and draws their plots; see benchmark/README.md.
+# Usage: scripts/benchmark.sh [throughput|end-to-end|skips|accuracy|all|smoke] [options]
+#   all (default)  everything, into benchmark/results
+#   smoke          a few points of everything, in seconds, into the build folder: shows that all works
+#   options        of the one benchmark, for example: accuracy --scene light_100 --passes 3
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+what=${1:-all}
+[ $# -gt 0 ] && shift
+folder=$build-benchmark
+results=$project/benchmark/results
+reports=$project/benchmark/reports
+[ "$what" = smoke ] && results=$folder/smoke
+
+# run PROGRAM [options]: ends here if a peer does not agree with the others
+run() {
+  local name=$1; shift
+  say "$name"
+  if [ "$what" = smoke ]; then set -- --smoke 1 "$@"; fi
+  "$folder/benchmark/benchmark_$name" --output "$results" "$@" > "$folder/$name.log"
+}
+
+throughput() {
+  run throughput "$@"
+  "$reports/plot_throughput.py" "$results/throughput.csv" "$results" > "$results/throughput.md"
+}
+end_to_end() {
+  run end_to_end "$@"
+  "$reports/table.py" "$results/end_to_end.csv" > "$results/end_to_end.md"
+}
+skips() {
+  run skips "$@"
+  "$reports/table.py" "$results/skips.csv" > "$results/skips.md"
+}
+accuracy() {
+  run work_precision "$@"
+  "$reports/plot_work_precision.py" "$results/work_precision.csv" "$results"
+  "$reports/cheapest_methods.py" "$results/work_precision.csv" > "$results/cheapest_methods.md"
+}
+
+case $what in
+  throughput | skips | accuracy) wanted=$what ;;
+  end-to-end) wanted=end_to_end ;;
+  all | smoke) wanted="throughput end_to_end skips accuracy" ;;
+  *) die "benchmark.sh: unknown benchmark '$what': known are throughput, end-to-end, skips," \
+         "accuracy, all, smoke" ;;
+esac
+
+"$project/scripts/setup.sh" core benchmark
+say "building into $folder"
+configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_BUILD_TYPE=Release \
+  -DSPRING_PENDULUM_TESTS=OFF -DSPRING_PENDULUM_BENCHMARKS=ON
+compile "$folder"
+mkdir -p "$results"
+SPRING_PENDULUM_COMMIT=$(git -c safe.directory="$project" -C "$project" describe --always --dirty \
+  2> /dev/null || echo unknown)
+export SPRING_PENDULUM_COMMIT
+for benchmark in $wanted; do "$benchmark" "$@"; done
+say "results: $results"
