@@ -1,19 +1,19 @@
 #include "interleaved.hpp"
 
 #include <algorithm>
-#include <chrono>
+
+#include "stopwatch.hpp"
 
 namespace spring_pendulum::benchmark {
 
-std::vector<Timing> timeInTurns(const std::vector<Work>& pieces, int rounds) {
+std::vector<Timing> timeInTurns(const std::vector<Work>& pieces, int rounds, Time time) {
   std::vector<std::vector<double>> samples(pieces.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (pieces[i].before) pieces[i].before();
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch stopwatch;
       pieces[i].work();
-      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-      samples[i].push_back(spent.count());
+      samples[i].push_back(time == Time::kAlone ? stopwatch.alone() : stopwatch.elapsed());
     }
   }
   std::vector<Timing> timings;

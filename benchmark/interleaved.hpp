@@ -19,7 +19,12 @@ struct Timing {
   double least = 0.0;   ///< s
 };
 
+enum class Time {
+  kElapsed,  ///< on the wall
+  kAlone     ///< without waiting for a processor, see Stopwatch::alone
+};
+
 /// One timing for each piece of work, each of which runs once in every round.
-std::vector<Timing> timeInTurns(const std::vector<Work>& pieces, int rounds);
+std::vector<Timing> timeInTurns(const std::vector<Work>& pieces, int rounds, Time time);
 
 }  // namespace spring_pendulum::benchmark

@@ -95,7 +95,7 @@ Pair timeEngineSkip(const std::string& name, const Chain& chain, bool EngineOpti
   }
   const auto timings = timeInTurns({{"with", [&] { with.reset(); }, [&] { with.run(); }},
                                     {"without", [&] { without.reset(); }, [&] { without.run(); }}},
-                                   rounds);
+                                   rounds, Time::kAlone);
   return {name, timings[0], timings[1], forcesOf(with)};
 }
 
@@ -121,7 +121,7 @@ Pair timeEnergySkip(Eigen::Index size, int rounds) {
   const auto timings =
       timeInTurns({{"with", [&] { with.reset(); }, [&] { run(with, plain); }},
                    {"without", [&] { without.reset(); }, [&] { run(without, balanced); }}},
-                  rounds);
+                  rounds, Time::kAlone);
   return {"no energy ledger", timings[0], timings[1], forcesOf(with)};
 }
 
@@ -140,7 +140,7 @@ Pair timeFramesSkip(Eigen::Index size, const std::string& folder, int rounds) {
                                        }
                                        writer.finish();
                                      }}},
-                                   rounds);
+                                   rounds, Time::kElapsed);
   std::filesystem::remove_all(frames);
   return {"no frame files", timings[0], timings[1], forcesOf(carried)};
 }

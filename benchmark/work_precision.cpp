@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -21,6 +20,7 @@
 #include "peer.hpp"
 #include "result_file.hpp"
 #include "scenes.hpp"
+#include "stopwatch.hpp"
 
 namespace spring_pendulum::benchmark {
 namespace {
@@ -35,9 +35,9 @@ struct Point {
 
 double secondsOf(Peer& peer) {
   peer.reset();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   peer.advance();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return stopwatch.alone();
 }
 
 /// Runs in a process of its own.
@@ -195,8 +195,8 @@ int run(const Options& options) {
   ResultFile file(
       options.output + "/work_precision.csv",
       {"Time and force evaluations against the true error: largest distance of a particle from the",
-       "reference solution at the end. One thread; least time of several runs; making a solver is",
-       "not timed. Points that failed or took too long stand here too."},
+       "reference solution at the end. One thread; least processor time of several runs; making a",
+       "solver is not timed. Points that failed or took too long stand here too."},
       "scene,library,method,control,value_s_or_m,status,time_ms,error_m,force_evaluations,note");
   bool all_agree = true;
   for (const ReferenceScene& scene : referenceScenes()) {

@@ -1,0 +1,36 @@
+// Time that a piece of work took, on a machine that others use too.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+namespace spring_pendulum::benchmark {
+
+class Stopwatch {
+ public:
+  /// s on the clock on the wall.
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  /// s without those in which this thread waited for a processor; for work that neither starts
+  /// threads nor waits for a file. On a quiet machine the same as `elapsed`, and never more, as the
+  /// two clocks are read in this order.
+  double alone() const {
+    const double wall = elapsed();
+    return std::min(wall, processorTime() - processor_start_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  static double processorTime() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  double processor_start_ = processorTime();
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace spring_pendulum::benchmark
