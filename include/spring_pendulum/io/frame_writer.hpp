@@ -4,7 +4,7 @@
 // shortest text that reads back as the same double. Above 9999 the index grows wider.
 #pragma once
 
-#include <spring_pendulum/io/file_descriptor.hpp>
+#include <spring_pendulum/io/frame_folder.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
@@ -22,9 +22,6 @@ class FrameWriter {
   /// \param frames how many frames are going to be written
   /// \throws FileError naming the folder or file
   FrameWriter(const std::string& folder, std::int64_t frames);
-  ~FrameWriter();
-  FrameWriter(const FrameWriter&) = delete;
-  FrameWriter& operator=(const FrameWriter&) = delete;
 
   /// Writes frame `index`, 0 <= index < frames.
   /// \throws FileError naming the file
@@ -34,26 +31,14 @@ class FrameWriter {
   void finish();
 
   /// Absolute path of the folder.
-  std::string folder() const { return folder_; }
+  std::string folder() const { return folder_.path(); }
   /// Wall-clock time spent in this class, s.
   double seconds() const { return seconds_; }
 
  private:
-  void openFolder();
-  void checkFolderIsWritable();
-  void removeEarlierFrames();
-  void writeFile(const std::string& name, const char* data, std::size_t size);
-  [[noreturn]] void refuse(const std::string& name, const std::string& reason) const;
-  [[noreturn]] void refuseForErrno(const std::string& name) const;
-
-  std::string folder_;
-  std::int64_t frames_;
-  FileDescriptor folder_descriptor_;
-  std::vector<char> text_;  ///< of one frame, reused
   double seconds_ = 0.0;
+  FrameFolder folder_;
+  std::vector<char> text_;  ///< of one frame, reused
 };
-
-/// "frame_0042.txt"
-std::string frameName(std::int64_t index);
 
 }  // namespace spring_pendulum

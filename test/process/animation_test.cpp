@@ -1,0 +1,95 @@
+// The moving picture: animate_pendulum.plt makes it of any folder of frames, at the true speed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "process/exercise3.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kData = PROJECT_DIR "/data";
+
+/// For each picture of a GIF, how long it is shown, in hundredths of a second: the bytes 4 and 5 of
+/// its graphic control extension, 21 F9 04 (GIF89a specification, section 23).
+std::vector<int> delaysOf(const std::string& gif) {
+  std::vector<int> delays;
+  const std::string start("\x21\xF9\x04", 3);
+  for (std::size_t at = gif.find(start); at != std::string::npos; at = gif.find(start, at + 1)) {
+    if (at + 7 >= gif.size() || gif[at + 7] != 0) continue;  // not one: it ends with a 0
+    delays.push_back(static_cast<unsigned char>(gif[at + 4]) +
+                     256 * static_cast<unsigned char>(gif[at + 5]));
+  }
+  return delays;
+}
+
+class Animation : public testing::Test {
+ protected:
+  void makeFrames(int frames, const std::string& particles = kTwoParticles) const {
+    folder_.write("particle.txt", particles);
+    ASSERT_EQ(run(exercise3(folder_, {"Euler", "--frames", std::to_string(frames)})).status, 0);
+  }
+
+  Result gnuplot(const std::string& commands) const {
+    return run({{"gnuplot", "-e", commands}, folder_.path()});
+  }
+
+  std::vector<int> delays() const { return delaysOf(readFile(folder_.path("pendulum.gif"))); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Animation, LoadsByBothSpellingsFromTheFolderOrElsewhere) {
+  makeFrames(3);
+  for (const std::string& name :
+       {std::string("animate_pendulum.plt"), std::string("animate pendulum.plt")}) {
+    std::filesystem::copy_file(std::string(kData) + "/" + name, folder_.path(name));
+  }
+  for (const std::string& prefix : {std::string(), std::string(kData) + "/"}) {
+    for (const std::string& name :
+         {std::string("animate_pendulum.plt"), std::string("animate pendulum.plt")}) {
+      const Result result = gnuplot("load \"" + prefix + name + "\"");
+      EXPECT_EQ(result.status, 0) << result.errors;
+      EXPECT_EQ(delays(), std::vector<int>(3, 10)) << prefix << name;  // 0.1 s
+      std::filesystem::remove(folder_.path("pendulum.gif"));
+    }
+  }
+}
+
+TEST_F(Animation, RunsAtTheTrueSpeed) {
+  makeFrames(12);
+  const std::string load = std::string("load \"") + kData + "/animate_pendulum.plt\"";
+  const auto delaysAt = [&](const std::string& interval) {
+    const Result result = gnuplot("frame_interval = " + interval + "; " + load);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return delays();
+  };
+  EXPECT_EQ(delaysAt("1.5"), std::vector<int>(12, 150));
+  EXPECT_EQ(delaysAt("0.02"), std::vector<int>(12, 2));
+  EXPECT_EQ(delaysAt("0.01"), std::vector<int>(6, 2));       // every second one
+  EXPECT_EQ(delaysAt("1.0 / 30"), std::vector<int>(4, 10));  // every third one
+}
+
+TEST_F(Animation, TakesAnyScene) {
+  const std::string load = std::string("load \"") + kData + "/animate_pendulum.plt\"";
+  for (const char* particles : {"0 0 1\n", "3 4 1\n3 3 1\n", "-1e6 0 1\n-1e6 1 1\n"}) {
+    makeFrames(2, particles);
+    folder_.write("frame_notes.txt", "no frame\n");
+    const Result result = gnuplot(load);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(delays().size(), 2U) << particles;
+  }
+}
+
+TEST_F(Animation, TellsWhenThereAreNoFrames) {
+  const Result result = gnuplot(std::string("load \"") + kData + "/animate_pendulum.plt\"");
+  EXPECT_NE(result.status, 0);
+  EXPECT_THAT(result.errors, HasSubstr("run gnuplot in the folder of the frames"));
+  EXPECT_TRUE(listFolder(folder_.path()).empty());
+}
+
+}  // namespace
+}  // namespace spring_pendulum
