@@ -1,8 +1,8 @@
 // The exercise: carries a chain of particles through time and writes a file a frame.
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/io/background_frame_writer.hpp>
 #include <spring_pendulum/io/command_line.hpp>
 #include <spring_pendulum/io/energy_file.hpp>
-#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/interruption.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/progress.hpp>
@@ -36,7 +36,7 @@ struct Summary {
 
 /// Where a frame goes; null where it is not wanted.
 struct Outputs {
-  FrameWriter* frames = nullptr;
+  BackgroundFrameWriter* frames = nullptr;
   EnergyFile* energy = nullptr;
 };
 
@@ -71,19 +71,20 @@ std::string counted(std::int64_t count, const char* noun) {
 }
 
 void printSummary(const Scenario& scenario, const Summary& summary, const Chain& chain,
-                  const SleepingIntegrator& integrator, const FrameWriter* writer,
+                  const SleepingIntegrator& integrator, const BackgroundFrameWriter* writer,
                   const Judge& judge) {
   const bool fixed = findMethod(scenario.method).control == StepControl::kFixed;
   const std::int64_t slept = integrator.sleptCalls();
   const std::int64_t steps =
       std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
-  const double writing_seconds = writer == nullptr ? 0.0 : writer->seconds();
+  const double waited = writer == nullptr ? 0.0 : writer->secondsWaited();
+  const double writing = writer == nullptr ? 0.0 : writer->secondsWriting();
   fmt::print("{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, verdict: {}\n",
              scenario.method, counted(chain.size(), "particle"), counted(summary.frames, "frame"),
              slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
              fixed ? counted(steps, "step") + ", " : "",
              counted(integrator.forceEvaluations(), "force evaluation"),
-             std::max(summary.seconds - writing_seconds, 0.0), writing_seconds,
+             std::max(summary.seconds - waited, 0.0), writing,
              writer == nullptr ? "" : " to " + writer->folder(), toString(judge.worst().kind));
 }
 
@@ -124,7 +125,7 @@ int run(const CommandLine& command_line) {
   }
   std::optional<EnergyFile> energy;
   if (wants_ledger) energy.emplace(scenario.energy);
-  std::optional<FrameWriter> writer;
+  std::optional<BackgroundFrameWriter> writer;
   if (!scenario.no_frames) writer.emplace(scenario.output, scenario.frames);
 
   catchInterruptions();
