@@ -24,13 +24,15 @@ ControlledStepper::ControlledStepper(const Chain& chain, const IntegratorOptions
 void ControlledStepper::start(const State& state) {
   end_.values() = state.values();
   controller_.restart();
+  restarted_ = true;
   // Short for any scene at this tolerance; the controller makes five times as much of it a step.
   next_step_ = std::max(0.01 * root(allowed_error_, error_order_), kShortestStep);
 }
 
 double ControlledStepper::step() {
   std::swap(begin_, end_);
-  prepare();
+  prepare(restarted_);
+  restarted_ = false;
   for (;;) {
     const double h = admissible(std::clamp(next_step_, kShortestStep, kLongestStep));
     const double error = attempt(h) / allowed_error_;

@@ -2,6 +2,7 @@
 #include <spring_pendulum/integration/explicit_runge_kutta.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/integration/plain_runge_kutta.hpp>
+#include <spring_pendulum/integration/rock4.hpp>
 #include <spring_pendulum/integration/rosenbrock.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -22,6 +23,11 @@ std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const C
   EngineOptions engine;
   engine.threads = options.threads;
   return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, engine);
+}
+
+std::unique_ptr<Integrator> makeRock4(const Method&, const Chain& chain,
+                                      const IntegratorOptions& options) {
+  return std::make_unique<ErrorControlled>(std::make_unique<Rock4Stepper>(chain, options));
 }
 
 std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,
@@ -46,6 +52,10 @@ const std::vector<Method>& methodTable() {
        "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
        "the sound choice with a fixed step, as long as no particle is very light",
        &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
+      {"ROCK4", 4, 5, StepControl::kErrorControlled, 310.3139, 3.2,
+       "A. Abdulle, SIAM J. Sci. Comput. 23 (2002) 2041-2054, doi:10.1137/S1064827500379549",
+       "stabilised explicit, 5 to 30 stages a step: for light particles (k_d/m of 1e2/s to 1e5/s)",
+       nullptr, makeRock4},
       {"Rodas5P", 5, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "G. Steinebach, BIT Numer. Math. 63 (2023) 27, doi:10.1007/s10543-023-00967-x",
        "linearly implicit: for very light particles (k_d/m beyond 1e5/s) and coarse tolerances",

@@ -32,7 +32,9 @@ double root(double x, int k) {
   const double scaled = std::ldexp(fraction, exponent - whole * k);
   double y = 1.0;
   for (int i = 0; i < 40; ++i) {
-    y -= (y - scaled / integerPower(y, k - 1)) / k;
+    const double next = y - (y - scaled / integerPower(y, k - 1)) / k;
+    if (next >= y) break;  // rounding has the last word
+    y = next;
   }
   return std::ldexp(y, whole);
 }

@@ -3,6 +3,7 @@
 //
 //     slope of a stage     k = F(z + w_1 k_1 + w_2 k_2 + ...)
 //     combination          z + w_1 k_1 + w_2 k_2 + ...
+//     recurrence           z + κ (y - z) + w F(z)
 //     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
 //
 // Every particle sees the operations of the plain code (computeAccelerations) in its order and
@@ -82,6 +83,11 @@ struct ChainKernels {
 
   /// out = state + sum
   void (*combine)(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out);
+
+  /// out = last + kappa (before - last) + weight F(last): one stage of a three-term recurrence.
+  /// `out` may be `before`. Row 0 is that of `last` if it is also that of `before`.
+  void (*recurrence)(const KernelChain& chain, const double* last, const double* before,
+                     double kappa, double weight, double* out);
 
   /// Of the sum alone, over the first `size` particles. A maximum, so no order matters.
   LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);

@@ -26,8 +26,9 @@ class ControlledStepper : public AdaptiveStepper {
   ControlledStepper(const Chain& chain, const IntegratorOptions& options, double allowed_error,
                     int error_order);
 
-  /// Is told that `begin()` holds a new state, before the first attempt from there.
-  virtual void prepare() = 0;
+  /// Before the first attempt from the new state that `begin()` holds.
+  /// \param restarted whether it is not the `end()` of the last step
+  virtual void prepare(bool restarted) = 0;
 
   /// Makes `end()` from `begin()`.
   /// \returns the estimated position error, m; NaN if anything is not finite
@@ -55,6 +56,7 @@ class ControlledStepper : public AdaptiveStepper {
   StepController controller_;
   StateBuffer begin_;
   StateBuffer end_;
+  bool restarted_ = true;
   double next_step_ = 0.0;
   StepStatistics statistics_;
   mutable State sample_;  ///< workspace of `dissipated`

@@ -24,7 +24,7 @@ class RosenbrockStepper final : public ControlledStepper {
   void interpolate(double fraction, State& state) const override;
 
  private:
-  void prepare() override { jacobian_is_current_ = false; }
+  void prepare(bool) override { jacobian_is_current_ = false; }
   double attempt(double h) override;
   void computeStage(std::size_t i, double h);
   /// (I/q - J) u = right-hand side, in place.

@@ -12,7 +12,7 @@ namespace spring_pendulum {
 namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
-  return {name, stageSlope, combine, largestChange, advanceKernel};
+  return {name, stageSlope, combine, recurrence, largestChange, advanceKernel};
 }
 
 }  // namespace

@@ -46,6 +46,33 @@ void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* ou
   }
 }
 
+template <bool kDamped>
+void recurrence(const KernelChain& chain, const double* last, const double* before, double kappa,
+                double weight, double* out) {
+  const std::ptrdiff_t blocks = blocksOf(chain.size);
+  Block here = loadBlock(last, chain.pitch, 0);
+  PlaneVector<Pack> left{};
+  for (std::ptrdiff_t block = 0; block < blocks; ++block) {
+    const Block next = block + 1 < blocks ? loadBlock(last, chain.pitch, block + 1) : here;
+    const PlaneVector<Pack> right = forcesFromRight<kDamped>(chain, here, next, block);
+    const Block slope = slopeOf<true>(chain, here, left, right, block);
+    const Block old = loadBlock(before, chain.pitch, block);
+    const Block back{old.x - here.x, old.y - here.y, old.vx - here.vx, old.vy - here.vy};
+    storeBlock(plusWeighted(plusWeighted(here, kappa, back), weight, slope), out, chain.pitch,
+               block);
+    left = right;
+    here = next;
+  }
+}
+
+void recurrence(const KernelChain& chain, const double* last, const double* before, double kappa,
+                double weight, double* out) {
+  if (chain.spring.damping == 0.0) {
+    return recurrence<false>(chain, last, before, kappa, weight, out);
+  }
+  recurrence<true>(chain, last, before, kappa, weight, out);
+}
+
 /// A maximum that also remembers whether anything was not finite, which a comparison forgets.
 class Largest {
  public:
