@@ -1,5 +1,5 @@
 #include <spring_pendulum/integration/rock4.hpp>
-#include <spring_pendulum/model/rates.hpp>
+#include <spring_pendulum/model/chain_modes.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kShareOfTolerance = 1e-2;
+constexpr double kShareOfTolerance = 8e-6;
 
 /// The last percents of a stability interval are left to the springs' own part of the rates.
 constexpr double kUsedStability = 0.97;
@@ -20,7 +20,7 @@ double longestStep(const Rock4Coefficients& method, double rate) {
 
 Rock4Stepper::Rock4Stepper(const Chain& chain, const IntegratorOptions& options)
     : ControlledStepper(chain, options, kShareOfTolerance * options.tolerance, 4),
-      fastest_rate_(fastestDampingRate(chain)),
+      fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
       method_(&rock4Table().front()),
       first_slope_(chain.size()),
       inner_{StateBuffer(chain.size()), StateBuffer(chain.size())} {

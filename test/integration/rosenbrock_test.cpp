@@ -106,7 +106,7 @@ struct Run {
 Run runScene(const std::string& name, double tolerance, const RosenbrockTableau& tableau) {
   test::Scene scene = test::referenceScene(name);
   ErrorControlled integrator(std::make_unique<RosenbrockStepper>(
-      scene.chain, tableau, IntegratorOptions{tolerance, false}));
+      scene.chain, tableau, IntegratorOptions{tolerance, false, 1}));
   integrator.advance(scene.start, 1.0, 1);
   return {test::positionError(scene.start, test::referenceSolution(name, 1)),
           1.0 / static_cast<double>(integrator.statistics().accepted)};
@@ -126,7 +126,7 @@ TEST(Rodas5P, DenseOutputHasOrderFour) {
   const test::Scene scene = test::referenceScene("horizontal_11");
   const double order = test::denseOutputOrder(scene, 1e-3, 1e-6, [&scene](double tolerance) {
     return std::make_unique<RosenbrockStepper>(scene.chain, kRodas5PTableau,
-                                               IntegratorOptions{tolerance, false});
+                                               IntegratorOptions{tolerance, false, 1});
   });
   EXPECT_NEAR(order, 4.0, 0.4);  // 3.98
 }
@@ -134,7 +134,7 @@ TEST(Rodas5P, DenseOutputHasOrderFour) {
 TEST(Rodas5P, HeatClosesTheEnergyBalance) {
   test::Scene scene = test::referenceScene("horizontal_11");
   const double before = computeEnergy(scene.chain, scene.start).total();
-  const auto integrator = makeIntegrator("Rodas5P", scene.chain, {1e-8, true});
+  const auto integrator = makeIntegrator("Rodas5P", scene.chain, IntegratorOptions{1e-8, true, 1});
   integrator->advance(scene.start, 0.1, 20);
   const double after = computeEnergy(scene.chain, scene.start).total();
   EXPECT_GT(integrator->dissipatedEnergy(), 1.0);
@@ -144,7 +144,7 @@ TEST(Rodas5P, HeatClosesTheEnergyBalance) {
 TEST(Rodas5P, CountsItsEvaluations) {
   test::Scene scene = test::referenceScene("light_100");
   ErrorControlled integrator(std::make_unique<RosenbrockStepper>(scene.chain, kRodas5PTableau,
-                                                                 IntegratorOptions{1e-3, false}));
+                                                                 IntegratorOptions{1e-3, false, 1}));
   integrator.advance(scene.start, 1.0, 1);
   const StepStatistics statistics = integrator.statistics();
   EXPECT_GT(statistics.accepted, 10);

@@ -50,16 +50,18 @@ template <bool kDamped>
 void recurrence(const KernelChain& chain, const double* last, const double* before, double kappa,
                 double weight, double* out) {
   const std::ptrdiff_t blocks = blocksOf(chain.size);
-  Block here = loadBlock(last, chain.pitch, 0);
+  const std::ptrdiff_t pitch = chain.pitch;
+  Block here = load({last, pitch});
   PlaneVector<Pack> left{};
   for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-    const Block next = block + 1 < blocks ? loadBlock(last, chain.pitch, block + 1) : here;
+    const std::ptrdiff_t next_block = block + 1 < blocks ? block + 1 : block;
+    const Block next = load({last + next_block * kLanes, pitch});
     const PlaneVector<Pack> right = forcesFromRight<kDamped>(chain, here, next, block);
     const Block slope = slopeOf<true>(chain, here, left, right, block);
-    const Block old = loadBlock(before, chain.pitch, block);
+    const Block old = load({before + block * kLanes, pitch});
     const Block back{old.x - here.x, old.y - here.y, old.vx - here.vx, old.vy - here.vy};
-    storeBlock(plusWeighted(plusWeighted(here, kappa, back), weight, slope), out, chain.pitch,
-               block);
+    store(plusWeighted(plusWeighted(here, kappa, back), weight, slope),
+          {out + block * kLanes, pitch});
     left = right;
     here = next;
   }
