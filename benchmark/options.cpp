@@ -1,8 +1,11 @@
 #include "options.hpp"
 
+#include <cstdio>
+#include <exception>
 #include <stdexcept>
 
 namespace spring_pendulum::benchmark {
+namespace {
 
 Options parseOptions(int count, char** words) {
   Options options;
@@ -29,6 +32,20 @@ Options parseOptions(int count, char** words) {
     }
   }
   return options;
+}
+
+}  // namespace
+
+int runBenchmark(int count, char** words, int (*run)(const Options&)) {
+  try {
+    return run(parseOptions(count, words));
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }
 
 }  // namespace spring_pendulum::benchmark

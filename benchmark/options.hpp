@@ -15,7 +15,8 @@ struct Options {
   bool smoke = false;  ///< few points, seconds in all: shows that everything works
 };
 
-/// \throws std::invalid_argument for a name it does not know
-Options parseOptions(int count, char** words);
+/// What main() does: reads the options, runs, and reports what goes wrong.
+/// \return exit status: what `run` returns, 1 if it throws, 2 for options it does not know
+int runBenchmark(int count, char** words, int (*run)(const Options&));
 
 }  // namespace spring_pendulum::benchmark

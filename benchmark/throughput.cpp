@@ -165,12 +165,7 @@ bool runSize(std::size_t particles, int rounds, std::set<std::string>& lost, Res
   return all_agree;
 }
 
-}  // namespace
-}  // namespace spring_pendulum::benchmark
-
-int main(int count, char** words) {
-  using namespace spring_pendulum::benchmark;
-  const Options options = parseOptions(count, words);
+int run(const Options& options) {
   ResultFile file(options.output + "/throughput.csv",
                   {"Classical Runge-Kutta method: nanoseconds per spring force, by chain length.",
                    "Candidates take turns; median and least of the rounds. `difference` is the",
@@ -185,4 +180,12 @@ int main(int count, char** words) {
     all_agree = runSize(particles, rounds, lost, file) && all_agree;
   }
   return all_agree ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace spring_pendulum::benchmark
+
+int main(int count, char** words) {
+  using namespace spring_pendulum::benchmark;
+  return runBenchmark(count, words, run);
 }

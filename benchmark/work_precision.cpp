@@ -212,5 +212,5 @@ int run(const Options& options) {
 
 int main(int count, char** words) {
   using namespace spring_pendulum::benchmark;
-  return run(parseOptions(count, words));
+  return runBenchmark(count, words, run);
 }

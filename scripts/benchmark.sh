@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks, runs them and draws their plots; see benchmark/README.md.
-# Usage: scripts/benchmark.sh [throughput|end-to-end|skips|accuracy|all|smoke] [options]
+# Usage: scripts/benchmark.sh [throughput|end-to-end|skips|accuracy|stability|all|smoke] [options]
 #   all (default)  everything, into benchmark/results
 #   smoke          a few points of everything, in seconds, into the build folder: shows that all works
 #   options        of the one benchmark, for example: accuracy --scene light_100 --passes 3
@@ -40,12 +40,17 @@ accuracy() {
   "$reports/cheapest_methods.py" "$results/work_precision.csv" > "$results/cheapest_methods.md"
 }
 
+stability() {
+  run stability "$@"
+  (cd "$results" && gnuplot "$reports/stability_map.plt")
+}
+
 case $what in
-  throughput | skips | accuracy) wanted=$what ;;
+  throughput | skips | accuracy | stability) wanted=$what ;;
   end-to-end) wanted=end_to_end ;;
-  all | smoke) wanted="throughput end_to_end skips accuracy" ;;
+  all | smoke) wanted="throughput end_to_end skips accuracy stability" ;;
   *) die "benchmark.sh: unknown benchmark '$what': known are throughput, end-to-end, skips," \
-         "accuracy, all, smoke" ;;
+         "accuracy, stability, all, smoke" ;;
 esac
 
 "$project/scripts/setup.sh" core benchmark
