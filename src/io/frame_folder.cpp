@@ -159,18 +159,29 @@ FileDescriptor FrameFolder::openHidden(std::int64_t index) {
       ::openat(folder, hidden_name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
 }
 
-void FrameFolder::writeFrame(std::int64_t index, const char* data, std::size_t size) {
+void FrameFolder::beginFrame(std::int64_t index) {
   assert(descriptor_.isOpen());
-  const std::string name = frameName(index);
-  FileDescriptor file = openHidden(index);
-  if (!file.isOpen() || !writeAll(file.get(), data, size)) refuseForErrno(name);
+  frame_name_ = frameName(index);
+  length_ = 0;
+  file_ = openHidden(index);
+  if (!file_.isOpen()) refuseForErrno(frame_name_);
+}
+
+void FrameFolder::write(const char* data, std::size_t size) {
+  if (!writeAll(file_.get(), data, size)) refuseForErrno(frame_name_);
+  length_ += static_cast<std::int64_t>(size);
+}
+
+void FrameFolder::endFrame() {
   struct stat status {};
-  const auto length = static_cast<off_t>(size);
-  if (::fstat(file.get(), &status) != 0) refuseForErrno(name);
-  if (status.st_size != length && ::ftruncate(file.get(), length) != 0) refuseForErrno(name);
-  if (!file.close()) refuseForErrno(name);
+  const int file = file_.get();
+  if (::fstat(file, &status) != 0) refuseForErrno(frame_name_);
+  if (status.st_size != length_ && ::ftruncate(file, length_) != 0) refuseForErrno(frame_name_);
+  if (!file_.close()) refuseForErrno(frame_name_);
   const int folder = descriptor_.get();
-  if (::renameat(folder, hidden_name_.c_str(), folder, name.c_str()) != 0) refuseForErrno(name);
+  if (::renameat(folder, hidden_name_.c_str(), folder, frame_name_.c_str()) != 0) {
+    refuseForErrno(frame_name_);
+  }
   hidden_name_.clear();
 }
 

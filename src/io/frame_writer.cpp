@@ -3,6 +3,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace spring_pendulum {
@@ -11,6 +12,7 @@ namespace {
 // The longest shortest text of a double is -2.2250738585072014e-308.
 constexpr std::size_t kLongestNumber = 24;
 constexpr std::size_t kLongestLine = 2 * (kLongestNumber + 1);
+constexpr Eigen::Index kLinesAtOnce = 4096;
 
 /// Adds the time it lives to a sum.
 class Stopwatch {
@@ -34,15 +36,19 @@ FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames)
         return FrameFolder(folder, frames);
       }()) {}
 
-void FrameWriter::write(std::int64_t index, const State& state) {
+void FrameWriter::write(std::int64_t index, const Eigen::Ref<const PlaneVectors>& positions) {
   const Stopwatch stopwatch(seconds_);
-  const auto size = static_cast<std::size_t>(state.size());
-  if (text_.size() < size * kLongestLine) text_.resize(size * kLongestLine);
-  char* end = text_.data();
-  for (Eigen::Index i = 0; i < state.size(); ++i) {
-    end = fmt::format_to(end, FMT_COMPILE("{} {}\n"), state.x()[i], state.y()[i]);
+  const Eigen::Index size = positions.rows();
+  text_.resize(static_cast<std::size_t>(std::min(size, kLinesAtOnce)) * kLongestLine);
+  folder_.beginFrame(index);
+  for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
+    char* end = text_.data();
+    for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
+      end = fmt::format_to(end, FMT_COMPILE("{} {}\n"), positions(i, 0), positions(i, 1));
+    }
+    folder_.write(text_.data(), static_cast<std::size_t>(end - text_.data()));
   }
-  folder_.writeFrame(index, text_.data(), static_cast<std::size_t>(end - text_.data()));
+  folder_.endFrame();
 }
 
 void FrameWriter::finish() {

@@ -30,8 +30,11 @@ class FrameFolder {
   FrameFolder(const FrameFolder&) = delete;
   FrameFolder& operator=(const FrameFolder&) = delete;
 
+  /// A frame is begun, written piece by piece and ended, when it appears in the folder.
   /// \throws FileError naming the file
-  void writeFrame(std::int64_t index, const char* data, std::size_t size);
+  void beginFrame(std::int64_t index);
+  void write(const char* data, std::size_t size);
+  void endFrame();
 
   /// Removes what is left of an earlier run and unlocks the folder. No frame after this.
   void close();
@@ -52,7 +55,10 @@ class FrameFolder {
   std::string path_;
   FileDescriptor descriptor_;
   std::vector<std::string> old_files_;  ///< hidden, to be written again from the back
-  std::string hidden_name_;             ///< of the file that is being written
+  FileDescriptor file_;                 ///< that is being written
+  std::string hidden_name_;             ///< of this file
+  std::string frame_name_;              ///< that it is going to have
+  std::int64_t length_ = 0;             ///< written to it so far, bytes
 };
 
 }  // namespace spring_pendulum

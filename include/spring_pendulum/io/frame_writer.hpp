@@ -5,6 +5,7 @@
 #pragma once
 
 #include <spring_pendulum/io/frame_folder.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
@@ -24,8 +25,10 @@ class FrameWriter {
   FrameWriter(const std::string& folder, std::int64_t frames);
 
   /// Writes frame `index`, 0 <= index < frames.
+  /// \param positions N×2, m
   /// \throws FileError naming the file
-  void write(std::int64_t index, const State& state);
+  void write(std::int64_t index, const Eigen::Ref<const PlaneVectors>& positions);
+  void write(std::int64_t index, const State& state) { write(index, state.positions()); }
 
   /// Ends the run; the folder is free for another one. No write after this.
   void finish();
@@ -38,7 +41,7 @@ class FrameWriter {
  private:
   double seconds_ = 0.0;
   FrameFolder folder_;
-  std::vector<char> text_;  ///< of one frame, reused
+  std::vector<char> text_;  ///< of some lines, reused
 };
 
 }  // namespace spring_pendulum
