@@ -1,8 +1,7 @@
 #include <spring_pendulum/integration/controlled_stepper.hpp>
-#include <spring_pendulum/model/energy.hpp>
+#include <spring_pendulum/integration/heat_of_step.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -50,16 +49,7 @@ double ControlledStepper::step() {
 
 double ControlledStepper::dissipated(double fraction) const {
   if (!track_dissipation_) return 0.0;
-  // Three nodes on [-1, 1], exact for polynomials of degree 5.
-  const double node = std::sqrt(0.6);
-  const std::array<std::pair<double, double>, 3> rule{
-      {{-node, 5.0 / 18.0}, {0.0, 8.0 / 18.0}, {node, 5.0 / 18.0}}};
-  double mean_power = 0.0;
-  for (const auto& [position, weight] : rule) {
-    interpolate(fraction * 0.5 * (1.0 + position), sample_);
-    mean_power += weight * dissipatedPower(chain_, sample_);
-  }
-  return fraction * statistics_.last_step * mean_power;
+  return heatOfStep(*this, chain_, statistics_.last_step, fraction, sample_);
 }
 
 }  // namespace spring_pendulum

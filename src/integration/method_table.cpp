@@ -1,9 +1,11 @@
+#include <spring_pendulum/integration/embedded_runge_kutta.hpp>
 #include <spring_pendulum/integration/error_controlled.hpp>
 #include <spring_pendulum/integration/explicit_runge_kutta.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/integration/plain_runge_kutta.hpp>
 #include <spring_pendulum/integration/rock4.hpp>
 #include <spring_pendulum/integration/rosenbrock.hpp>
+#include <spring_pendulum/integration/taylor_series.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
@@ -36,6 +38,19 @@ std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,
       std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options));
 }
 
+template <const EmbeddedPair& kPair>
+std::unique_ptr<Integrator> makeEmbeddedPair(const Method&, const Chain& chain,
+                                             const IntegratorOptions& options) {
+  return std::make_unique<ErrorControlled>(
+      std::make_unique<EmbeddedRungeKutta>(chain, kPair, options));
+}
+
+std::unique_ptr<Integrator> makeTaylorSeries(const Method& method, const Chain& chain,
+                                             const IntegratorOptions& options) {
+  return std::make_unique<ErrorControlled>(
+      std::make_unique<TaylorSeries>(chain, method.order, options));
+}
+
 }  // namespace
 
 const std::vector<Method>& methodTable() {
@@ -52,6 +67,23 @@ const std::vector<Method>& methodTable() {
        "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
        "the sound choice with a fixed step, as long as no particle is very light",
        &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
+      {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
+       "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
+       "doi:10.1016/0771-050X(80)90013-3",
+       "the best known pair, for comparisons: Taylor-8 needs less time for the same error",
+       &kDormandPrince5.tableau, makeEmbeddedPair<kDormandPrince5>},
+      {"Dormand-Prince-8", 8, 12, StepControl::kErrorControlled, 6.3936515228, 5.9603598117,
+       "E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, 2nd ed., Springer 1993, section II.10",
+       "Hairer's DOP853, for comparisons: Taylor-12 needs less time for the same error",
+       &kDormandPrince8.tableau, makeEmbeddedPair<kDormandPrince8>},
+      {"Taylor-8", 8, 8, StepControl::kErrorControlled, 4.313627227774381, 3.3951402205749246,
+       "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
+       "the fastest for tolerances down to 1e-6 m, as long as no particle is very light", nullptr,
+       makeTaylorSeries},
+      {"Taylor-12", 12, 12, StepControl::kErrorControlled, 5.8227790681937215, 3.3793773141575327,
+       "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
+       "the fastest for tighter tolerances, as long as no particle is very light", nullptr,
+       makeTaylorSeries},
       {"ROCK4", 4, 5, StepControl::kErrorControlled, 310.3139, 3.2,
        "A. Abdulle, SIAM J. Sci. Comput. 23 (2002) 2041-2054, doi:10.1137/S1064827500379549",
        "stabilised explicit, 5 to 30 stages a step: for light particles (k_d/m of 1e2/s to 1e5/s)",

@@ -5,8 +5,7 @@
 
 namespace spring_pendulum {
 
-PlainRungeKutta::PlainRungeKutta(Chain chain, const ButcherTableau& tableau,
-                                       bool track_dissipation)
+PlainRungeKutta::PlainRungeKutta(Chain chain, const ButcherTableau& tableau, bool track_dissipation)
     : chain_(std::move(chain)),
       tableau_(tableau),
       track_dissipation_(track_dissipation),

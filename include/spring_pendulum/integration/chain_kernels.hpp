@@ -12,6 +12,7 @@
 #pragma once
 
 #include <spring_pendulum/integration/butcher_tableau.hpp>
+#include <spring_pendulum/integration/taylor_workspace.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
@@ -95,6 +96,19 @@ struct ChainKernels {
   /// Whole steps of a tableau, for chains with or without damping and gravity; null if none was
   /// compiled for this tableau (which is known by its address).
   AdvanceKernel (*advanceKernel)(const ButcherTableau& tableau, bool damped, bool gravity);
+
+  /// All Taylor coefficients of the motion about a state.
+  void (*taylorSeries)(const TaylorWorkspace& work, const double* state);
+
+  /// out = the sum of the series about `state`, `time` s later; `out` may be `state`.
+  void (*taylorState)(const TaylorWorkspace& work, const double* state, double time, double* out);
+
+  /// Largest absolute value of coefficient n of the accelerations; NaN if one is not finite.
+  double (*taylorLargest)(const TaylorWorkspace& work, std::ptrdiff_t n);
+
+  /// Largest change of a spring's length within `time` s by the sum of its series, relative to the
+  /// length; NaN if one is not finite.
+  double (*taylorLengthChange)(const TaylorWorkspace& work, double time);
 };
 
 /// The kernels of every instruction set that this processor has, the fastest first. The last is the

@@ -18,7 +18,7 @@ class ControlledStepper : public AdaptiveStepper {
   double step() final;
   /// By Gauss-Legendre quadrature of the dissipated power along the dense output.
   double dissipated(double fraction) const final;
-  StepStatistics statistics() const final { return statistics_; }
+  StepStatistics statistics() const override { return statistics_; }
 
  protected:
   /// \param allowed_error position error allowed in a step, m

@@ -7,12 +7,14 @@
 
 #include "conveyor.hpp"
 #include "stage_kernels.hpp"
+#include "taylor_kernels.hpp"
 
 namespace spring_pendulum {
 namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
-  return {name, stageSlope, combine, recurrence, largestChange, advanceKernel};
+  return {name,          stageSlope,   combine,     recurrence,    largestChange,
+          advanceKernel, taylorSeries, taylorState, taylorLargest, taylorLengthChange};
 }
 
 }  // namespace

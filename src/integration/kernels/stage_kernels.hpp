@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "block.hpp"
+#include "largest.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -74,28 +75,6 @@ void recurrence(const KernelChain& chain, const double* last, const double* befo
   }
   recurrence<true>(chain, last, before, kappa, weight, out);
 }
-
-/// A maximum that also remembers whether anything was not finite, which a comparison forgets.
-class Largest {
- public:
-  void add(Pack value) {
-    largest_ = larger(largest_, absolute(value));
-    not_finite_ = not_finite_ + (value - value);
-  }
-  double result() const {
-    double result = 0.0;
-    double not_finite = 0.0;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      result = largest_.lanes[lane] > result ? largest_.lanes[lane] : result;
-      not_finite += not_finite_.lanes[lane];
-    }
-    return result + not_finite;
-  }
-
- private:
-  Pack largest_;
-  Pack not_finite_;
-};
 
 LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum) {
   Largest position;

@@ -1,0 +1,67 @@
+// Explicit Runge-Kutta methods that estimate their own error: a tableau of order p, weights of the
+// difference to a method of lower order made of the same slopes, and a polynomial that gives the
+// state inside the step.
+//
+//     z_{n+1} = z_n + h sum b_i k_i      error = h sum e_i k_i      z(t_n + θh) = z_n + h sum
+//     b_i(θ) k_i
+//
+// The slope at the end of a step, k_s = F(z_{n+1}), is the first slope of the next one; it and the
+// extra slopes behind it, which only the dense output needs, are counted like stages.
+//
+// Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
+// ed., Springer 1993, sections II.4 to II.6 and II.10.
+#pragma once
+
+#include <spring_pendulum/integration/butcher_tableau.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace spring_pendulum {
+
+struct EmbeddedPair {
+  static constexpr std::size_t kMaxSlopes = ButcherTableau::kMaxStages;
+  static constexpr std::size_t kMaxDegree = 7;
+  using Weights = std::array<double, kMaxSlopes>;
+
+  /// Row `stages` of `a` belongs to k_s and is not used; the rows behind it make the extra slopes.
+  ButcherTableau tableau;
+  /// Power of h with which the estimated error of a step grows, less 1.
+  int error_order = 0;
+  /// e_i
+  Weights error{};
+  /// Of a second, coarser estimate; all 0 if there is none. Both are joined to
+  /// error²/sqrt(error² + coarse²/100), which is less often deceived than either.
+  Weights coarse_error{};
+  /// How many slopes the dense output is made of.
+  std::size_t dense_slopes = 0;
+  /// b_i(θ) = sum over d of dense[i][d] θ^(d+1)
+  std::array<std::array<double, kMaxDegree>, kMaxSlopes> dense{};
+
+  bool hasCoarseError() const { return coarse_error[0] != 0.0; }
+  /// b_i(θ) of the dense output.
+  Weights denseWeights(double theta) const;
+};
+
+/// Dormand-Prince 5(4): six stages, order 5, dense output of order 4 from the slopes at hand.
+///
+///     0    |
+///     1/5  | 1/5
+///     3/10 | 3/40        9/40
+///     4/5  | 44/45       -56/15       32/9
+///     8/9  | 19372/6561  -25360/2187  64448/6561  -212/729
+///     1    | 9017/3168   -355/33      46732/5247  49/176    -5103/18656
+///     -----+------------------------------------------------------------------
+///          | 35/384      0            500/1113    125/192   -2187/6784   11/84
+///
+/// J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26,
+/// doi:10.1016/0771-050X(80)90013-3; dense output as in Hairer's DOPRI5, section II.6.
+extern const EmbeddedPair kDormandPrince5;
+
+/// Dormand-Prince 8(5,3): twelve stages, order 8, dense output of order 7 with three extra slopes,
+/// which are only evaluated for steps that an output time falls into. Coefficients of Hairer's
+/// DOP853: Hairer, Nørsett, Wanner, section II.10; P. J. Prince, J. R. Dormand, J. Comput. Appl.
+/// Math. 7 (1981) 67-75, doi:10.1016/0771-050X(81)90010-3.
+extern const EmbeddedPair kDormandPrince8;
+
+}  // namespace spring_pendulum

@@ -1,0 +1,38 @@
+// The numbers that the kernels of the Taylor series method work on. The method itself is explained
+// in taylor_series.hpp.
+#pragma once
+
+#include <spring_pendulum/model/spring_law.hpp>
+
+#include <cstddef>
+
+namespace spring_pendulum {
+
+inline constexpr std::ptrdiff_t kLargestTaylorOrder = 30;
+
+/// Taylor coefficients of the motion of a chain about one moment. Spring i joins particles i and
+/// i+1; where there is none (behind the chain's end) its coefficients are without effect.
+struct TaylorWorkspace {
+  SpringLaw spring;
+  double gravity = 0.0;                    ///< m/s²
+  const double* inverse_masses = nullptr;  ///< `pitch` numbers, 1/kg; 0: fixed or none
+  std::ptrdiff_t size = 0;                 ///< N >= 1 particles
+  std::ptrdiff_t pitch = 0;                ///< a multiple of 8, at least N
+  std::ptrdiff_t order = 0;                ///< K in 2..30: how many coefficients the forces have
+
+  /// Eight springs at a time: K + 2 rows of 4 times 8 numbers. Row n holds coefficient n of the
+  /// separation (x, y), the length L and the quotient u = T/L; the last row 1/L_0 times the
+  /// separation (x, y), and 1/L_0.
+  double* springs = nullptr;
+  /// K times 2 times `pitch` numbers: coefficient n of the accelerations (x, y).
+  double* accelerations = nullptr;
+
+  static std::ptrdiff_t springNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
+    return pitch * 4 * (order + 2);
+  }
+  static std::ptrdiff_t accelerationNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
+    return pitch * 2 * order;
+  }
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,190 @@
+// What every error-controlled method of the table promises, whatever it is made of.
+#include <spring_pendulum/integration/error_controlled.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/energy.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using test::positionError;
+using test::referenceScene;
+using test::referenceSolution;
+using test::Scene;
+
+std::vector<Method> errorControlledMethods() {
+  std::vector<Method> methods;
+  for (const Method& method : methodTable()) {
+    if (method.control == StepControl::kErrorControlled) methods.push_back(method);
+  }
+  return methods;
+}
+
+std::string testName(const testing::TestParamInfo<Method>& info) {
+  std::string name;
+  for (const char letter : info.param.name) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0) name += letter;
+  }
+  return name;
+}
+
+class ErrorControlledMethod : public testing::TestWithParam<Method> {
+ protected:
+  static std::unique_ptr<Integrator> make(const Scene& scene, double tolerance,
+                                          bool track_dissipation = false) {
+    return makeIntegrator(GetParam().name, scene.chain, {tolerance, track_dissipation});
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, ErrorControlledMethod,
+                         testing::ValuesIn(errorControlledMethods()), testName);
+
+StepStatistics statisticsOf(const Integrator& integrator) {
+  return dynamic_cast<const ErrorControlled&>(integrator).statistics();
+}
+
+/// The largest error at the times, in tolerances.
+double worstError(Integrator& integrator, const Scene& scene, const std::string& name,
+                  std::initializer_list<int> times, double tolerance) {
+  State state = scene.start;
+  double worst = 0.0;
+  int now = 0;
+  for (const int time : times) {
+    integrator.advance(state, 0.5, std::int64_t{2} * (time - now));
+    now = time;
+    worst = std::max(worst, positionError(state, referenceSolution(name, time)) / tolerance);
+  }
+  return worst;
+}
+
+// The promise, 10 tolerances, on the scenes that cost little; `scripts/benchmark.sh accuracy` tells
+// about all of them. Measured: at most 5 (Dormand-Prince-5), 2 (Dormand-Prince-8), 0.9 (Taylor-8),
+// 2 (Taylor-12), all after 50 s of horizontal_11.
+TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
+  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
+    // A coarse method would take millions of steps: the tightest tolerances are not for it.
+    if (GetParam().order < 6 && tolerance < 1e-8) continue;
+    for (const char* name : {"single_vertical", "two_masses_45deg", "horizontal_11"}) {
+      const Scene scene = referenceScene(name);
+      const auto integrator = make(scene, tolerance);
+      EXPECT_LT(worstError(*integrator, scene, name, {1, 2, 5, 10, 20, 50}, tolerance), 10.0)
+          << name << " at " << tolerance;
+    }
+  }
+}
+
+TEST_P(ErrorControlledMethod, KeepsItsToleranceOnLongAndLightChains) {
+  for (const double tolerance : {1e-3, 1e-6}) {
+    const Scene light = referenceScene("light_100");
+    EXPECT_LT(worstError(*make(light, tolerance), light, "light_100", {1, 5}, tolerance), 10.0)
+        << tolerance;
+    const Scene longer = referenceScene("horizontal_1000");
+    EXPECT_LT(worstError(*make(longer, tolerance), longer, "horizontal_1000", {1}, tolerance), 10.0)
+        << tolerance;
+  }
+}
+
+// Here stability limits the steps of explicit methods.
+TEST_P(ErrorControlledMethod, KeepsItsToleranceOnStiffChains) {
+  const double tolerance = 1e-4;
+  for (const char* name : {"lighter_100", "alternating_50"}) {
+    const Scene scene = referenceScene(name);
+    EXPECT_LT(worstError(*make(scene, tolerance), scene, name, {1}, tolerance), 10.0) << name;
+  }
+}
+
+// A tolerance a hundred times tighter must pay: a method that ignores it would pass the tests above
+// by being always exact.
+TEST_P(ErrorControlledMethod, SpendsLessForLess) {
+  const Scene scene = referenceScene("horizontal_11");
+  std::int64_t evaluations = 0;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    const auto integrator = make(scene, tolerance);
+    State state = scene.start;
+    integrator->advance(state, 1.0, 5);
+    EXPECT_GT(integrator->forceEvaluations(), 1.2 * static_cast<double>(evaluations)) << tolerance;
+    evaluations = integrator->forceEvaluations();
+  }
+}
+
+TEST_P(ErrorControlledMethod, GivesTheSameBitsHoweverOftenItIsSampled) {
+  const Scene scene = referenceScene("horizontal_11");
+  const auto once = make(scene, 1e-5);
+  State expected = scene.start;
+  once->advance(expected, 0.5, 6);
+  for (const int halvings : {1, 3, 6}) {
+    const auto often = make(scene, 1e-5);
+    State state = scene.start;
+    for (int n = 0; n < 6 << halvings; ++n) often->advance(state, 0.5 / (1 << halvings), 1);
+    EXPECT_EQ(state.values(), expected.values()) << halvings;
+    EXPECT_EQ(statisticsOf(*often).accepted, statisticsOf(*once).accepted) << halvings;
+  }
+}
+
+TEST_P(ErrorControlledMethod, RestartsFromAnyState) {
+  const Scene scene = referenceScene("two_masses_45deg");
+  const auto used = make(scene, 1e-6);
+  State state = scene.start;
+  used->advance(state, 0.1, 7);
+  used->restart();
+  state = scene.start;
+  used->advance(state, 0.1, 10);
+  State expected = scene.start;
+  make(scene, 1e-6)->advance(expected, 0.1, 10);
+  EXPECT_EQ(state.values(), expected.values());
+}
+
+TEST_P(ErrorControlledMethod, LeavesOneParticleAlone) {
+  const Scene scene{Chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81), State(1)};
+  const auto integrator = make(scene, 1e-6);
+  State state = scene.start;
+  integrator->advance(state, 0.1, 10);
+  EXPECT_EQ(state.values(), scene.start.values());
+}
+
+// Of the energy the chain has lost, all is in the dashpots.
+TEST_P(ErrorControlledMethod, CountsTheHeatOnlyIfAskedTo) {
+  const Scene scene = referenceScene("horizontal_11");
+  const double tolerance = 1e-6;
+  const auto tracking = make(scene, tolerance, true);
+  const auto plain = make(scene, tolerance);
+  State tracked = scene.start;
+  State state = scene.start;
+  for (int frame = 0; frame < 30; ++frame) {
+    tracking->advance(tracked, 0.1, 1);
+    plain->advance(state, 0.1, 1);
+    const double lost = computeEnergy(scene.chain, scene.start).total() -
+                        computeEnergy(scene.chain, tracked).total();
+    ASSERT_NEAR(tracking->dissipatedEnergy(), lost, 1e-4);  // of 40 J
+  }
+  EXPECT_GT(tracking->dissipatedEnergy(), 1.0);
+  EXPECT_EQ(plain->dissipatedEnergy(), 0.0);
+  EXPECT_EQ(tracked.values(), state.values());
+  EXPECT_EQ(statisticsOf(*tracking).accepted, statisticsOf(*plain).accepted);
+}
+
+TEST_P(ErrorControlledMethod, TellsWhatItDid) {
+  const Scene scene = referenceScene("two_masses_45deg");
+  const auto integrator = make(scene, 1e-6);
+  State state = scene.start;
+  integrator->advance(state, 1.0, 2);
+  const StepStatistics statistics = statisticsOf(*integrator);
+  EXPECT_GT(statistics.accepted, 10);
+  EXPECT_GT(statistics.last_step, 0.0);
+  EXPECT_LE(statistics.last_step, kLongestStep);
+  EXPECT_EQ(statistics.force_evaluations, integrator->forceEvaluations());
+}
+
+}  // namespace
+}  // namespace spring_pendulum

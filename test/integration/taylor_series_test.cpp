@@ -1,0 +1,190 @@
+#include <spring_pendulum/integration/taylor_series.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
+#include <spring_pendulum/model/energy.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstring>
+#include <vector>
+
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using test::positionError;
+using test::referenceScene;
+using test::referenceSolution;
+using test::Scene;
+
+State afterFixedSteps(TaylorSeries& series, const Scene& scene, int seconds, int steps_per_second) {
+  series.start(scene.start);
+  for (int n = 0; n < seconds * steps_per_second; ++n) series.stepBy(1.0 / steps_per_second);
+  State state(scene.start.size());
+  series.interpolate(1.0, state);
+  return state;
+}
+
+struct OrderCase {
+  int order;
+  int steps_per_second;  ///< where halving the step shows the order cleanly
+};
+
+TEST(TaylorSeries, OrderIsTheSlopeOfTheErrorFromBothSides) {
+  for (const char* name : {"single_vertical", "two_masses_45deg", "horizontal_11"}) {
+    const Scene scene = referenceScene(name);
+    const State exact = referenceSolution(name, 2);
+    for (const OrderCase& c : {OrderCase{4, 64}, OrderCase{6, 32}, OrderCase{10, 12}}) {
+      TaylorSeries series(scene.chain, c.order, {});
+      const double coarse =
+          positionError(afterFixedSteps(series, scene, 2, c.steps_per_second), exact);
+      const double fine =
+          positionError(afterFixedSteps(series, scene, 2, 2 * c.steps_per_second), exact);
+      // Measured: 10.1 to 11.2 for order 10, within 0.1 for the others.
+      const double allowance = c.order == 10 ? 1.4 : 0.2;
+      EXPECT_NEAR(std::log2(coarse / fine), c.order, allowance) << name << " " << c.order;
+    }
+  }
+}
+
+// The local error of the dense output is of order K + 1 in the velocities everywhere in the step.
+TEST(TaylorSeries, DenseOutputHasTheOrderToo) {
+  const Scene scene = referenceScene("two_masses_45deg");
+  for (const int order : {4, 6}) {
+    double errors[2] = {};
+    for (int halvings = 0; halvings < 2; ++halvings) {
+      TaylorSeries series(scene.chain, order, {});
+      TaylorSeries fine(scene.chain, 14, {});
+      const double h = 0.1 / (1 << halvings);
+      series.start(scene.start);
+      series.stepBy(h);
+      State inside(3), exact(3);
+      for (const double fraction : {0.3, 0.7, 1.0}) {
+        series.interpolate(fraction, inside);
+        fine.start(scene.start);
+        for (int n = 0; n < 4; ++n) fine.stepBy(0.25 * fraction * h);
+        fine.interpolate(1.0, exact);
+        errors[halvings] = std::max(
+            errors[halvings], (inside.velocities() - exact.velocities()).cwiseAbs().maxCoeff());
+      }
+    }
+    // At rest only every second coefficient is large, so the first steps show one order more.
+    const double slope = std::log2(errors[0] / errors[1]);
+    EXPECT_GT(slope, order + 0.8) << order;  // measured: 5.1 (4), 7.0 (6)
+    EXPECT_LT(slope, order + 2.2) << order;
+  }
+}
+
+TEST(TaylorSeries, DenseOutputJoinsTheStepsWithoutAGap) {
+  const Scene scene = referenceScene("horizontal_11");
+  TaylorSeries series(scene.chain, 6, {});
+  series.start(scene.start);
+  State end = scene.start;
+  State begin(scene.start.size());
+  for (int n = 0; n < 5; ++n) {
+    series.stepBy(0.05);
+    series.interpolate(0.0, begin);
+    EXPECT_EQ(begin.values(), end.values());
+    series.interpolate(1.0, end);
+    series.interpolate(1.0 - 1e-12, begin);
+    EXPECT_LT((begin.values() - end.values()).cwiseAbs().maxCoeff(), 1e-11);  // measured: 2e-12
+  }
+}
+
+// A step so short that only the first coefficient matters shows the accelerations.
+TEST(TaylorSeries, BeginsWithTheAccelerationsOfTheModel) {
+  const Scene scene = referenceScene("horizontal_11");
+  const State state = referenceSolution("horizontal_11", 5);
+  PlaneVectors expected;
+  computeAccelerations(scene.chain, state, expected);
+  TaylorSeries series(scene.chain, 4, {});
+  series.start(state);
+  const double h = 1e-6;
+  series.stepBy(h);
+  State after(state.size());
+  series.interpolate(1.0, after);
+  const PlaneVectors measured = (after.velocities() - state.velocities()) / h;
+  EXPECT_LT((measured - expected).cwiseAbs().maxCoeff(), 1e-2);  // measured: 5e-4, of 30
+}
+
+// The stability function of order K is the Taylor polynomial of exp.
+TEST(TaylorSeries, StabilityLimitsOfTheTableAreThoseOfItsPolynomial) {
+  const auto amplification = [](int order, std::complex<double> z) {
+    std::complex<double> sum = 1.0, term = 1.0;
+    for (int n = 1; n <= order; ++n) sum += term *= z / static_cast<double>(n);
+    return std::abs(sum);
+  };
+  for (const Method& method : methodTable()) {
+    if (method.name.substr(0, 6) != "Taylor") continue;
+    const double real = method.real_stability_limit;
+    EXPECT_LE(amplification(method.order, -real), 1.0 + 1e-9) << method.name;
+    EXPECT_GT(amplification(method.order, -1.0001 * real), 1.0) << method.name;
+    const double imaginary = method.imaginary_stability_limit;
+    const std::complex<double> i(0.0, 1.0);
+    for (int k = 0; k <= 1000; ++k) {
+      EXPECT_LE(amplification(method.order, 0.001 * k * imaginary * i), 1.0 + 1e-9) << method.name;
+    }
+    EXPECT_GT(amplification(method.order, (1.0001 * imaginary + 1e-2) * i), 1.0) << method.name;
+  }
+}
+
+TEST(TaylorSeries, HasTheSameBitsOnEveryInstructionSet) {
+  for (const char* name : {"two_masses_45deg", "horizontal_11", "light_100"}) {
+    const Scene scene = referenceScene(name);
+    std::vector<State> ends;
+    for (const ChainKernels* kernels : supportedChainKernels()) {
+      TaylorSeries series(scene.chain, 6, {}, *kernels);
+      series.start(scene.start);
+      for (int n = 0; n < 100; ++n) ASSERT_GT(series.step(), 0.0);
+      ends.emplace_back(scene.start.size());
+      series.interpolate(1.0, ends.back());
+      const State::Matrix& a = ends.front().values();
+      const State::Matrix& b = ends.back().values();
+      EXPECT_EQ(
+          std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())), 0)
+          << name << " " << kernels->name;
+    }
+  }
+}
+
+// Thrown up through the point it hangs from, a particle feels the spring's force jump there. The
+// series knows nothing of that; the energy shows whether the step control does.
+TEST(TaylorSeries, StopsWhereASpringHasNoLength) {
+  for (const double sideways : {0.0, 1e-9}) {
+    const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{50.0, 0.0, 1.0}, 9.81);
+    State state(2);
+    state.y()[1] = -1.0;
+    state.x()[1] = sideways;
+    state.vy()[1] = 12.0;
+    const double energy = computeEnergy(chain, state).total();
+    TaylorSeries series(chain, 10, {1e-9, false});
+    series.start(state);
+    int crossings = 0;
+    double time = 0.0;
+    for (double below = state.y()[1]; time < 2.0; below = state.y()[1]) {
+      const double h = series.step();
+      ASSERT_GT(h, 0.0);
+      time += h;
+      series.interpolate(1.0, state);
+      if (below * state.y()[1] < 0.0) ++crossings;
+    }
+    EXPECT_GT(crossings, 1) << sideways;
+    EXPECT_NEAR(computeEnergy(chain, state).total(), energy, 1e-7) << sideways;
+    EXPECT_LT(series.statistics().accepted, 2000) << sideways;
+  }
+}
+
+TEST(TaylorSeries, ShowsThatItDiverged) {
+  const Scene scene = referenceScene("two_masses_45deg");
+  State state = scene.start;
+  state.vx()[1] = 1e200;
+  TaylorSeries series(scene.chain, 6, {});
+  series.start(state);
+  EXPECT_EQ(series.step(), 0.0);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
