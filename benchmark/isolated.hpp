@@ -13,7 +13,7 @@ struct Isolated {
 };
 
 /// \param work  its result is handed over as text; an exception means failure
-/// \param limit s; after that it is ended
+/// \param limit s of processor time; after that it is ended
 Isolated runIsolated(const std::function<std::string()>& work, double limit);
 
 }  // namespace spring_pendulum::benchmark
