@@ -78,11 +78,11 @@ Point measured(const ReferenceScene& scene, const PeerRow& row, const Run& run,
 
 constexpr double kBestError = 2e-12;  // m; below, rounding decides and there is nothing to show
 
-/// Step sizes halving from 20 ms, each dividing the duration.
+/// Step sizes halving from about 80 ms, each dividing the duration.
 std::vector<Run> fixedRuns(double duration, bool smoke) {
   std::vector<Run> runs;
-  for (int k = 0; k < 18; k += smoke ? 6 : 1) {
-    const auto steps = static_cast<std::int64_t>(std::lround(duration / 0.02)) << k;
+  for (int k = 0; k < 20; k += smoke ? 6 : 1) {
+    const auto steps = static_cast<std::int64_t>(std::lround(duration / 0.08)) << k;
     runs.push_back({duration / static_cast<double>(steps), steps, 0.0, 1});
   }
   return runs;

@@ -76,6 +76,10 @@ class MujocoPeer : public Peer {
   void advance() override {
     for (std::int64_t n = 0; n < run_.steps; ++n) mj_step(model_, data_);
     steps_ += run_.steps;
+    // It puts a state that has become too large back to the start, with a warning.
+    for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
+      if (data_->warning[bad].number > 0) throw PeerError("the motion diverged and was reset");
+    }
   }
 
   std::vector<double> state() const override {

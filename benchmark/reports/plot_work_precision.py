@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """usage: plot_work_precision.py work_precision.csv FOLDER
 
-Draws FOLDER/work_precision_SCENE.png and .svg: the true error against the time. What diverged or
-took too long is a cross at the top edge, and counted in the legend.
+Draws FOLDER/work_precision_SCENE.png and .svg: the true error against the time. What diverged,
+took too long or lies above the plot is a cross at the top edge (at the right one too if it has no
+time), and counted in the legend.
 """
 import sys
 
@@ -18,6 +19,10 @@ def legend(method, rows):
     return method + (f" ({', '.join(bad)})" if bad else "")
 
 
+def is_shown(row):
+    return row["status"] == "ok" and float(row["error_m"]) < ERRORS[1]
+
+
 def draw(scene, rows, styles, folder):
     times = [float(r["time_ms"]) for r in rows if r["time_ms"]]
     low, high = min(times) / 1.5, max(times) * 2.0
@@ -26,9 +31,9 @@ def draw(scene, rows, styles, folder):
                         "true error of a position at the end / m", (low, high), ERRORS)
     for method, style in styles.items():
         here = [r for r in rows if r["method"] == method]
-        plot.line([(r["time_ms"], r["error_m"]) for r in here if r["status"] == "ok"],
+        plot.line([(r["time_ms"], r["error_m"]) for r in here if is_shown(r)],
                   legend(method, here), style)
-        lost = [r["time_ms"] or high / 1.3 for r in here if r["status"] != "ok"]
+        lost = [r["time_ms"] or high / 1.3 for r in here if not is_shown(r)]
         if lost:
             plot.crosses(lost, style)
     plot.write(f"{folder}/work_precision_{scene}")
