@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <cstdio>
 #include <dirent.h>
 #include <fcntl.h>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string_view>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -128,10 +127,12 @@ void FrameFolder::takeEarlierFramesAway(std::int64_t frames) {
   std::sort(old_files_.begin(), old_files_.end(), isLater);
   const auto last = std::unique(old_files_.begin(), old_files_.end());
   old_files_.erase(last, old_files_.end());
-  while (old_files_.size() > static_cast<std::size_t>(frames)) {
-    ::unlinkat(descriptor_.get(), old_files_.front().c_str(), 0);
-    old_files_.erase(old_files_.begin());
+  const std::size_t wanted = std::min(old_files_.size(), static_cast<std::size_t>(frames));
+  const auto first_wanted = old_files_.end() - static_cast<std::ptrdiff_t>(wanted);
+  for (auto name = old_files_.begin(); name != first_wanted; ++name) {
+    ::unlinkat(descriptor_.get(), name->c_str(), 0);
   }
+  old_files_.erase(old_files_.begin(), first_wanted);
 }
 
 void FrameFolder::checkIsWritable() {

@@ -43,7 +43,11 @@ std::map<std::string, Entry> readEntries() {
           entries.insert({match[2], {unquoted(match[3]), match[1] == "#", comment}}).second;
       EXPECT_TRUE(is_new) << line;
     }
-    comment = line.rfind("# ", 0) == 0 ? comment + line : "";
+    if (line.rfind("# ", 0) == 0) {
+      comment += line;
+    } else {
+      comment.clear();
+    }
   }
   return entries;
 }

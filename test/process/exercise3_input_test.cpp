@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <ostream>
 #include <sys/stat.h>
@@ -179,8 +180,10 @@ std::vector<BadInput> meaningless() {
               : std::vector<std::string>{"--time-step", "--steps-per-frame"};
     for (const std::string& option : options) {
       std::string name = std::string(method.name) + option;
-      name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return !isalnum(c); }),
-                 name.end());
+      name.erase(
+          std::remove_if(name.begin(), name.end(),
+                         [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }),
+          name.end());
       rows.push_back({name, {std::string(method.name), option, "1"}, 2, option + ": "});
       rows.back().message += option == "--time-step" ? "time_step has no meaning for " : "";
     }
