@@ -1,8 +1,8 @@
 // The files of a run: frames and energy ledger, as Exercise3 writes them.
 #pragma once
 
+#include <spring_pendulum/io/background_frame_writer.hpp>
 #include <spring_pendulum/io/energy_file.hpp>
-#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/ros/run.hpp>
 
 #include <optional>
@@ -27,11 +27,11 @@ class RunFiles {
   /// "frames go to /home/me/frames, the energy ledger to ..."
   std::string description() const;
   std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
-  /// Wall-clock time spent writing frames, s.
-  double seconds() const { return frames_ ? frames_->seconds() : 0.0; }
+  /// Wall-clock time spent writing frames, s. Only after `finish`.
+  double seconds() const { return frames_ ? frames_->secondsWriting() : 0.0; }
 
  private:
-  std::optional<FrameWriter> frames_;
+  std::optional<BackgroundFrameWriter> frames_;
   std::optional<EnergyFile> energy_;
   std::string energy_path_;
   std::int64_t next_frame_ = 0;
