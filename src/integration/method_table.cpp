@@ -5,6 +5,7 @@
 #include <spring_pendulum/integration/plain_runge_kutta.hpp>
 #include <spring_pendulum/integration/rock4.hpp>
 #include <spring_pendulum/integration/rosenbrock.hpp>
+#include <spring_pendulum/integration/symplectic.hpp>
 #include <spring_pendulum/integration/taylor_series.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -38,6 +39,12 @@ std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,
       std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options));
 }
 
+template <typename SymplecticMethod>
+std::unique_ptr<Integrator> makeSymplectic(const Method&, const Chain& chain,
+                                           const IntegratorOptions& options) {
+  return std::make_unique<SymplecticMethod>(chain, options.track_dissipation);
+}
+
 template <const EmbeddedPair& kPair>
 std::unique_ptr<Integrator> makeEmbeddedPair(const Method&, const Chain& chain,
                                              const IntegratorOptions& options) {
@@ -67,6 +74,15 @@ const std::vector<Method>& methodTable() {
        "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
        "the sound choice with a fixed step, as long as no particle is very light",
        &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
+      {"Semi-Implicit-Euler", 1, 1, StepControl::kFixed, 2.0, 2.0,
+       "E. Hairer, C. Lubich, G. Wanner, Acta Numer. 12 (2003) 399-450, "
+       "doi:10.1017/S0962492902000144",
+       "symplectic without damping: rough, but swinging never grows; what games use", nullptr,
+       makeSymplectic<SemiImplicitEuler>},
+      {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
+       "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
+       "symplectic and reversible without damping: for very long undamped runs", nullptr,
+       makeSymplectic<VelocityVerlet>},
       {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
        "doi:10.1016/0771-050X(80)90013-3",
