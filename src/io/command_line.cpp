@@ -114,7 +114,8 @@ class Parser {
   }
 
   void refuseExtras() const {
-    const std::vector<std::string> extras = app_.remaining();
+    std::vector<std::string> extras = app_.remaining();
+    extras.erase(std::remove(extras.begin(), extras.end(), "--"), extras.end());
     if (extras.empty()) return;
     if (extras.front().substr(0, 1) != "-") {
       throw InputError(
@@ -132,7 +133,10 @@ class Parser {
 
   Scenario scenario() const {
     ScenarioBuilder builder;
-    if (!config_.empty()) readScenarioFile(config_, builder);
+    if (app_.count(kConfigOption) > 0) {
+      if (config_.empty()) throw InputError("--config: config is '': must be a file");
+      readScenarioFile(config_, builder);
+    }
     for (const Parameter& parameter : parameterTable()) {
       const Given& given = given_.at(parameter.key);
       if (given.option->count() == 0) continue;

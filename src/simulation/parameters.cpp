@@ -140,6 +140,8 @@ void ScenarioBuilder::set(std::string_view key, std::string_view text, std::stri
         scenario_.*member = *value;
       },
       [&](std::string Scenario::*member) {
+        const bool may_be_empty = (Scenario{}.*member).empty();
+        if (text.empty() && !may_be_empty) refuse(parameter, text, where);
         if (!isChoice(parameter, text)) refuse(parameter, text, where);
         scenario_.*member = std::string(text);
       },

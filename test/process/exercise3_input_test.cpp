@@ -121,6 +121,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "unknown option '--frame': known are --config, "},
         BadInput{"TwoLinesInAnOption", {"Euler", "--no\nway"}, 2, "unknown option '--no?way': "},
         BadInput{"NoValue", {"Euler", "--frames"}, 2, "--frames: "},
+        value("NoOutput", "--output", "", "a folder"),
+        value("NoParticles", "--particles", "", "a file"),
+        BadInput{
+            "NoConfig", {"Euler", "--config", ""}, 2, "--config: config is '': must be a file"},
         value("NegativeTimeStep", "--time-step", "-0.01", "a number above 0 s"),
         value("ZeroTimeStep", "--time-step", "0", "a number above 0 s"),
         value("InfiniteTimeStep", "--time-step", "inf", "a number above 0 s"),
@@ -204,6 +208,12 @@ TEST(Exercise3, CommandLineWinsOverTheFile) {
       run(exercise3(folder, {"--config", "run.yaml", "Runge-Kutta-2", "--frames", "7"}));
   EXPECT_THAT(result.output, StartsWith("Runge-Kutta-2: 2 particles, 7 frames, 60 steps, "));
   EXPECT_THAT(listFolder(folder.path()), testing::ElementsAre("particle.txt", "run.yaml"));
+}
+
+TEST(Exercise3, TwoDashesEndTheOptions) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  EXPECT_EQ(run(exercise3(folder, {"--no-frames", "--", "Euler"})).status, 0);
 }
 
 TEST(Exercise3, AnswersWithoutARun) {
