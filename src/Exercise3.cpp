@@ -79,8 +79,10 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
       std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
   const double waited = writer == nullptr ? 0.0 : writer->secondsWaited();
   const double writing = writer == nullptr ? 0.0 : writer->secondsWriting();
-  fmt::print("{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, verdict: {}\n",
-             scenario.method, counted(chain.size(), "particle"), counted(summary.frames, "frame"),
+  const std::string report = integrator.report();
+  fmt::print("{}{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, verdict: {}\n",
+             scenario.method, report.empty() ? "" : " (" + report + ")",
+             counted(chain.size(), "particle"), counted(summary.frames, "frame"),
              slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
              fixed ? counted(steps, "step") + ", " : "",
              counted(integrator.forceEvaluations(), "force evaluation"),

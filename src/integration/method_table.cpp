@@ -1,3 +1,4 @@
+#include <spring_pendulum/integration/auto_stepper.hpp>
 #include <spring_pendulum/integration/embedded_runge_kutta.hpp>
 #include <spring_pendulum/integration/error_controlled.hpp>
 #include <spring_pendulum/integration/explicit_runge_kutta.hpp>
@@ -58,6 +59,11 @@ std::unique_ptr<Integrator> makeTaylorSeries(const Method& method, const Chain& 
       std::make_unique<TaylorSeries>(chain, method.order, options));
 }
 
+std::unique_ptr<Integrator> makeAuto(const Method&, const Chain& chain,
+                                     const IntegratorOptions& options) {
+  return std::make_unique<ErrorControlled>(std::make_unique<AutoStepper>(chain, options));
+}
+
 }  // namespace
 
 const std::vector<Method>& methodTable() {
@@ -108,6 +114,10 @@ const std::vector<Method>& methodTable() {
        "G. Steinebach, BIT Numer. Math. 63 (2023) 27, doi:10.1007/s10543-023-00967-x",
        "linearly implicit: for very light particles (k_d/m beyond 1e5/s) and coarse tolerances",
        nullptr, makeRodas5P},
+      {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
+       "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
+       "takes the cheapest of Taylor-8, Taylor-12, ROCK4 and Rodas5P for the motion at hand",
+       nullptr, makeAuto},
   };
   return kTable;
 }

@@ -7,8 +7,6 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kShareOfTolerance = 8e-6;
-
 /// The last percents of a stability interval are left to the springs' own part of the rates.
 constexpr double kUsedStability = 0.97;
 
@@ -18,8 +16,9 @@ double longestStep(const Rock4Coefficients& method, double rate) {
 
 }  // namespace
 
-Rock4Stepper::Rock4Stepper(const Chain& chain, const IntegratorOptions& options)
-    : ControlledStepper(chain, options, kShareOfTolerance * options.tolerance, 4),
+Rock4Stepper::Rock4Stepper(const Chain& chain, const IntegratorOptions& options,
+                           double share_of_tolerance)
+    : ControlledStepper(chain, options, share_of_tolerance * options.tolerance, 4),
       fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
       method_(&rock4Table().front()),
       first_slope_(chain.size()),

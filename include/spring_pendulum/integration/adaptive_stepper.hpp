@@ -7,6 +7,7 @@
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace spring_pendulum {
 
@@ -54,6 +55,9 @@ class AdaptiveStepper {
   virtual double dissipated(double fraction) const = 0;
 
   virtual StepStatistics statistics() const = 0;
+
+  /// See Integrator::report.
+  virtual std::string report() const { return {}; }
 
  protected:
   AdaptiveStepper() = default;

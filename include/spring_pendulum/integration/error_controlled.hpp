@@ -27,6 +27,7 @@ class ErrorControlled final : public Integrator {
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
   double dissipatedEnergy() const override { return heat_before_step_ + heat_in_step_; }
   void restart() override;
+  std::string report() const override { return stepper_->report(); }
 
   StepStatistics statistics() const { return stepper_->statistics(); }
 

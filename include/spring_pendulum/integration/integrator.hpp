@@ -4,6 +4,7 @@
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace spring_pendulum {
 
@@ -40,6 +41,10 @@ class Integrator {
 
   /// What this method skips for its chain.
   virtual Skips skips() const { return {}; }
+
+  /// What a user should know of how the motion was integrated, in one line: the methods `Auto`
+  /// chose. Empty if there is nothing to tell.
+  virtual std::string report() const { return {}; }
 
   /// Tells that the next `advance` gets a state that the last one did not return. Only methods that
   /// remember something between calls care.

@@ -27,6 +27,7 @@ class SleepingIntegrator : public Integrator {
   std::int64_t forceEvaluations() const override { return integrator_->forceEvaluations(); }
   double dissipatedEnergy() const override { return integrator_->dissipatedEnergy(); }
   Skips skips() const override { return integrator_->skips(); }
+  std::string report() const override { return integrator_->report(); }
   void restart() override;
 
   /// How many calls of `advance` found the chain at rest.

@@ -1,0 +1,78 @@
+#include <spring_pendulum/integration/auto_stepper.hpp>
+#include <spring_pendulum/integration/error_controlled.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+// The method that Auto works with after `seconds`.
+std::string methodAfter(const test::Scene& scene, double tolerance, double seconds) {
+  AutoStepper stepper(scene.chain, IntegratorOptions{tolerance, false, 1});
+  stepper.start(scene.start);
+  for (double time = 0.0; time < seconds;) {
+    const double h = stepper.step();
+    if (!(h > 0.0)) return "diverged";
+    time += h;
+  }
+  return std::string(stepper.method());
+}
+
+TEST(Auto, PicksByScene) {
+  EXPECT_EQ(methodAfter(test::referenceScene("horizontal_11"), 1e-3, 5.0), "Taylor-12");
+  EXPECT_EQ(methodAfter(test::referenceScene("lighter_100"), 1e-3, 1.0), "ROCK4");
+  EXPECT_EQ(methodAfter(test::referenceScene("feather_50"), 1e-3, 1.0), "Rodas5P");
+}
+
+TEST(Auto, PicksByTolerance) {
+  EXPECT_EQ(methodAfter(test::referenceScene("horizontal_11"), 1.0, 5.0), "Taylor-8");
+  EXPECT_EQ(methodAfter(test::referenceScene("lighter_100"), 1e-10, 1.0), "Taylor-12");
+}
+
+// With the methods' own work per evaluation near 1, 1 and 5, evaluations tell the choice.
+TEST(Auto, WorksLessThanTheWrongMethods) {
+  struct Case {
+    const char* scene;
+    double tolerance;
+    const char* good;
+    const char* bad;
+  };
+  for (const Case& c : {Case{"lighter_100", 1e-3, "ROCK4", "Taylor-8"},
+                        Case{"feather_50", 1e-2, "Rodas5P", "ROCK4"}}) {
+    const test::Scene scene = test::referenceScene(c.scene);
+    const auto evaluations = [&](const char* method) {
+      const auto integrator = makeIntegrator(method, scene.chain, {c.tolerance, false, 1});
+      State state = scene.start;
+      integrator->advance(state, 0.5, 1);
+      return integrator->forceEvaluations();
+    };
+    EXPECT_LT(evaluations("Auto"), evaluations(c.bad)) << c.scene;
+    EXPECT_LT(evaluations("Auto"), 2 * evaluations(c.good)) << c.scene;
+  }
+}
+
+TEST(Auto, ReportsWhatItUsed) {
+  const test::Scene scene = test::referenceScene("feather_50");
+  const auto integrator = makeIntegrator("Auto", scene.chain, {1e-2, false, 1});
+  EXPECT_EQ(integrator->report(), "0 switches");
+  State state = scene.start;
+  integrator->advance(state, 0.1, 10);
+  const std::string report = integrator->report();
+  EXPECT_NE(report.find("Taylor-8 for "), std::string::npos) << report;
+  EXPECT_NE(report.find("Rodas5P for 1"), std::string::npos) << report;
+  EXPECT_NE(report.find(", 1 switch"), std::string::npos) << report;
+}
+
+TEST(Auto, OtherMethodsHaveNothingToReport) {
+  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
+  EXPECT_EQ(makeIntegrator("Rodas5P", chain)->report(), "");
+  EXPECT_EQ(makeIntegrator("Runge-Kutta-4", chain)->report(), "");
+}
+
+}  // namespace
+}  // namespace spring_pendulum
