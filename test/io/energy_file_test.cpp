@@ -13,8 +13,8 @@ namespace {
 
 class EnergyFileTest : public testing::Test {
  protected:
-  EnergyFileTest() { std::filesystem::create_directories(folder_); }
-  ~EnergyFileTest() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   static std::string read(const std::string& path) {
     std::ostringstream text;
