@@ -19,6 +19,7 @@
 #include "isolated.hpp"
 #include "options.hpp"
 #include "peer.hpp"
+#include "peers/divider_bound.hpp"
 #include "result_file.hpp"
 #include "scenes.hpp"
 #include "stopwatch.hpp"
@@ -169,7 +170,9 @@ int run(const Options& options) {
   ResultFile file(options.output + "/throughput.csv",
                   {"Classical Runge-Kutta method: nanoseconds per spring force, by chain length.",
                    "Candidates take turns; median and least of the rounds. `difference` is the",
-                   "largest one from the plain structure-of-arrays loop after the first calls."},
+                   "largest one from the plain structure-of-arrays loop after the first calls.",
+                   fmt::format("divider bound: {:.3f} ns for a square root and a division alone",
+                               dividerBound())},
                   "particles,library,method,threads,status,median_ns,least_ns,rounds,"
                   "force_evaluations_a_step,difference_m_or_m_per_s,note");
   bool all_agree = true;

@@ -88,10 +88,10 @@ std::vector<Run> fixedRuns(double duration, bool smoke) {
   return runs;
 }
 
-/// Tolerances from 1e-2 to 1e-12, two a decade.
+/// Tolerances from 1e-1 to 1e-12, two a decade.
 std::vector<Run> controlledRuns(double duration, bool smoke) {
   std::vector<Run> runs;
-  for (int k = 4; k <= 24; k += smoke ? 8 : 1) {
+  for (int k = 2; k <= 24; k += smoke ? 10 : 1) {
     runs.push_back({duration, 1, std::pow(10.0, -0.5 * k), 1});
   }
   return runs;

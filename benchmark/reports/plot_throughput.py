@@ -16,10 +16,16 @@ def label(row):
     return f"this package, {row['threads']} thread{'s' if row['threads'] == 'all' else ''}"
 
 
-def draw(rows, folder):
+def divider_bound(head):
+    """ns, or None"""
+    lines = [line for line in head if line.startswith("divider bound:")]
+    return float(lines[0].split()[2]) if lines else None
+
+
+def draw(rows, bound, folder):
     times = [float(r["median_ns"]) for r in rows if r["status"] == "ok"]
     plot = gnuplot.Plot("Runge-Kutta-4: time for one spring force, median", "particles",
-                        "time per spring force / ns", (2, 2e7), (min(times) / 1.6, max(times) * 2))
+                        "time per spring force / ns", (2, 2e7), (min(times) / 2, max(times) * 2))
     drawn = []
     for row in rows:
         if label(row) in drawn:
@@ -35,6 +41,9 @@ def draw(rows, folder):
         if lost:
             plot.crosses([r["particles"] for r in lost], style,
                          f"{label(row)}: {lost[0]['status']}")
+    if bound:
+        plot.line([(2, bound), (2e7, bound)], "square root and division alone",
+                  "dt 3 lw 1.5 pt -1 lc rgb '#000000'")
     plot.write(f"{folder}/throughput")
 
 
@@ -63,7 +72,7 @@ def table(rows):
 
 def main(path, folder):
     head, rows = result_csv.read(path)
-    draw(rows, folder)
+    draw(rows, divider_bound(head), folder)
     print("# Throughput of Runge-Kutta-4\n")
     table(rows)
     print("\n" + "\n".join(f"- {line}" for line in head if ": " in line))
