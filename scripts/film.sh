@@ -102,7 +102,7 @@ start rosbag play --clock --quiet --delay 1 --rate "$(calculate "1 / $slow")" -s
   -u "$duration" "$bag"
 player=${started[-1]}
 tail --pid="$clock" -f /dev/null
-cut=$(calculate "$(stat -c %.6Y "$work/rostopic.log") + 0.25 - $camera_start")
+cut=$(calculate "$(stat -c %.6Y "$work/rostopic.log") + 0.4 - $camera_start")
 tail --pid="$player" -f /dev/null
 kill -INT "$camera"
 tail --pid="$camera" -f /dev/null

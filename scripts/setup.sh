@@ -21,10 +21,10 @@ packages_of() {
               ros-std-msgs ros-message-generation ros-message-runtime python3-roslaunch \
               python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
               python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
-              python3-geometry-msgs rosbash ;;
-    rviz) echo rviz ;;
+              python3-geometry-msgs python3-roslib rosbash ;;
+    rviz) echo rviz tf2-tools libtf2-ros-dev ;;
     test) echo procps locales-all ;;
-    test-ros) echo python3-rostest librostest-dev xvfb xauth x11-utils libgl1-mesa-dri \
+    test-ros) echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \
                    imagemagick ;;
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lint) echo clang-format clang-tidy catkin-lint ;;

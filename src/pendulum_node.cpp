@@ -1,4 +1,5 @@
 // The ROS node: carries a chain through time, writes its frames and shows it.
+#include <spring_pendulum/io/interruption.hpp>
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/ros/parameters.hpp>
 #include <spring_pendulum/ros/player.hpp>
@@ -10,7 +11,6 @@
 #include <ros/ros.h>
 
 #include <algorithm>
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -30,7 +30,7 @@ struct Totals {
 };
 
 /// The frame loop: advance, judge, hand the state to each output that is wanted.
-Totals play(Run& run, Player& player, Publisher& publisher, RunFiles& files) {
+Totals play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& files) {
   Totals totals{1, 0, 0.0};
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
@@ -49,7 +49,7 @@ Totals play(Run& run, Player& player, Publisher& publisher, RunFiles& files) {
   return totals;
 }
 
-std::string closingLine(const Run& run, const Totals& totals, const RunFiles& files,
+std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                         const Publisher& publisher) {
   const LedgerEntry entry = run.ledgerEntry();
   const bool fixed_step = findMethod(run.scenario().method).control == StepControl::kFixed;
@@ -74,8 +74,8 @@ int runNode() {
   const NodeConfiguration configuration = readPrivateParameters();
   const Scenario& scenario = configuration.scenario;
   const NodeOptions& options = configuration.options;
-  Run run(scenario, readParticleFile(scenario.particles),
-          options.track_energy || !scenario.energy.empty(), displayInterval(options));
+  PendulumRun run(scenario, readParticleFile(scenario.particles),
+                  options.track_energy || !scenario.energy.empty(), displayInterval(options));
   RunFiles files(scenario);
   ROS_INFO_STREAM(
       scenario.method << " on "
@@ -94,7 +94,7 @@ int runNode() {
   const bool diverged = run.verdict().kind == VerdictKind::kDiverged;
   ROS_LOG_STREAM(diverged ? ros::console::levels::Error : ros::console::levels::Info,
                  ROSCONSOLE_DEFAULT_NAME, closingLine(run, totals, files, publisher));
-  if (ros::ok()) ros::WallDuration(kLastMessages).sleep();
+  if (interruption() == 0 && ros::ok()) ros::WallDuration(kLastMessages).sleep();
   return diverged ? kDiverged : kDone;
 }
 
@@ -111,9 +111,10 @@ int report(std::string message, ExitStatus status) {
 
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
-  ros::init(argc, argv, "pendulum_node");
+  // roscpp's own handler would end ROS before the files are closed and the closing line is out.
+  ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
+  catchInterruptions();
   ros::NodeHandle keeps_ros_started;
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   try {
     return runNode();
   } catch (const InputError& error) {

@@ -29,7 +29,7 @@ boost::shared_ptr<ros::M_string> connectionHeader(const std::string& topic, bool
 
 class BagRecorder {
  public:
-  BagRecorder(rosbag::Bag& bag, const Run& run, const NodeOptions& options,
+  BagRecorder(rosbag::Bag& bag, const PendulumRun& run, const NodeOptions& options,
               const std::string& prefix)
       : bag_(bag),
         frame_id_(options.frame_id),
@@ -40,7 +40,7 @@ class BagRecorder {
         status_topic_(prefix + "status"),
         status_header_(connectionHeader<PendulumStatus>(status_topic_, true)) {}
 
-  void write(const Run& run) {
+  void write(const PendulumRun& run) {
     std_msgs::Header header;
     header.frame_id = frame_id_;
     header.stamp = stamps_.next(run.time());
@@ -54,7 +54,7 @@ class BagRecorder {
   std::int64_t messages() const { return messages_; }
 
  private:
-  void writeStatus(const Run& run, const std_msgs::Header& header) {
+  void writeStatus(const PendulumRun& run, const std_msgs::Header& header) {
     PendulumStatus status = statusOf(run, false);
     if (status.text == last_status_) return;
     last_status_ = status.text;
@@ -89,8 +89,8 @@ std::string topicPrefix(const std::string& name_space) {
 }  // namespace
 
 BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to) {
-  Run run(scenario, readParticleFile(scenario.particles), options.track_energy,
-          options.display_rate > 0.0 ? 1.0 / options.display_rate : 0.0);
+  PendulumRun run(scenario, readParticleFile(scenario.particles), options.track_energy,
+                  options.display_rate > 0.0 ? 1.0 / options.display_rate : 0.0);
   BagSummary summary;
   try {
     summary.path = std::filesystem::absolute(to.path).lexically_normal().string();

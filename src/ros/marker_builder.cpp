@@ -25,7 +25,7 @@ constexpr double kFirstTextRow = 0.18;
 constexpr double kTextRowDistance = 0.16;
 
 /// How far the chain reaches at rest, m; never 0.
-double reachOf(const Run& run) {
+double reachOf(const PendulumRun& run) {
   const Chain& chain = run.chain();
   const State& start = run.start();
   const auto springs = static_cast<double>(chain.size() - 1);
@@ -91,7 +91,8 @@ void hideIfEmpty(visualization_msgs::Marker& marker) {
 
 }  // namespace
 
-MarkerBuilder::MarkerBuilder(const Run& run, const NodeOptions& options) : options_(options) {
+MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
+    : options_(options) {
   const Chain& chain = run.chain();
   const Eigen::Index stride =
       (chain.size() + options.display_limit - 3) / (options.display_limit - 1);
@@ -133,9 +134,9 @@ geometry_msgs::Point MarkerBuilder::pointOf(const State& state, Eigen::Index i) 
   return point;
 }
 
-void MarkerBuilder::trackTip(const Run& run) {
+void MarkerBuilder::trackTip(const PendulumRun& run) {
   if (!trail_.empty() && run.time() < trail_.back().time) trail_.clear();
-  if (options_.trail <= 0.0 || !run.isFinite() || !run.isShown()) return;
+  if (options_.trail <= 0.0 || drawn_.size() < 2 || !run.isFinite() || !run.isShown()) return;
   if (!trail_.empty() && run.time() == trail_.back().time) return;
   trail_.push_back({run.time(), pointOf(run.state(), run.chain().size() - 1)});
   while (trail_.front().time < run.time() - options_.trail || trail_.size() > kMostTrailPoints) {
@@ -143,7 +144,7 @@ void MarkerBuilder::trackTip(const Run& run) {
   }
 }
 
-const visualization_msgs::MarkerArray& MarkerBuilder::build(const Run& run,
+const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& run,
                                                             const std_msgs::Header& header,
                                                             const std::string& pace) {
   for (visualization_msgs::Marker& marker : markers_.markers) marker.header = header;
@@ -157,7 +158,7 @@ const visualization_msgs::MarkerArray& MarkerBuilder::build(const Run& run,
   return markers_;
 }
 
-void MarkerBuilder::place(const Run& run) {
+void MarkerBuilder::place(const PendulumRun& run) {
   auto& particles = markers_.markers[kParticles].points;
   auto& springs = markers_.markers[kSprings].points;
   particles.clear();
@@ -179,14 +180,14 @@ void MarkerBuilder::place(const Run& run) {
   }
 }
 
-std_msgs::ColorRGBA MarkerBuilder::springColor(const Run& run, std::size_t spring) const {
+std_msgs::ColorRGBA MarkerBuilder::springColor(const PendulumRun& run, std::size_t spring) const {
   if (run.verdict().kind == VerdictKind::kDiverged) return divergedColor();
   if (!options_.color.empty()) return *parseColor(options_.color);
   if (run.verdict().kind != VerdictKind::kOk) return doubtColor();
   return strainColor(strains_[spring] / full_color_strain_);
 }
 
-void MarkerBuilder::paint(const Run& run) {
+void MarkerBuilder::paint(const PendulumRun& run) {
   auto& springs = markers_.markers[kSprings];
   auto& particles = markers_.markers[kParticles];
   springs.colors.clear();
@@ -213,7 +214,7 @@ void MarkerBuilder::drawTrail() {
   }
 }
 
-void MarkerBuilder::label(const Run& run, const std::string& pace) {
+void MarkerBuilder::label(const PendulumRun& run, const std::string& pace) {
   const Scenario& scenario = run.scenario();
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
   const LedgerEntry entry = run.ledgerEntry();

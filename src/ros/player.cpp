@@ -1,3 +1,4 @@
+#include <spring_pendulum/io/interruption.hpp>
 #include <spring_pendulum/ros/player.hpp>
 
 #include <fmt/format.h>
@@ -19,15 +20,23 @@ void answer(std_srvs::Trigger::Response& response, bool success, std::string sen
   response.message = std::move(sentence);
 }
 
+/// Neither ROS nor a signal has ended the program.
+bool isWanted() {
+  return ros::ok() && interruption() == 0;
+}
+
 }  // namespace
 
-Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
+Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
                const NodeOptions& options, Registration& registration)
     : run_(run), options_(options), pacer_(options.real_time_factor) {
   pause_ = private_node.advertiseService("pause", &Player::onPause, this);
   step_ = private_node.advertiseService("step", &Player::onStep, this);
   reset_ = private_node.advertiseService("reset", &Player::onReset, this);
   for (const auto& service : {pause_, step_, reset_}) registration.addService(service.getService());
+  for (const char* of_roscpp : {"get_loggers", "set_logger_level"}) {
+    registration.addService(private_node.resolveName(of_roscpp));
+  }
   if (!options.follow.empty()) {
     leader_ = node.subscribe(options.follow, 100, &Player::onLeaderState, this);
   }
@@ -36,9 +45,9 @@ Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& 
 Player::Action Player::next() {
   if (!pacer_.isStarted()) pacer_.start(run_.time(), ros::WallTime::now());
   pacer_.note(run_.time(), ros::WallTime::now());
-  while (ros::ok()) {
+  while (isWanted()) {
     serveUntilDue();
-    if (!ros::ok()) break;
+    if (!isWanted()) break;
     const ros::WallTime now = ros::WallTime::now();
     if (reset_wanted_) return reset();
     if (isDue()) {

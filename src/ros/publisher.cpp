@@ -1,3 +1,4 @@
+#include <spring_pendulum/io/interruption.hpp>
 #include <spring_pendulum/ros/publisher.hpp>
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ std::uint32_t queueLength(std::int64_t message_bytes) {
 
 }  // namespace
 
-PendulumStatus statusOf(const Run& run, bool paused) {
+PendulumStatus statusOf(const PendulumRun& run, bool paused) {
   PendulumStatus status;
   const Verdict& verdict = run.verdict();
   if (!run.isShown()) {
@@ -48,7 +49,7 @@ PendulumStatus statusOf(const Run& run, bool paused) {
   return status;
 }
 
-Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options,
+Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
                      Registration& registration)
     : frame_id_(options.frame_id),
       publishes_clock_(options.publish_clock),
@@ -61,6 +62,7 @@ Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& o
   markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", queueLength(marker_bytes));
   state_ = node.advertise<PendulumState>("state", queueLength(state_bytes));
   status_topic_ = node.advertise<PendulumStatus>("status", 10, true);
+  registration.addTopic("/rosout", "rosgraph_msgs/Log");
   registration.addTopic(markers_.getTopic(), "visualization_msgs/MarkerArray");
   registration.addTopic(state_.getTopic(), "spring_pendulum/PendulumState");
   registration.addTopic(status_topic_.getTopic(), "spring_pendulum/PendulumStatus");
@@ -87,7 +89,7 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   waiting.code = PendulumStatus::WAITING;
   waiting.text = fmt::format("waiting for {} subscribers", options.wait_for_subscribers);
   publishStatus(waiting, stamps_.next(0.0));
-  while (ros::ok() && !isReady()) {
+  while (ros::ok() && interruption() == 0 && !isReady()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kNap));
     if (timeout.isZero() || ros::WallTime::now() - start < timeout) continue;
     ROS_WARN("%u of %ld subscribers after %.6g s: starting without the others", subscribers(),
@@ -96,7 +98,7 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   }
 }
 
-void Publisher::publish(const Run& run, bool paused, const std::string& pace) {
+void Publisher::publish(const PendulumRun& run, bool paused, const std::string& pace) {
   std_msgs::Header header;
   header.frame_id = frame_id_;
   header.stamp = stamps_.next(run.time());

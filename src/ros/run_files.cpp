@@ -14,7 +14,7 @@ RunFiles::RunFiles(const Scenario& scenario) {
   }
 }
 
-void RunFiles::write(const Run& run) {
+void RunFiles::write(const PendulumRun& run) {
   if (finished_ || !run.atFrame() || run.frame() < next_frame_) return;
   if (run.isShown()) {
     if (frames_) frames_->write(run.frame(), run.state());

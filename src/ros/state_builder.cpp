@@ -17,7 +17,7 @@ double largestStretch(const Chain& chain, const State& state) {
   return rest_length > 0.0 ? longest / rest_length - 1.0 : longest;
 }
 
-const PendulumState& StateBuilder::build(const Run& run, const std_msgs::Header& header) {
+const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs::Header& header) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const LedgerEntry entry = run.ledgerEntry();
   message_.header = header;

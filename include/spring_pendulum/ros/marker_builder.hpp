@@ -7,7 +7,7 @@
 #pragma once
 
 #include <spring_pendulum/ros/node_options.hpp>
-#include <spring_pendulum/ros/run.hpp>
+#include <spring_pendulum/ros/pendulum_run.hpp>
 
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -20,16 +20,17 @@ namespace spring_pendulum {
 
 class MarkerBuilder {
  public:
-  MarkerBuilder(const Run& run, const NodeOptions& options);
+  MarkerBuilder(const PendulumRun& run, const NodeOptions& options);
 
   /// Adds the tip to the trail; a time before the last one starts a new trail.
-  void trackTip(const Run& run);
+  void trackTip(const PendulumRun& run);
 
   /// A state that can't be drawn, of a motion that diverged, leaves the chain as it was last drawn
   /// and changes its colour.
   /// \param pace how fast the run goes, for the text: "1.00 x real time"
   /// \return valid until the next call
-  const visualization_msgs::MarkerArray& build(const Run& run, const std_msgs::Header& header,
+  const visualization_msgs::MarkerArray& build(const PendulumRun& run,
+                                               const std_msgs::Header& header,
                                                const std::string& pace);
 
  private:
@@ -39,11 +40,11 @@ class MarkerBuilder {
   };
 
   geometry_msgs::Point pointOf(const State& state, Eigen::Index i) const;
-  void place(const Run& run);
-  void paint(const Run& run);
+  void place(const PendulumRun& run);
+  void paint(const PendulumRun& run);
   void drawTrail();
-  void label(const Run& run, const std::string& pace);
-  std_msgs::ColorRGBA springColor(const Run& run, std::size_t spring) const;
+  void label(const PendulumRun& run, const std::string& pace);
+  std_msgs::ColorRGBA springColor(const PendulumRun& run, std::size_t spring) const;
 
   NodeOptions options_;
   std::vector<Eigen::Index> drawn_;               ///< the particles that are drawn

@@ -5,8 +5,8 @@
 #include <spring_pendulum/PendulumState.h>
 #include <spring_pendulum/ros/node_options.hpp>
 #include <spring_pendulum/ros/pacer.hpp>
+#include <spring_pendulum/ros/pendulum_run.hpp>
 #include <spring_pendulum/ros/registration.hpp>
-#include <spring_pendulum/ros/run.hpp>
 
 #include <ros/node_handle.h>
 #include <std_srvs/SetBool.h>
@@ -27,7 +27,7 @@ class Player {
   };
 
   /// \param run outlives the player
-  Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
+  Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
          const NodeOptions& options, Registration& registration);
 
   /// Serves callbacks until something is due.
@@ -50,7 +50,7 @@ class Player {
   bool isDue() const;
   void serveUntilDue();
 
-  const Run& run_;
+  const PendulumRun& run_;
   NodeOptions options_;
   Pacer pacer_;
   bool paused_ = false;

@@ -18,11 +18,11 @@ namespace spring_pendulum {
 
 /// PendulumStatus code and text for a run.
 /// \param paused the user has stopped it
-PendulumStatus statusOf(const Run& run, bool paused);
+PendulumStatus statusOf(const PendulumRun& run, bool paused);
 
 class Publisher {
  public:
-  Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options,
+  Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
             Registration& registration);
 
   /// Whether anybody wants to see states between the frames.
@@ -33,7 +33,7 @@ class Publisher {
 
   /// Sends the state to all who want it, and the status if it has changed.
   /// \param pace how fast the run goes, for the text
-  void publish(const Run& run, bool paused, const std::string& pace);
+  void publish(const PendulumRun& run, bool paused, const std::string& pace);
 
   std::int64_t markersBuilt() const { return markers_built_; }
   std::int64_t statesBuilt() const { return states_built_; }

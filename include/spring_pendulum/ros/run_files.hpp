@@ -3,7 +3,7 @@
 
 #include <spring_pendulum/io/background_frame_writer.hpp>
 #include <spring_pendulum/io/energy_file.hpp>
-#include <spring_pendulum/ros/run.hpp>
+#include <spring_pendulum/ros/pendulum_run.hpp>
 
 #include <optional>
 
@@ -19,7 +19,7 @@ class RunFiles {
   /// Writes the frame if the run stands at one that is new and may be shown, and closes the files
   /// after the last one.
   /// \throws FileError naming the file
-  void write(const Run& run);
+  void write(const PendulumRun& run);
 
   /// Closes the files; nothing is written after this.
   void finish();

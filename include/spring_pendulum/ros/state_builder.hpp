@@ -2,7 +2,7 @@
 #pragma once
 
 #include <spring_pendulum/PendulumState.h>
-#include <spring_pendulum/ros/run.hpp>
+#include <spring_pendulum/ros/pendulum_run.hpp>
 
 #include <std_msgs/Header.h>
 
@@ -14,7 +14,7 @@ class StateBuilder {
   explicit StateBuilder(double y_offset) : y_offset_(y_offset) {}
 
   /// \return valid until the next call
-  const PendulumState& build(const Run& run, const std_msgs::Header& header);
+  const PendulumState& build(const PendulumRun& run, const std_msgs::Header& header);
 
  private:
   void copyState(const State& state);

@@ -15,12 +15,12 @@
 
 namespace spring_pendulum {
 
-class Run {
+class PendulumRun {
  public:
   /// \param display_interval simulated time in s from one state shown to the next; 0: frames only
   /// \throws InputError as Chain, makeIntegrator and Judge
-  Run(const Scenario& scenario, const Particles& particles, bool track_energy,
-      double display_interval);
+  PendulumRun(const Scenario& scenario, const Particles& particles, bool track_energy,
+              double display_interval);
 
   /// On to the end of the frame's current part, or to the next frame.
   void advance(bool in_between);

@@ -1,5 +1,5 @@
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/ros/run.hpp>
+#include <spring_pendulum/ros/pendulum_run.hpp>
 #include <spring_pendulum/simulation/sleep.hpp>
 #include <spring_pendulum/simulation/work.hpp>
 
@@ -27,8 +27,8 @@ std::int64_t partsPerFrame(const FrameSteps& frame, bool fixed_step, double disp
 
 }  // namespace
 
-Run::Run(const Scenario& scenario, const Particles& particles, bool track_energy,
-         double display_interval)
+PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, bool track_energy,
+                         double display_interval)
     : scenario_(scenario),
       chain_(particles.masses, scenario.spring(), scenario.gravity),
       start_(particles.state),
@@ -48,7 +48,7 @@ Run::Run(const Scenario& scenario, const Particles& particles, bool track_energy
   judgeFrame();
 }
 
-void Run::advance(bool in_between) {
+void PendulumRun::advance(bool in_between) {
   const std::int64_t target = in_between ? part_ + 1 : parts_;
   integrator_->advance(state_, frame_steps_.time_step, stepOfPart(target) - stepOfPart(part_));
   part_ = target % parts_;
@@ -57,7 +57,7 @@ void Run::advance(bool in_between) {
   judgeFrame();
 }
 
-void Run::reset() {
+void PendulumRun::reset() {
   state_ = start_;
   integrator_->restart();
   judge_ = Judge(chain_, start_, track_energy_);
@@ -66,32 +66,32 @@ void Run::reset() {
   judgeFrame();
 }
 
-bool Run::isShown() const {
+bool PendulumRun::isShown() const {
   if (judge_.latest().kind != VerdictKind::kDiverged) return true;
   return scenario_.on_divergence == "continue" && std::isfinite(judge_.entry().energy.total());
 }
 
-void Run::judgeFrame() {
+void PendulumRun::judgeFrame() {
   judge_.judge(time(), state_, integrator_->dissipatedEnergy());
 }
 
-LedgerEntry Run::ledgerEntry() const {
+LedgerEntry PendulumRun::ledgerEntry() const {
   return atFrame() ? judge_.entry()
                    : ledger_.entry(time(), state_, integrator_->dissipatedEnergy());
 }
 
-std::int64_t Run::steps() const {
+std::int64_t PendulumRun::steps() const {
   return frame_ * frame_steps_.steps + stepOfPart(part_);
 }
 
-std::int64_t Run::stepOfPart(std::int64_t part) const {
+std::int64_t PendulumRun::stepOfPart(std::int64_t part) const {
   // part * steps / parts, but without a product that could overflow.
   const std::int64_t quotient = frame_steps_.steps / parts_;
   const std::int64_t remainder = frame_steps_.steps % parts_;
   return part * quotient + part * remainder / parts_;
 }
 
-double Run::timeOfPart(std::int64_t part) const {
+double PendulumRun::timeOfPart(std::int64_t part) const {
   return static_cast<double>(frame_ * frame_steps_.steps + stepOfPart(part)) *
          frame_steps_.time_step;
 }

@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""record_bag: the node's messages in a bag, the same bytes every run, read back by everything that
+reads bags."""
+import os
+import subprocess
+import unittest
+
+import rosbag
+import rospy
+import rostest
+from spring_pendulum.msg import PendulumState, PendulumStatus
+from visualization_msgs.msg import MarkerArray
+
+from pendulum_process import Folder, Listener, program, project, run_exercise
+
+SCENE = project('data/particle.txt')
+
+
+def record(folder, name, *arguments, method='Runge-Kutta-4', scene=SCENE, status=0):
+    path = os.path.join(folder, name)
+    done = subprocess.run([program('record_bag'), method, '--particles', scene, '--bag', path,
+                           *arguments], capture_output=True, text=True,
+                          env=dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:1'))
+    assert done.returncode == status, done.stderr
+    return path, done.stdout + done.stderr
+
+
+def contents(path, topic):
+    with rosbag.Bag(path) as bag:
+        return [(message, stamp) for _, message, stamp in bag.read_messages(topics=[topic])]
+
+
+class Bag(unittest.TestCase):
+
+    def test_two_runs_give_the_same_bytes(self):
+        with Folder() as folder:
+            one, _ = record(folder, 'one.bag')
+            two, _ = record(folder, 'two.bag')
+            with open(one, 'rb') as a, open(two, 'rb') as b:
+                self.assertTrue(a.read() == b.read())
+            self.assertEqual(sorted(os.listdir(folder)), ['one.bag', 'two.bag'])
+
+    def test_holds_the_500_frames_of_the_exercise(self):
+        with Folder() as folder:
+            frames = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE)
+            path, _ = record(folder, 'one.bag')
+            states = contents(path, '/state')
+            markers = contents(path, '/markers')
+        at_frames = [message for message, _ in states if message.at_frame]
+        self.assertEqual([message.frame for message in at_frames], list(range(500)))
+        for message in at_frames:
+            lines = frames['frame_%04d.txt' % message.frame].decode().splitlines()
+            self.assertEqual([(p.x, p.z) for p in message.positions],
+                             [tuple(map(float, line.split())) for line in lines])
+        self.assertEqual(len(states), 1498)  # 3 states a frame at 30 Hz
+        self.assertEqual([m.header.stamp for m, _ in states],
+                         [m.markers[0].header.stamp for m, _ in markers])
+        for message, stamp in states:
+            self.assertEqual(message.header.stamp, stamp)
+            self.assertAlmostEqual(stamp.to_sec(), 1.0 + message.time, places=6)
+        stamps = [stamp.to_nsec() for _, stamp in states]
+        self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])))
+        self.assertNotIn('real time', markers[-1][0].markers[4].text)
+
+    def test_status_is_latched(self):
+        with Folder() as folder:
+            path, _ = record(folder, 'one.bag', '--frames', '5')
+            codes = [message.code for message, _ in contents(path, '/status')]
+            with rosbag.Bag(path) as bag:
+                latched = {c.topic: c.header.get('latching') for c in bag._get_connections()}
+        self.assertEqual(codes, [PendulumStatus.RUNNING, PendulumStatus.FINISHED])
+        self.assertIn(latched['/status'], (b'1', '1'))
+        self.assertNotIn(latched['/state'], (b'1', '1'))
+
+    def test_several_methods_in_one_bag(self):
+        with Folder() as folder:
+            record(folder, 'all.bag', '--namespace', 'euler', '--frames', '5', method='Euler')
+            path, _ = record(folder, 'all.bag', '--namespace', '/rk4/', '--append', '--frames', '5')
+            self.assertEqual({m.method for m, _ in contents(path, '/euler/state')}, {'Euler'})
+            self.assertEqual({m.method for m, _ in contents(path, '/rk4/state')},
+                             {'Runge-Kutta-4'})
+
+    def test_rosbag_info_and_play(self):
+        with Folder() as folder:
+            path, _ = record(folder, 'one.bag', '--frames', '11', '--display-rate', '0')
+            info = subprocess.run(['rosbag', 'info', '-y', path], capture_output=True, text=True,
+                                  check=True).stdout
+            self.assertIn('messages: 24', info)  # 11 markers, 11 states, 2 status
+            state, markers = Listener('/state', PendulumState), Listener('/markers', MarkerArray)
+            status = Listener('/status', PendulumStatus)
+            subprocess.run(['rosbag', 'play', '--quiet', '--wait-for-subscribers', path],
+                           check=True, timeout=60, stdout=subprocess.DEVNULL)
+            self.assertEqual(len(state.wait_for(11)), 11)
+            self.assertEqual(len(markers.wait_for(11)), 11)
+            status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
+
+    def test_divergence_is_in_the_bag_and_in_the_exit_status(self):
+        with Folder() as folder:
+            path, output = record(folder, 'one.bag', method='Euler', status=3,
+                                  scene=project('data/horizontal_11.txt'))
+            self.assertIn('diverged at t = ', output)
+            self.assertEqual(contents(path, '/status')[-1][0].code, PendulumStatus.DIVERGED)
+
+    def test_bad_use_leaves_no_file(self):
+        cases = [(('--color', 'red'), 2, "--color: color is 'red'"), (('--frames', '0'), 2, 'frames'),
+                 (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, '--trail needs a value'),
+                 (('--bag', '/nowhere/x.bag'), 1, '/nowhere/x.bag')]
+        for arguments, status, message in cases:
+            with self.subTest(arguments=arguments), Folder() as folder:
+                _, output = record(folder, 'one.bag', *arguments, status=status)
+                self.assertIn(message, output)
+                self.assertEqual(len(output.strip().splitlines()), 1)
+                self.assertEqual(os.listdir(folder), [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('bag_test')
+    rostest.rosrun('spring_pendulum', 'bag', Bag)

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""How a run ends: hold, exit, loop, a signal, a motion that diverges."""
+import os
+import signal
+import time
+import unittest
+
+import rospy
+import rostest
+from spring_pendulum.msg import PendulumState, PendulumStatus
+from visualization_msgs.msg import MarkerArray
+
+from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
+                              wait_until)
+
+HORIZONTAL = project('data/horizontal_11.txt')
+
+
+def stamps(messages):
+    return [m.header.stamp.to_nsec() for m in messages]
+
+
+class Ends(unittest.TestCase):
+
+    def test_hold_keeps_showing_the_last_frame(self):
+        with PendulumNode(frames=3, at_end='hold') as node:
+            time.sleep(1.0)
+            listener = Listener('state', PendulumState)
+            messages = listener.wait_for(2)
+            listener.close()
+            self.assertEqual({m.frame for m in messages}, {2})
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
+
+    def test_loop_starts_again_and_time_stamps_go_on(self):
+        listener = Listener('state', PendulumState)
+        with Folder() as folder:
+            with PendulumNode(frames=4, at_end='loop', output=folder, wait_for_subscribers=1) as node:
+                wait_until(lambda: sum(m.time == 0 for m in listener.messages) >= 2, 'a second round')
+                wait_until(lambda: listener.messages[-1].frame == 3, 'its end')
+                node.interrupt()
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(len(read_frames(folder)), 4)
+        listener.close()
+        seconds = stamps(listener.messages)
+        self.assertTrue(all(a < b for a, b in zip(seconds, seconds[1:])))
+
+    def test_interrupted_exits_0_and_every_frame_is_whole(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number), Folder() as folder, Folder() as expected_folder:
+                with PendulumNode(frames=100000, output=folder, particles=HORIZONTAL) as node:
+                    wait_until(lambda: os.path.exists(folder + '/frame_0050.txt'), 'frame 50')
+                    node.interrupt(number)
+                    self.assertEqual(node.wait(), 0, node.output())
+                    self.assertIn('verdict: ', node.output())
+                frames = read_frames(folder)
+                self.assertEqual(sorted(frames),
+                                 sorted('frame_%04d.txt' % i for i in range(len(frames))))
+                expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', HORIZONTAL,
+                                        '--frames', str(len(frames)))
+                self.assertEqual(frames, expected)
+
+    def test_divergence_exits_3_and_leaves_a_latched_verdict(self):
+        with Folder() as folder, Folder() as expected_folder:
+            expected = run_exercise(expected_folder, 'Euler', '--particles', HORIZONTAL, status=3)
+            with PendulumNode(method='Euler', particles=HORIZONTAL, output=folder,
+                              at_end='hold') as node:
+                wait_until(lambda: len(read_frames(folder)) == len(expected), 'the last good frame')
+                time.sleep(0.5)
+                late = Listener('status', PendulumStatus)
+                message = late.wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
+                self.assertIn('diverged at t = ', message.text)
+                late.close()
+                node.interrupt()
+                self.assertEqual(node.wait(), 3, node.output())
+                self.assertEqual(len(node.lines('ERROR')), 1, node.output())
+            self.assertEqual(read_frames(folder), expected)
+            with PendulumNode(method='Euler', particles=HORIZONTAL) as node:
+                self.assertEqual(node.wait(), 3, node.output())
+
+    def test_divergence_changes_the_colour_and_keeps_the_last_good_chain(self):
+        markers = Listener('markers', MarkerArray)
+        with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=1) as node:
+            self.assertEqual(node.wait(), 3, node.output())
+        last = wait_until(lambda: markers.messages and 'diverged' in markers.messages[-1].markers[4].text
+                          and markers.messages[-1], 'the verdict')
+        markers.close()
+        springs, good = last.markers[0], markers.messages[-2].markers[0]
+        self.assertEqual(springs.points, good.points)
+        self.assertEqual(len({(c.r, c.g, c.b) for c in springs.colors}), 1)
+        self.assertNotEqual(springs.colors, good.colors)
+
+    def test_the_closing_line_says_what_was_done(self):
+        with PendulumNode(frames=11, particles=HORIZONTAL) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+            for part in ('Runge-Kutta-4: 11 particles, 11 frames, 100 steps, 400 force evaluations',
+                         's integrating', 's writing', 'energy error ', 'verdict: ok'):
+                self.assertIn(part, node.lines('INFO')[-1])
+
+
+if __name__ == '__main__':
+    rospy.init_node('ends_test')
+    rostest.rosrun('spring_pendulum', 'ends', Ends)

@@ -1,0 +1,173 @@
+// Markers and state of chosen scenes, bags through the rosbag library, parameters.
+#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/ros/bag_recorder.hpp>
+#include <spring_pendulum/ros/color.hpp>
+#include <spring_pendulum/ros/marker_builder.hpp>
+#include <spring_pendulum/ros/parameters.hpp>
+#include <spring_pendulum/ros/state_builder.hpp>
+
+#include <gmock/gmock.h>
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <map>
+
+#include <support/temporary_folder.hpp>
+
+namespace spring_pendulum {
+namespace {
+
+using testing::HasSubstr;
+
+Particles horizontal(Eigen::Index particles) {
+  Particles scene{Eigen::VectorXd::Ones(particles), State(particles)};
+  for (Eigen::Index i = 0; i < particles; ++i) scene.state.x()[i] = static_cast<double>(i);
+  return scene;
+}
+
+visualization_msgs::MarkerArray markersOf(const PendulumRun& run, const NodeOptions& options) {
+  MarkerBuilder builder(run, options);
+  builder.trackTip(run);
+  return builder.build(run, std_msgs::Header(), "");
+}
+
+TEST(Markers, LongChainsAreThinnedAndKeepBothEnds) {
+  for (const Eigen::Index particles : {2, 3, 9, 10, 11, 12, 100, 101}) {
+    const PendulumRun run(Scenario{}, horizontal(particles), false, 0.0);
+    NodeOptions options;
+    options.display_limit = 10;
+    const auto markers = markersOf(run, options).markers;
+    const auto& points = markers[1].points;
+    ASSERT_LE(points.size(), 10U) << particles;
+    EXPECT_EQ(points.front().x, 0.0);
+    EXPECT_EQ(points.back().x, static_cast<double>(particles - 1));
+    EXPECT_EQ(points.size(), markers[1].colors.size());
+    EXPECT_EQ(markers[0].points.size(), 2 * (points.size() - 1));
+    EXPECT_EQ(markers[0].colors.size(), markers[0].points.size());
+    EXPECT_EQ(particles > 10, markers[4].text.find("particles drawn") != std::string::npos);
+  }
+}
+
+TEST(Markers, SpringsAreColouredByStrainAndParticlesByMass) {
+  Particles scene = horizontal(4);
+  scene.state.x()[2] = 1.5;  // springs of 1, 0.5 and 3.5 m
+  scene.state.x()[3] = 5.0;
+  scene.masses << 1.0, 1.0, 10.0, 100.0;
+  const PendulumRun run(Scenario{}, scene, false, 0.0);
+  const auto markers = markersOf(run, NodeOptions{}).markers;
+  const auto& springs = markers[0].colors;
+  EXPECT_EQ(springs[0].r, springs[0].b);  // relaxed: no hue
+  EXPECT_LT(springs[2].r, springs[2].b);  // short: bluish
+  EXPECT_GT(springs[4].r, springs[4].b);  // long: reddish
+  const auto& particles = markers[1].colors;
+  EXPECT_FLOAT_EQ(particles[1].g, massColor(0.0).g);
+  EXPECT_FLOAT_EQ(particles[2].g, massColor(0.5).g);
+  EXPECT_FLOAT_EQ(particles[3].g, massColor(1.0).g);
+}
+
+TEST(Markers, OneColourForTheWholeChainOnRequest) {
+  const PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  NodeOptions options;
+  options.color = "#ff8000";
+  const auto markers = markersOf(run, options).markers;
+  for (const auto& color : markers[0].colors) EXPECT_EQ(color, *parseColor("#ff8000"));
+  EXPECT_EQ(markers[4].color, *parseColor("#ff8000"));
+}
+
+TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
+  PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  NodeOptions options;
+  options.trail = 1.0;
+  MarkerBuilder builder(run, options);
+  for (int i = 0; i < 30; ++i) {
+    builder.trackTip(run);
+    run.advance(false);
+  }
+  const std_msgs::Header header;
+  const auto& trail = builder.build(run, header, "").markers[3];
+  EXPECT_EQ(trail.points.size(), 11U);  // 1 s at 0.1 s
+  run.reset();
+  builder.trackTip(run);
+  EXPECT_EQ(builder.build(run, header, "").markers[3].action, visualization_msgs::Marker::DELETE);
+}
+
+TEST(StateMessage, LiesInThePlaneXZ) {
+  Scenario scenario;
+  PendulumRun run(scenario, horizontal(3), true, 0.0);
+  run.advance(false);
+  const PendulumState& message = StateBuilder(0.25).build(run, std_msgs::Header());
+  EXPECT_EQ(message.positions[2].x, run.state().x()[2]);
+  EXPECT_EQ(message.positions[2].y, 0.25);
+  EXPECT_EQ(message.positions[2].z, run.state().y()[2]);
+  EXPECT_EQ(message.velocities[2].z, run.state().vy()[2]);
+  EXPECT_EQ(message.frame, 1);
+  EXPECT_EQ(message.method, "Runge-Kutta-4");
+  EXPECT_EQ(message.largest_stretch, largestStretch(run.chain(), run.state()));
+}
+
+TEST(StateMessage, LargestStretchIsRelativeToTheRestLength) {
+  Scenario scenario;
+  scenario.rest_length = 0.5;
+  const PendulumRun run(scenario, horizontal(3), false, 0.0);
+  EXPECT_DOUBLE_EQ(largestStretch(run.chain(), run.state()), 1.0);
+  scenario.rest_length = 0.0;
+  const PendulumRun loose(scenario, horizontal(3), false, 0.0);
+  EXPECT_DOUBLE_EQ(largestStretch(loose.chain(), loose.state()), 1.0);
+  const PendulumRun alone(scenario, horizontal(1), false, 0.0);
+  EXPECT_EQ(largestStretch(alone.chain(), alone.state()), 0.0);
+}
+
+TEST(Bag, IsReadBackByTheLibrary) {
+  const TemporaryFolder folder;
+  Scenario scenario;
+  scenario.frames = 6;
+  scenario.particles = PROJECT_DIR "/data/particle.txt";
+  BagOptions options;
+  options.path = folder.path() + "/one.bag";
+  const BagSummary summary = recordBag(scenario, NodeOptions{}, options);
+  rosbag::Bag bag(options.path);
+  std::map<std::string, int> counts;
+  ros::Time last;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    ++counts[message.getTopic()];
+    EXPECT_GE(message.getTime(), last);
+    last = message.getTime();
+  }
+  EXPECT_EQ(counts["/markers"], 16);  // 3 states a frame and the start
+  EXPECT_EQ(counts["/state"], 16);
+  EXPECT_EQ(counts["/status"], 2);
+  EXPECT_EQ(summary.messages, 34);
+  EXPECT_EQ(summary.frames, 6);
+}
+
+TEST(Parameters, RawValuesBecomeTheTextThatWasMeant) {
+  XmlRpc::XmlRpcValue whole(4), real(0.001), yes(true), text("1e-3"), list;
+  list[0] = 1;
+  EXPECT_EQ(parameterText(whole, "frames", "/node"), "4");
+  EXPECT_EQ(parameterText(real, "time_step", "/node"), "0.001");
+  EXPECT_EQ(parameterText(yes, "no_frames", "/node"), "true");
+  EXPECT_EQ(parameterText(text, "time_step", "/node"), "1e-3");
+  EXPECT_THROW(parameterText(list, "frames", "/node"), InputError);
+}
+
+TEST(Parameters, EveryOptionReadsItsOwnDefault) {
+  const NodeOptions defaults;
+  for (const NodeOption& option : nodeOptionTable()) {
+    NodeOptions options;
+    EXPECT_TRUE(setNodeOption(options, option.key, formatValue(option, defaults), "test"));
+    EXPECT_EQ(formatValue(option, options), formatValue(option, defaults)) << option.key;
+  }
+  NodeOptions options;
+  EXPECT_FALSE(setNodeOption(options, "nothing", "1", "test"));
+}
+
+TEST(Colors, OnlyHexIsRead) {
+  EXPECT_TRUE(parseColor("#00ff7F"));
+  for (const char* text : {"", "#", "red", "#fff", "#1234567", "#12345g", "123456", "#-12345"}) {
+    EXPECT_FALSE(parseColor(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,82 @@
+#!/usr/bin/python3
+"""Parameters right and wrong."""
+import unittest
+
+import rosgraph
+import rostest
+import yaml
+
+from pendulum_process import Folder, PendulumNode, project, read_frames, run_exercise
+
+
+class Parameters(unittest.TestCase):
+
+    def test_each_bad_one_ends_the_node_with_one_clear_line(self):
+        with open(project('test/ros/bad_parameters.yaml')) as collection:
+            cases = yaml.safe_load(collection)
+        self.assertGreater(len(cases), 40)
+        for case in cases:
+            with self.subTest(**case['parameters']), PendulumNode(**case['parameters']) as node:
+                self.assertEqual(node.wait(), case.get('status', 2), node.output())
+                self.assertEqual(len(node.output().strip().splitlines()), 1, node.output())
+                self.assertIn(case['says'], node.lines('FATAL')[0])
+                if case.get('status', 2) == 2:
+                    self.assertIn('/pendulum: ', node.lines('FATAL')[0])
+
+    def test_the_unknown_one_is_told_all_known_ones(self):
+        with PendulumNode(bogus=1) as node:
+            self.assertEqual(node.wait(), 2)
+            for key in ('method', 'time_step', 'gravity', 'frame_id', 'at_end', 'follow'):
+                self.assertIn(key, node.output())
+
+    def test_what_is_meant_is_accepted_in_every_type(self):
+        spellings = [
+            dict(frames=3, time_step='1e-3', stiffness=60, damping='2', steps_per_frame='5'),
+            dict(frames=3.0, time_step=1.0e-3, stiffness=60.0, damping=2, steps_per_frame=5),
+            dict(frames='3', time_step='0.001', stiffness='60', damping=2.0, steps_per_frame=5),
+        ]
+        with Folder() as expected_folder:
+            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--frames', '3', '--time-step',
+                                    '1e-3', '--stiffness', '60', '--damping', '2',
+                                    '--steps-per-frame', '5',
+                                    '--particles', project('data/particle.txt'))
+        for spelling in spellings:
+            with self.subTest(**spelling), Folder() as folder:
+                with PendulumNode(output=folder, no_frames='false', **spelling) as node:
+                    self.assertEqual(node.wait(), 0, node.output())
+                self.assertEqual(read_frames(folder), expected)
+
+    def test_every_key_of_pendulum_yaml_is_a_parameter(self):
+        with open(project('config/pendulum.yaml')) as config:
+            keys = yaml.safe_load(config)
+        self.assertGreater(len(keys), 10)
+        keys.update(particles=project('data/particle.txt'), frames=2)
+        with Folder() as folder:
+            with PendulumNode(**dict(keys, output=folder)) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(len(read_frames(folder)), 2)
+
+    def test_command_line_parameters_and_relative_output(self):
+        with Folder() as folder:
+            with PendulumNode(arguments=['_method:=Euler', '_frames:=2', '_output:=sub/frames'],
+                              output=None, cwd=folder) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+                self.assertIn(folder + '/sub/frames', node.output())
+            self.assertEqual(len(read_frames(folder + '/sub/frames')), 2)
+
+    def test_by_default_frames_go_to_the_working_directory(self):
+        with Folder() as folder:
+            with PendulumNode(output=None, frames=2, cwd=folder) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+                self.assertIn('frames go to ' + folder, node.output())
+            self.assertEqual(len(read_frames(folder)), 2)
+
+    def test_a_node_below_is_no_parameter_of_this_one_only_if_it_has_none(self):
+        master = rosgraph.Master('/test')
+        master.setParam('/other/pendulum/frames', 2)
+        with PendulumNode(frames=2) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+
+
+if __name__ == '__main__':
+    rostest.rosrun('spring_pendulum', 'parameters', Parameters)

@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+"""A real rviz on a virtual display shows the running node, a replayed bag and the comparison. The
+pictures are looked at by their colours, and kept: PENDULUM_PICTURES says where."""
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from spring_pendulum.msg import PendulumState
+from std_srvs.srv import SetBool
+
+from pendulum_process import Folder, Listener, PendulumNode, program, project, wait_until
+
+WIDTH, HEIGHT = 1280, 800
+PICTURES = os.environ.get('PENDULUM_PICTURES', '/tmp')
+
+
+class Picture:
+    """A portable pixmap as rows of (r, g, b)."""
+
+    def __init__(self, data):
+        header = re.match(rb'P6\s+(\d+)\s+(\d+)\s+255\s', data)
+        self.width, self.height = int(header.group(1)), int(header.group(2))
+        self.pixels = data[header.end():]
+
+    def at(self, column, row):
+        start = 3 * (row * self.width + column)
+        return tuple(self.pixels[start:start + 3])
+
+    def near(self, column, row, condition, radius=6):
+        return any(condition(self.at(x, y))
+                   for x in range(max(column - radius, 0), min(column + radius + 1, self.width))
+                   for y in range(max(row - radius, 0), min(row + radius + 1, self.height)))
+
+    def count(self, condition):
+        colors = (self.pixels[i:i + 3] for i in range(0, len(self.pixels), 3))
+        return sum(1 for color in colors if condition(color))
+
+
+def is_yellow(color):
+    return color[0] > 170 and color[1] > 140 and color[2] < 0.8 * color[1]
+
+
+def is_spring(color):
+    """Between white and full red."""
+    return color[0] > 200 and color[0] >= color[1] - 5 and color[0] >= color[2] - 5
+
+
+def is_background(color):
+    return max(color) < 90
+
+
+def is_like(wanted):
+    return lambda color: all(abs(a - b) < 30 for a, b in zip(color, wanted))
+
+
+class Display:
+    """A virtual display: with Display() as display."""
+
+    def __enter__(self):
+        read_end, write_end = os.pipe()
+        self.process = subprocess.Popen(
+            ['Xvfb', '-displayfd', str(write_end), '-screen', '0', '%dx%dx24' % (WIDTH, HEIGHT),
+             '-nolisten', 'tcp'], pass_fds=[write_end], stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as pipe:
+            self.name = ':' + pipe.readline().strip()
+        self.environment = dict(os.environ, DISPLAY=self.name, LIBGL_ALWAYS_SOFTWARE='1',
+                                QT_QPA_PLATFORM='xcb')
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+    def picture(self, name=None):
+        data = subprocess.run(['import', '-silent', '-window', 'root', '-depth', '8', 'ppm:-'],
+                              env=self.environment, capture_output=True, check=True).stdout
+        if name:
+            os.makedirs(PICTURES, exist_ok=True)
+            subprocess.run(['convert', 'ppm:-', os.path.join(PICTURES, name)], input=data, check=True)
+        return Picture(data)
+
+    def wait_for_picture(self, name, condition, what):
+        try:
+            wait_until(lambda: condition(self.picture()), what, patience=90)
+        finally:
+            picture = self.picture(name)
+        return picture
+
+
+class Launched:
+    """A launch file: with Launched(display, 'view.launch', ...)."""
+
+    def __init__(self, display, file, *arguments):
+        self.process = subprocess.Popen(
+            ['roslaunch', '--wait', 'spring_pendulum', file, *arguments],
+            env=display.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait(60)
+
+
+def pixel_of(point, scale, center_y):
+    """The pixel of a point of the plane, from the view of the rviz configuration."""
+    return round(WIDTH / 2 + scale * point.x), round(HEIGHT / 2 - scale * (point.z - center_y))
+
+
+def view_of(config):
+    with open(project('rviz/' + config)) as file:
+        text = file.read()
+    return tuple(float(re.search(r'^ +%s: (\S+)$' % key, text, re.M).group(1)) for key in ('Scale', 'Y'))
+
+
+class Rviz(unittest.TestCase):
+
+    def tearDown(self):
+        master = rosgraph.Master('/test')
+        if master.hasParam('/use_sim_time'):
+            master.deleteParam('/use_sim_time')
+
+    def test_the_running_node(self):
+        with Display() as display, Launched(display, 'view.launch', 'rviz_args:=--fullscreen'), \
+                PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=1) as node:
+            listener = Listener('state', PendulumState, keep=1)
+            wait_until(lambda: listener.messages and listener.messages[-1].frame >= 22, 'frame 22')
+            rospy.ServiceProxy('/pendulum/pause', SetBool)(True)
+            time.sleep(0.3)
+            state = listener.messages[-1]
+            pixels = [pixel_of(p, *view_of('pendulum.rviz')) for p in state.positions]
+            inside = [p for p in pixels if 20 < p[0] < WIDTH - 20 and 20 < p[1] < HEIGHT - 20]
+            self.assertGreaterEqual(len(inside), 5)
+            picture = display.wait_for_picture(
+                'running_node.png',
+                lambda p: all(p.near(*pixel, is_yellow) for pixel in inside[1:]), 'the chain')
+            self.check_chain(picture, inside)
+            listener.close()
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
+
+    def check_chain(self, picture, pixels):
+        self.assertTrue(picture.near(*pixels[0], is_like((154, 164, 178))), 'the anchor')
+        for (x0, y0), (x1, y1) in zip(pixels[1:], pixels[2:]):
+            self.assertTrue(picture.near((x0 + x1) // 2, (y0 + y1) // 2, is_spring), 'a spring')
+        self.assertTrue(is_background(picture.at(5, 5)))
+        self.assertGreater(picture.count(is_background), 0.9 * WIDTH * HEIGHT)
+
+    def test_a_replayed_bag(self):
+        with Folder() as folder, Display() as display:
+            bag = folder + '/one.bag'
+            subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '60', '--bag', bag,
+                            '--particles', project('data/particle.txt')], check=True,
+                           stdout=subprocess.DEVNULL)
+            with Launched(display, 'replay.launch', 'bag:=' + bag):
+                picture = display.wait_for_picture(
+                    'replayed_bag.png', lambda p: p.count(is_yellow) > 200, 'the chain')
+            self.assertGreater(picture.count(is_yellow), 200)
+
+    def test_the_comparison(self):
+        colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61),
+                  'Runge-Kutta-4': (63, 182, 255)}
+        with Display() as display, Launched(display, 'compare.launch', 'frames:=60', 'at_end:=loop'):
+            def all_shown(picture):
+                # The chain of Runge-Kutta-2 hides behind the one of Runge-Kutta-4; its text does not.
+                return (picture.count(is_like(colors['Runge-Kutta-4'])) > 150 and
+                        picture.count(is_like(colors['Euler'])) > 150 and
+                        picture.count(is_like(colors['Runge-Kutta-2'])) > 20)
+            display.wait_for_picture('comparison.png', all_shown, 'three chains')
+
+
+if __name__ == '__main__':
+    rospy.init_node('rviz_pictures')
+    rostest.rosrun('spring_pendulum', 'rviz_pictures', Rviz)

@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+"""~pause, ~step and ~reset: each answers with a sentence, and none changes a frame."""
+import time
+import unittest
+
+import rospy
+import rostest
+from spring_pendulum.msg import PendulumState, PendulumStatus
+from std_srvs.srv import SetBool, Trigger
+
+from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
+                              wait_until)
+
+SCENE = project('data/horizontal_11.txt')
+
+
+class Services(unittest.TestCase):
+
+    def setUp(self):
+        self.state = Listener('state', PendulumState)
+
+    def tearDown(self):
+        self.state.close()
+
+    def call(self, name, kind, *arguments):
+        rospy.wait_for_service('/pendulum/' + name, timeout=30)
+        answer = rospy.ServiceProxy('/pendulum/' + name, kind)(*arguments)
+        self.assertRegex(answer.message, r'\w+ .*\w')
+        return answer
+
+    def last(self):
+        return self.state.messages[-1]
+
+    def test_pause_step_reset_resume_and_still_the_same_frames(self):
+        with Folder() as folder, Folder() as expected_folder:
+            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', SCENE,
+                                    '--frames', '31')
+            with PendulumNode(particles=SCENE, frames=31, output=folder, real_time_factor=1.0,
+                              wait_for_subscribers=1) as node:
+                self.state.wait_for(5)
+                self.assertFalse(self.call('step', Trigger).success)
+                self.assertTrue(self.call('pause', SetBool, True).success)
+                self.assertIn('already paused', self.call('pause', SetBool, True).message)
+                self.check_stands_still()
+                self.check_steps()
+                self.check_reset()
+                self.assertIn('running', self.call('pause', SetBool, False).message)
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(read_frames(folder), expected)
+        seconds = [m.header.stamp.to_nsec() for m in self.state.messages]
+        self.assertTrue(all(a < b for a, b in zip(seconds, seconds[1:])))
+
+    def check_stands_still(self):
+        time.sleep(0.3)
+        paused_at = self.last().time
+        count = len(self.state.messages)
+        self.state.wait_for(count + 2)
+        self.assertEqual({m.time for m in self.state.messages[count:]}, {paused_at})
+
+    def check_steps(self):
+        for _ in range(3):
+            frame = self.last().frame
+            self.assertEqual(self.call('step', Trigger).message, 'going to frame %d' % (frame + 1))
+            message = self.state.wait_for_any(lambda m, f=frame: m.frame == f + 1)
+            self.assertTrue(message.at_frame)
+
+    def check_reset(self):
+        before = len(self.state.messages)
+        self.assertTrue(self.call('reset', Trigger).success)
+        wait_until(lambda: any(m.time == 0 for m in self.state.messages[before:]), 'frame 0')
+        self.check_stands_still()
+        self.assertEqual(self.last().frame, 0)
+
+    def test_step_at_the_end_is_refused_and_reset_plays_again(self):
+        status = Listener('status', PendulumStatus)
+        with PendulumNode(particles=SCENE, frames=3, at_end='hold', wait_for_subscribers=2) as node:
+            status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
+            answer = self.call('step', Trigger)
+            self.assertFalse(answer.success)
+            self.assertIn('over at frame 2', answer.message)
+            self.call('reset', Trigger)
+            wait_until(lambda: sum(m.code == PendulumStatus.FINISHED for m in status.messages) >= 2,
+                       'a second end')
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
+        status.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('services_test')
+    rostest.rosrun('spring_pendulum', 'services', Services)

@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""With use_sim_time and nobody publishing /clock the node must neither hang nor stamp with 0; a
+clock that jumps never turns the stamps back."""
+import time
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from rosgraph_msgs.msg import Clock
+from spring_pendulum.msg import PendulumState
+
+from pendulum_process import Listener, PendulumNode, wait_until
+
+
+class SimTime(unittest.TestCase):
+
+    def test_no_clock(self):
+        self.assertTrue(rosgraph.Master('/test').getParam('/use_sim_time'))
+        listener = Listener('state', PendulumState)
+        with PendulumNode(frames=11, real_time_factor=2.0, wait_for_subscribers=1) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+        listener.close()
+        self.assertGreater(len(listener.messages), 11)
+        self.assert_increasing(listener)
+
+    def test_a_clock_that_jumps(self):
+        listener = Listener('/b/state', PendulumState)
+        clock = rospy.Publisher('/clock', Clock, queue_size=10)
+        with PendulumNode('/b/pendulum', frames=1000, real_time_factor=1.0, wait_for_subscribers=1) as node:
+            for second in (100, 101, 5, 1000, 3, 7):
+                wait_until(lambda: clock.get_num_connections() >= 1, 'a subscriber of /clock')
+                clock.publish(Clock(rospy.Time(second)))
+                listener.wait_for(len(listener.messages) + 5)
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
+        listener.close()
+        self.assert_increasing(listener)
+
+    def assert_increasing(self, listener):
+        stamps = [m.header.stamp.to_nsec() for m in listener.messages]
+        self.assertGreater(stamps[0], 0)
+        self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])))
+
+
+if __name__ == '__main__':
+    rospy.init_node('sim_time_test')
+    rostest.rosrun('spring_pendulum', 'sim_time', SimTime)

@@ -1,0 +1,216 @@
+#!/usr/bin/python3
+"""What the node sends: topics, stamps and contents."""
+import csv
+import math
+import os
+import time
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from rosgraph_msgs.msg import Clock
+from spring_pendulum.msg import PendulumState, PendulumStatus
+from visualization_msgs.msg import Marker, MarkerArray
+
+from pendulum_process import Folder, Listener, PendulumNode, project, run_exercise, wait_until
+
+HORIZONTAL = project('data/horizontal_11.txt')
+
+
+def stamps(messages):
+    return [m.header.stamp.to_nsec() for m in messages]
+
+
+class Topics(unittest.TestCase):
+
+    def setUp(self):
+        self.listeners = []
+
+    def tearDown(self):
+        for listener in self.listeners:
+            listener.close()
+
+    def listen(self, topic, message_type, keep=None):
+        self.listeners.append(Listener(topic, message_type, keep))
+        return self.listeners[-1]
+
+    def assert_increasing(self, numbers):
+        self.assertGreater(numbers[0], 0)
+        self.assertTrue(all(a < b for a, b in zip(numbers, numbers[1:])), numbers)
+
+    def test_one_stamp_a_state_on_every_topic_and_nothing_lost(self):
+        markers, state, status = (self.listen('markers', MarkerArray), self.listen('state', PendulumState),
+                                  self.listen('status', PendulumStatus))
+        with PendulumNode(frames=20, real_time_factor=4.0, display_rate=60.0,
+                          wait_for_subscribers=3, frame_id='base') as node:
+            self.assertEqual(node.wait(), 0, node.output())
+            wait_until(lambda: len(markers.messages) == len(state.messages) > 0, 'equal numbers')
+        self.assertEqual(state.messages[0].time, 0.0)
+        self.assertEqual([m.frame for m in state.messages if m.at_frame and m.frame < 19],
+                         list(range(19)))
+        self.assertEqual(state.messages[-1].frame, 19)
+        self.assert_increasing(stamps(state.messages))
+        self.assertEqual(stamps(state.messages), [m.markers[0].header.stamp.to_nsec()
+                                                  for m in markers.messages])
+        for message in markers.messages:
+            self.assertEqual(len({(m.header.stamp, m.header.frame_id) for m in message.markers}), 1)
+        self.assertEqual(state.messages[0].header.frame_id, 'base')
+        self.assertEqual([m.code for m in status.messages],
+                         [PendulumStatus.WAITING, PendulumStatus.RUNNING, PendulumStatus.FINISHED])
+        self.assertTrue({m.header.stamp.to_nsec() for m in status.messages[1:]}
+                        <= set(stamps(state.messages)))
+
+    def test_markers_are_what_rviz_wants(self):
+        markers = self.listen('markers', MarkerArray)
+        with PendulumNode(frames=5, wait_for_subscribers=1) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+        self.assertEqual(len(markers.wait_for(5)[-1].markers), 5)
+        names = ['springs', 'particles', 'anchor', 'trail', 'text']
+        for message in markers.messages:
+            self.assertEqual([m.ns for m in message.markers], names)
+            for marker in message.markers:
+                self.check_marker(marker)
+        text = markers.messages[-1].markers[4].text
+        for part in ('Runge-Kutta-4', '0.01 s', 't = 0.40 s', 'energy error', 'ok'):
+            self.assertIn(part, text)
+
+    def check_marker(self, marker):
+        self.assertEqual((marker.id, marker.lifetime.to_sec()), (0, 0.0))
+        rotation = marker.pose.orientation
+        self.assertEqual((rotation.x, rotation.y, rotation.z, rotation.w), (0, 0, 0, 1))
+        self.assertGreater(min(marker.scale.x, marker.scale.y, marker.scale.z), 0)
+        self.assertGreater(min([marker.color.a] + [c.a for c in marker.colors]), 0)
+        self.assertFalse(marker.header.frame_id.startswith('/'))
+        if marker.type in (Marker.LINE_LIST, Marker.SPHERE_LIST, Marker.LINE_STRIP):
+            self.assertEqual(len(marker.points), len(marker.colors))
+            self.assertEqual(marker.action, Marker.ADD if len(marker.points) > 1 else Marker.DELETE)
+        self.assertTrue(all(p.y == 0 for p in marker.points))
+
+    def test_one_particle(self):
+        with Folder() as folder:
+            with open(folder + '/one.txt', 'w') as file:
+                file.write('1 2 3\n')
+            markers, state = self.listen('markers', MarkerArray), self.listen('state', PendulumState)
+            with PendulumNode(particles=folder + '/one.txt', frames=3, wait_for_subscribers=2) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            for marker in markers.wait_for(3)[-1].markers:
+                self.check_marker(marker)
+                self.assertEqual(marker.action, Marker.ADD if marker.ns in ('anchor', 'text')
+                                 else Marker.DELETE)
+            tip = state.wait_for(3)[-1].tip_position
+            self.assertEqual((tip.x, tip.y, tip.z), (1, 0, 2))
+
+    def test_state_is_the_frame_and_its_energies_are_the_ledgers(self):
+        # The dissipated energy must be right for a subscriber that comes late: this one comes when
+        # the run is over.
+        with Folder() as folder:
+            frames = run_exercise(folder, 'Runge-Kutta-4', '--frames', '31', '--particles', HORIZONTAL,
+                                  '--energy', folder + '/energy.csv')
+            with open(folder + '/energy.csv') as file:
+                row = list(csv.reader(file))[-1]
+        with PendulumNode(particles=HORIZONTAL, frames=31, at_end='hold', y_offset=0.5) as node:
+            status = self.listen('status', PendulumStatus)
+            status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
+            last = self.listen('state', PendulumState).wait_for(1)[0]
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
+        lines = frames['frame_0030.txt'].decode().splitlines()
+        self.assertEqual([(p.x, p.z) for p in last.positions],
+                         [tuple(map(float, line.split())) for line in lines])
+        self.assertEqual({p.y for p in last.positions}, {0.5})
+        self.assertEqual((last.tip_position.x, last.tip_position.z),
+                         (last.positions[-1].x, last.positions[-1].z))
+        self.assertAlmostEqual(last.tip_speed, math.hypot(last.velocities[-1].x,
+                                                          last.velocities[-1].z))
+        _, when, kinetic, gravity, spring, _, dissipated, residual = map(float, row[:8])
+        self.assertEqual((last.time, last.kinetic_energy, last.gravity_energy, last.spring_energy,
+                          last.dissipated_energy),
+                         (when, kinetic, gravity, spring, dissipated))
+        self.assertGreater(dissipated, 1.0)
+        self.assertAlmostEqual(last.total_energy, kinetic + gravity + spring + dissipated)
+        self.assertEqual(last.energy_error, float(row[8]))
+        self.assertLess(abs(residual), 0.01)
+        self.assertEqual(last.verdict, 'ok')
+
+    def test_nothing_for_nobody(self):
+        with Folder() as folder:
+            with PendulumNode(frames=50, cwd=folder) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+                self.assertIn('0 marker and 0 state messages built', node.output())
+                self.assertIn('writing 0 frames', node.output())
+            self.assertEqual(os.listdir(folder), [])
+        state = self.listen('state', PendulumState)
+        with PendulumNode(frames=50, wait_for_subscribers=1) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+            self.assertIn('0 marker and 50 state messages built', node.output())
+        self.assertEqual(len(state.wait_for(50)), 50)
+
+    def test_paced_by_the_wall_clock(self):
+        state = self.listen('state', PendulumState)
+        with PendulumNode(frames=31, real_time_factor=2.0, display_rate=40.0,
+                          wait_for_subscribers=1) as node:
+            start = time.monotonic()
+            self.assertEqual(node.wait(), 0, node.output())
+            self.assertGreater(time.monotonic() - start, 1.45)  # 3 s of motion at double speed
+        times = [m.time for m in state.messages]
+        # 40 Hz at double speed: 2 states a frame of 0.1 s; a late node leaves in-between ones out.
+        self.assertGreater(len(times), 31)
+        self.assertLessEqual(len(set(times)), 61)
+        elapsed = (state.messages[-1].header.stamp - state.messages[0].header.stamp).to_sec()
+        self.assertGreater(elapsed, 1.45)
+
+    def test_two_nodes_in_two_namespaces(self):
+        a, b = self.listen('/a/state', PendulumState), self.listen('/b/state', PendulumState)
+        with PendulumNode('/a/pendulum', frames=4, wait_for_subscribers=1) as one, \
+                PendulumNode('/b/pendulum', frames=4, wait_for_subscribers=1, method='Euler') as two:
+            self.assertEqual((one.wait(), two.wait()), (0, 0))
+        self.assertEqual({m.method for m in a.wait_for(4)}, {'Runge-Kutta-4'})
+        self.assertEqual({m.method for m in b.wait_for(4)}, {'Euler'})
+
+    def test_a_follower_shows_the_same_instants(self):
+        leader, follower = (self.listen('/a/state', PendulumState), self.listen('/b/state', PendulumState))
+        with PendulumNode('/b/pendulum', follow='/a/state', real_time_factor=1.0, frames=11,
+                          method='Euler') as two, \
+                PendulumNode('/a/pendulum', real_time_factor=1.0, frames=11,
+                             wait_for_subscribers=2) as one:
+            self.assertEqual((one.wait(), two.wait()), (0, 0), two.output())
+        leader_times = sorted({m.time for m in leader.messages})
+        self.assertTrue({m.time for m in follower.messages} <= set(leader_times) | {0.0})
+        self.assertEqual(follower.messages[-1].frame, 10)
+
+    def test_clock_on_request(self):
+        clock, state = self.listen('/clock', Clock), self.listen('state', PendulumState)
+        self.assertNotIn('/clock', dict(rosgraph.Master('/test').getPublishedTopics('/')))
+        with PendulumNode(frames=11, publish_clock=True, display_rate=0.0,
+                          wait_for_subscribers=1) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+        seconds = [m.clock.to_nsec() for m in clock.wait_for(11)]
+        self.assert_increasing(seconds)
+        self.assertAlmostEqual(seconds[0] / 1e9, 1.0, places=6)
+        self.assertAlmostEqual(seconds[-1] / 1e9, 2.0, places=3)
+        self.assertEqual(stamps(state.messages), seconds)
+
+    def test_waits_for_subscribers_but_not_for_ever(self):
+        with PendulumNode(frames=2, wait_for_subscribers=5, wait_timeout=0.5) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+            self.assertIn('0 of 5 subscribers after 0.5 s', node.lines('WARN')[0].replace('1 of', '0 of'))
+
+    def test_a_hundred_thousand_particles(self):
+        with Folder() as folder:
+            with open(folder + '/long.txt', 'w') as file:
+                file.writelines('%g 0 1\n' % (0.01 * i) for i in range(100000))
+            markers, state = (self.listen('markers', MarkerArray), self.listen('state', PendulumState))
+            with PendulumNode(particles=folder + '/long.txt', frames=3, rest_length=0.01,
+                              time_step=0.0001, wait_for_subscribers=2) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+        shown = markers.wait_for(2)[-1].markers
+        self.assertLessEqual(len(shown[1].points), 10000)
+        self.assertGreater(len(shown[1].points), 5000)
+        self.assertIn('of 100000 particles drawn', shown[4].text)
+        self.assertEqual(len(state.wait_for(2)[-1].positions), 100000)
+
+
+if __name__ == '__main__':
+    rospy.init_node('topics_test')
+    rostest.rosrun('spring_pendulum', 'topics', Topics)
