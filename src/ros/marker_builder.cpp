@@ -42,13 +42,13 @@ double strainOf(double length, double rest_length) {
   return rest_length > 0.0 ? length / rest_length - 1.0 : length;
 }
 
-/// The strain shown in full colour: what the whole chain's weight gives the first spring.
+/// The strain shown in full colour: twice what the whole chain's weight gives the first spring.
 double fullColorStrain(const Chain& chain) {
   const SpringLaw& spring = chain.spring();
   const double weight = chain.masses().tail(chain.size() - 1).sum() * std::abs(chain.gravity());
   const double stretch = spring.stiffness > 0.0 ? weight / spring.stiffness : 0.0;
   const double strain = spring.rest_length > 0.0 ? stretch / spring.rest_length : stretch;
-  return std::clamp(strain, 0.05, 5.0);
+  return std::clamp(2.0 * strain, 0.05, 5.0);
 }
 
 std::vector<std_msgs::ColorRGBA> massColors(const Chain& chain,

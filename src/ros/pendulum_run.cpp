@@ -41,7 +41,8 @@ PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, b
       ledger_(chain_, start_, track_energy),
       judge_(chain_, start_, track_energy) {
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
-  parts_ = partsPerFrame(frame_steps_, fixed_step, display_interval);
+  // Whether a chain falls asleep is asked once a call: with more calls the frames could differ.
+  if (scenario.sleep == 0.0) parts_ = partsPerFrame(frame_steps_, fixed_step, display_interval);
   if (!fixed_step) {
     frame_steps_ = {scenario.frame_interval / static_cast<double>(parts_), parts_};
   }

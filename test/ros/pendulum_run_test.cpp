@@ -44,6 +44,14 @@ TEST(PendulumRun, StatesInBetweenLeaveTheBitsOfTheFramesForEveryMethod) {
   }
 }
 
+TEST(PendulumRun, AChainThatMayFallAsleepIsShownFrameByFrame) {
+  Scenario scenario = scenarioOf("Runge-Kutta-4");
+  scenario.sleep = 1e-3;
+  PendulumRun run(scenario, scene(), false, 0.01);
+  run.advance(true);
+  EXPECT_EQ(run.frame(), 1);
+}
+
 TEST(PendulumRun, AFrameIsCutIntoWholeSteps) {
   PendulumRun run(scenarioOf("Runge-Kutta-4"), scene(), false, 1.0 / 30.0);
   std::vector<double> times;
