@@ -44,33 +44,32 @@ class Animation : public testing::Test {
 
 TEST_F(Animation, LoadsByBothSpellingsFromTheFolderOrElsewhere) {
   makeFrames(3);
-  for (const std::string& name :
-       {std::string("animate_pendulum.plt"), std::string("animate pendulum.plt")}) {
-    std::filesystem::copy_file(std::string(kData) + "/" + name, folder_.path(name));
+  const std::vector<std::string> spellings{"animate_pendulum.plt", "animate pendulum.plt"};
+  std::vector<std::string> paths = spellings;
+  for (const std::string& name : spellings) {
+    paths.push_back(std::string(kData) + "/" + name);
+    std::filesystem::copy_file(paths.back(), folder_.path(name));
   }
-  for (const std::string& prefix : {std::string(), std::string(kData) + "/"}) {
-    for (const std::string& name :
-         {std::string("animate_pendulum.plt"), std::string("animate pendulum.plt")}) {
-      const Result result = gnuplot("load \"" + prefix + name + "\"");
-      EXPECT_EQ(result.status, 0) << result.errors;
-      EXPECT_EQ(delays(), std::vector<int>(3, 10)) << prefix << name;  // 0.1 s
-      std::filesystem::remove(folder_.path("pendulum.gif"));
-    }
+  for (const std::string& path : paths) {
+    const Result result = gnuplot("load '" + path + "'");
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(delays(), std::vector<int>(3, 10)) << path;  // 0.1 s
+    std::filesystem::remove(folder_.path("pendulum.gif"));
   }
 }
 
 TEST_F(Animation, RunsAtTheTrueSpeed) {
   makeFrames(12);
   const std::string load = std::string("load \"") + kData + "/animate_pendulum.plt\"";
-  const auto delaysAt = [&](const std::string& interval) {
+  const auto delays_at = [&](const std::string& interval) {
     const Result result = gnuplot("frame_interval = " + interval + "; " + load);
     EXPECT_EQ(result.status, 0) << result.errors;
     return delays();
   };
-  EXPECT_EQ(delaysAt("1.5"), std::vector<int>(12, 150));
-  EXPECT_EQ(delaysAt("0.02"), std::vector<int>(12, 2));
-  EXPECT_EQ(delaysAt("0.01"), std::vector<int>(6, 2));       // every second one
-  EXPECT_EQ(delaysAt("1.0 / 30"), std::vector<int>(4, 10));  // every third one
+  EXPECT_EQ(delays_at("1.5"), std::vector<int>(12, 150));
+  EXPECT_EQ(delays_at("0.02"), std::vector<int>(12, 2));
+  EXPECT_EQ(delays_at("0.01"), std::vector<int>(6, 2));       // every second one
+  EXPECT_EQ(delays_at("1.0 / 30"), std::vector<int>(4, 10));  // every third one
 }
 
 TEST_F(Animation, TakesAnyScene) {
