@@ -50,10 +50,29 @@ TaylorSeries::TaylorSeries(const Chain& chain, int order, const IntegratorOption
 void TaylorSeries::start(const State& state) {
   end_.values() = state.values();
   end_.values().row(0).rightCols<2>().setZero();
+  work_.size = chain_.size();
+}
+
+bool TaylorSeries::fallsFreely(Eigen::Index spring) const {
+  const auto state = begin_.values();
+  const double width = state(spring + 1, 0) - state(spring, 0);
+  const double square = width * width;
+  return state(spring, 1) == state(spring + 1, 1) && state(spring, 2) == 0.0 &&
+         state(spring + 1, 2) == 0.0 && state(spring, 3) == state(spring + 1, 3) &&
+         square * inverseSquareRoot(square) == work_.spring.rest_length;
+}
+
+// The springs behind the computed part were falling freely at the last step and still are.
+void TaylorSeries::skipFreeEnd() {
+  Eigen::Index first = work_.size - 1;
+  while (first > 1 && fallsFreely(first - 1)) --first;
+  work_.size =
+      std::min<Eigen::Index>(chain_.size(), StateBuffer::paddedSize(first + work_.order + 2));
 }
 
 void TaylorSeries::expand() {
   std::swap(begin_, end_);
+  skipFreeEnd();
   kernels_.taylorSeries(work_, begin_.data());
   statistics_.force_evaluations += work_.order;
 }
@@ -101,15 +120,30 @@ void TaylorSeries::stepBy(double h) {
 void TaylorSeries::sumSeries(double h, std::ptrdiff_t terms) {
   summed_ = work_;
   summed_.order = terms;
-  kernels_.taylorState(summed_, begin_.data(), h, end_.data());
+  sumAt(h, end_);
   ++statistics_.accepted;
   statistics_.last_step = h;
+}
+
+void TaylorSeries::sumAt(double time, StateBuffer& out) const {
+  kernels_.taylorState(summed_, begin_.data(), time, out.data());
+  const Eigen::Index falling = chain_.size() - summed_.size;
+  if (falling == 0) return;
+  // The kernel's arithmetic with the one coefficient that is not zero.
+  const double speed = time * -chain_.gravity();
+  const double drop = time * time / 2.0 * -chain_.gravity();
+  const auto from = begin_.values().bottomRows(falling);
+  auto to = out.values().bottomRows(falling);
+  to.col(0) = from.col(0);
+  to.col(1).array() = from.col(1).array() + (time * from.col(3).array() + drop);
+  to.col(2) = from.col(2);
+  to.col(3).array() = from.col(3).array() + speed;
 }
 
 void TaylorSeries::interpolate(double fraction, State& state) const {
   const StateBuffer* result = &end_;
   if (fraction < 1.0) {
-    kernels_.taylorState(summed_, begin_.data(), fraction * statistics_.last_step, inside_.data());
+    sumAt(fraction * statistics_.last_step, inside_);
     result = &inside_;
   }
   state.values() = result->values();

@@ -1,3 +1,4 @@
+#include <spring_pendulum/integration/state_buffer.hpp>
 #include <spring_pendulum/integration/taylor_series.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
@@ -145,6 +146,38 @@ TEST(TaylorSeries, HasTheSameBitsOnEveryInstructionSet) {
       EXPECT_EQ(
           std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())), 0)
           << name << " " << kernels->name;
+    }
+  }
+}
+
+// The kernels over the whole chain, with the lengths of step that the stepper chose.
+TEST(TaylorSeries, LeavingOutTheFreelyFallingEndChangesNoBit) {
+  for (const char* name : {"horizontal_11", "light_100", "horizontal_1000"}) {
+    const Scene scene = referenceScene(name);
+    const Eigen::Index size = scene.start.size();
+    TaylorWorkspace work{scene.chain.spring(), scene.chain.gravity()};
+    work.size = size;
+    work.pitch = StateBuffer::paddedSize(size);
+    work.order = 8;
+    AlignedNumbers masses(work.pitch);
+    std::copy_n(scene.chain.inverseMasses().data(), size, masses.data());
+    AlignedNumbers springs(TaylorWorkspace::springNumbers(work.pitch, work.order));
+    AlignedNumbers accelerations(TaylorWorkspace::accelerationNumbers(work.pitch, work.order));
+    work.inverse_masses = masses.data();
+    work.springs = springs.data();
+    work.accelerations = accelerations.data();
+    StateBuffer whole(size);
+    whole.values() = scene.start.values();
+
+    TaylorSeries series(scene.chain, 8, {1e-6, false});
+    series.start(scene.start);
+    State state(size);
+    for (int n = 0; n < 40; ++n) {
+      const double h = series.step();
+      fastestChainKernels().taylorSeries(work, whole.data());
+      fastestChainKernels().taylorState(work, whole.data(), h, whole.data());
+      series.interpolate(1.0, state);
+      ASSERT_EQ(state.values(), State::Matrix(whole.values())) << name << " " << n;
     }
   }
 }

@@ -53,8 +53,15 @@ class TaylorSeries final : public AdaptiveStepper {
   void stepBy(double h);
 
  private:
+  /// Whether a spring pulls at neither end, and will not until its neighbours do: exactly of its
+  /// rest length, level, with both ends falling alike.
+  bool fallsFreely(Eigen::Index spring) const;
+  /// Leaves out the end of the chain that nothing but gravity moves in this step. In one step
+  /// information travels as many springs as the series has coefficients. Changes no bit.
+  void skipFreeEnd();
   void expand();
   void sumSeries(double h, std::ptrdiff_t terms);
+  void sumAt(double time, StateBuffer& out) const;
   double longestAccurateStep();
 
   Chain chain_;
@@ -64,7 +71,7 @@ class TaylorSeries final : public AdaptiveStepper {
   AlignedNumbers inverse_masses_;
   AlignedNumbers springs_;
   AlignedNumbers accelerations_;
-  TaylorWorkspace work_;
+  TaylorWorkspace work_;    ///< of the part of the chain that is not left out
   TaylorWorkspace summed_;  ///< with as many terms as the last step took
   StateBuffer begin_;
   StateBuffer end_;

@@ -181,8 +181,9 @@ void taylorState(const TaylorWorkspace& work, const double* state, double time, 
 double taylorLargest(const TaylorWorkspace& work, std::ptrdiff_t n) {
   Largest largest;
   const double* row = work.accelerations + n * 2 * work.pitch;
-  for (Index first = 0; first < 2 * work.pitch; first += kLanes) {
-    largest.add(Pack::load(row + first));
+  for (Index block = 0; block < blocksOf(work.size); ++block) {
+    largest.add(Pack::load(row + block * kLanes));
+    largest.add(Pack::load(row + work.pitch + block * kLanes));
   }
   return largest.result();
 }
