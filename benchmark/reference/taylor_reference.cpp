@@ -30,7 +30,8 @@ const Real kGravity = 9.81;  // the nearest double, as everywhere
 
 struct Particle {
   Real mass = 1.0L;
-  Series x{}, y{};  // coefficient 0 is the position, 1 the velocity
+  Series x{}, y{};                         // coefficient 0 is the position, 1 the velocity
+  std::array<Real, 2> lost_x{}, lost_y{};  // what rounding took off these two
 };
 
 struct Spring {
@@ -59,6 +60,25 @@ void extendForce(Spring& s, int n) {
   s.fy[n] = product(s.ratio, s.dy, n);
 }
 
+// sum += term, and the rounding error is kept for the next time (Kahan).
+void addExactly(Real& sum, Real& lost, Real term) {
+  const Real wanted = term + lost;
+  const Real rounded = sum + wanted;
+  lost = wanted - (rounded - sum);
+  sum = rounded;
+}
+
+void advance(Series& s, std::array<Real, 2>& lost, Real h) {
+  Real position = 0.0L;
+  Real velocity = 0.0L;
+  for (int k = kOrder; k >= 1; --k) {
+    if (k > 1) velocity = (velocity + static_cast<Real>(k) * s[k]) * h;
+    position = (position + s[k]) * h;
+  }
+  addExactly(s[0], lost[0], position + h * lost[1]);
+  addExactly(s[1], lost[1], velocity);
+}
+
 void step(std::vector<Particle>& particles, std::vector<Spring>& springs, Real h) {
   const std::size_t count = particles.size();
   for (int n = 0; n + 2 < kOrder + 2; ++n) {
@@ -66,6 +86,9 @@ void step(std::vector<Particle>& particles, std::vector<Spring>& springs, Real h
       for (int k = n == 0 ? 0 : n + 1; k <= n + 1; ++k) {
         springs[i].dx[k] = particles[i + 1].x[k] - particles[i].x[k];
         springs[i].dy[k] = particles[i + 1].y[k] - particles[i].y[k];
+        if (k > 1) continue;
+        springs[i].dx[k] += particles[i + 1].lost_x[k] - particles[i].lost_x[k];
+        springs[i].dy[k] += particles[i + 1].lost_y[k] - particles[i].lost_y[k];
       }
       extendForce(springs[i], n);
     }
@@ -80,16 +103,8 @@ void step(std::vector<Particle>& particles, std::vector<Spring>& springs, Real h
     }
   }
   for (std::size_t i = 1; i < count; ++i) {
-    for (Series* s : {&particles[i].x, &particles[i].y}) {
-      Real position = 0.0L;
-      Real velocity = 0.0L;
-      for (int k = kOrder; k >= 1; --k) {
-        velocity = velocity * h + static_cast<Real>(k) * (*s)[k];
-        position = (position + (*s)[k]) * h;
-      }
-      (*s)[0] += position;
-      (*s)[1] = velocity;
-    }
+    advance(particles[i].x, particles[i].lost_x, h);
+    advance(particles[i].y, particles[i].lost_y, h);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "support/reference.hpp"
 
@@ -32,6 +33,19 @@ TEST(Auto, PicksByScene) {
 TEST(Auto, PicksByTolerance) {
   EXPECT_EQ(methodAfter(test::referenceScene("horizontal_11"), 1.0, 5.0), "Taylor-8");
   EXPECT_EQ(methodAfter(test::referenceScene("lighter_100"), 1e-10, 1.0), "Taylor-12");
+}
+
+// The fall of the light chain excites swinging that only short steps follow; it ends.
+TEST(Auto, LeavesAndTakesUpAMethodAgain) {
+  const test::Scene scene = test::referenceScene("lighter_100");
+  AutoStepper stepper(scene.chain, IntegratorOptions{1e-7, false, 1});
+  stepper.start(scene.start);
+  std::vector<std::string> used;
+  for (double time = 0.0; time < 5.0; time += stepper.step()) {
+    const std::string method(stepper.method());
+    if (used.empty() || used.back() != method) used.push_back(method);
+  }
+  EXPECT_EQ(used, (std::vector<std::string>{"Taylor-12", "ROCK4", "Taylor-12"}));
 }
 
 // With the methods' own work per evaluation near 1, 1 and 5, evaluations tell the choice.
@@ -66,6 +80,19 @@ TEST(Auto, ReportsWhatItUsed) {
   EXPECT_NE(report.find("Taylor-8 for "), std::string::npos) << report;
   EXPECT_NE(report.find("Rodas5P for 1"), std::string::npos) << report;
   EXPECT_NE(report.find(", 1 switch"), std::string::npos) << report;
+}
+
+TEST(Auto, KeepsItsToleranceWhereOnlyImplicitMethodsArePractical) {
+  for (const char* method : {"Auto", "Rodas5P"}) {
+    for (const double tolerance : {1e-3, 1e-5}) {
+      test::Scene scene = test::referenceScene("feather_50");
+      const auto integrator = makeIntegrator(method, scene.chain, {tolerance, false, 1});
+      integrator->advance(scene.start, 1.0, 1);
+      EXPECT_LT(test::positionError(scene.start, test::referenceSolution("feather_50", 1)),
+                10.0 * tolerance)  // 0.14 and 0.74 tolerances
+          << method << " at " << tolerance;
+    }
+  }
 }
 
 TEST(Auto, OtherMethodsHaveNothingToReport) {
