@@ -19,15 +19,21 @@ using testing::IsEmpty;
 
 constexpr double kDuration = 5.0;  ///< s
 
-/// Whether the verdict on a run of 5 s is better than `gained energy`.
+/// Whether the verdict on a run of 5 s is better than `gained energy`. The energy that the
+/// symplectic Euler method shows sways with its first-order error, however stable it is: there it
+/// is the divergence that has to be foretold (measured: 1.000 to 1.11 times the advice; 2.0 where
+/// one spring hangs at rest).
 bool holds(const Scene& scene, const Method& method, double time_step) {
-  const auto kind = VerdictKind::kGainedEnergy;
+  const auto kind =
+      method.name == "Semi-Implicit-Euler" ? VerdictKind::kDiverged : VerdictKind::kGainedEnergy;
   return test::verdictOfRun(scene, method, time_step, kDuration, false, kind).kind < kind;
 }
 
-/// Methods with a region of stability on the imaginary axis, whose advice is meant to be exact.
+/// Runge-Kutta methods with a region of stability on the imaginary axis, whose advice is meant to
+/// be exact. That for the symplectic ones is safe, but up to 1.5 times too small for a single
+/// spring.
 bool isSharp(const Method& method) {
-  return ModeResponse(method, 0.0).growthRate(0.1) == 0.0;
+  return method.tableau != nullptr && ModeResponse(method, 0.0).growthRate(0.1) == 0.0;
 }
 
 template <typename Visitor>
