@@ -13,11 +13,12 @@ std::vector<const ChainKernels*> findSupportedKernels() {
   std::vector<const ChainKernels*> found;
 #ifdef SPRING_PENDULUM_X86_KERNELS
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-      __builtin_cpu_supports("avx512vl") != 0) {
-    found.push_back(&kAvx512Kernels);
-  }
-  if (__builtin_cpu_supports("avx2") != 0) found.push_back(&kAvx2Kernels);
+  const auto avx2 = static_cast<bool>(__builtin_cpu_supports("avx2"));
+  const bool avx512 = avx2 && static_cast<bool>(__builtin_cpu_supports("avx512f")) &&
+                      static_cast<bool>(__builtin_cpu_supports("avx512dq")) &&
+                      static_cast<bool>(__builtin_cpu_supports("avx512vl"));
+  if (avx512) found.push_back(&kAvx512Kernels);
+  if (avx2) found.push_back(&kAvx2Kernels);
 #endif
   found.push_back(&kBaselineKernels);
   return found;

@@ -40,8 +40,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
       stages_(tableau.stages),
       tableau_(tableau),
       kernel_(kernelsFor(options, chain.size())
-                  .advanceKernel(tableau, !skips().damping, !skips().gravity)),
-      largest_border_(0) {
+                  .advanceKernel(tableau, !skips().damping, !skips().gravity)) {
   assert(kernel_ != nullptr);
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
@@ -76,6 +75,7 @@ void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t st
     for (std::size_t j = 0; j <= i; ++j) weights_.after[i][j] = time_step * row[j];
   }
   const auto stages = static_cast<std::int64_t>(stages_);
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has a stage
   const std::int64_t at_once = largest_border_ == 0 ? steps : largest_border_ / stages;
   const int threads = threadsFor(std::min(steps, at_once));
   force_evaluations_ += steps * stages;

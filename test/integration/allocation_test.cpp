@@ -15,7 +15,8 @@ namespace {
 std::atomic<long> allocations{0};
 }  // namespace
 
-extern "C" void* __libc_malloc(std::size_t size);     // NOLINT(bugprone-reserved-identifier)
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming): the C library's name
+extern "C" void* __libc_malloc(std::size_t size);
 extern "C" void* malloc(std::size_t size) noexcept {  // what the rest of the program calls
   ++allocations;
   return __libc_malloc(size);

@@ -33,7 +33,7 @@ Chain randomChain(Eigen::Index size, const SpringLaw& spring, bool equal_masses,
   if (!equal_masses) {
     masses += 0.5 * Eigen::VectorXd::LinSpaced(size, 0.0, 1.0).array().sin().matrix();
   }
-  return Chain(masses, spring, gravity);
+  return {masses, spring, gravity};
 }
 
 bool sameBits(const State::Matrix& a, const State::Matrix& b) {

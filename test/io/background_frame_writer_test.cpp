@@ -66,11 +66,11 @@ TEST_P(BackgroundWriter, FailureOfTheLastFrameIsToldByFinish) {
   const TemporaryFolder folder;
   BackgroundFrameWriter writer(folder.path(), 1);
   std::filesystem::create_directory(folder.path(frameName(0)));
-  const auto writeAndFinish = [&] {
+  const auto write_and_finish = [&] {
     writer.write(0, frame(GetParam(), 0));
     writer.finish();
   };
-  EXPECT_THROW(writeAndFinish(), FileError);
+  EXPECT_THROW(write_and_finish(), FileError);
 }
 
 TEST_P(BackgroundWriter, FrameHandedOverIsWrittenThoughTheRunIsGivenUp) {

@@ -76,7 +76,7 @@ class ExplicitRungeKutta : public Integrator {
   std::size_t stages_;
   const ButcherTableau& tableau_;
   AdvanceKernel kernel_;
-  Eigen::Index largest_border_;
+  Eigen::Index largest_border_ = 0;  ///< 0: the whole chain is one block
   StepWeights weights_;
   Pass pass_;
   std::vector<Share> shares_;
