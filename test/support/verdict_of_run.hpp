@@ -21,7 +21,8 @@ inline Verdict verdictOfRun(const Scene& scene, const Method& method, double tim
   const auto integrator = makeIntegrator(method.name, scene.chain, {1e-6, with_ledger});
   State state = scene.start;
   Judge judge(scene.chain, state, with_ledger);
-  const std::int64_t steps = std::max<std::int64_t>(1, std::llround(0.1 / time_step));
+  const std::int64_t steps =
+      std::max<std::int64_t>(1, std::llround(std::min(0.1, duration) / time_step));
   for (std::int64_t n = 0; static_cast<double>(n) * time_step < duration; n += steps) {
     integrator->advance(state, time_step, steps);
     const double time = static_cast<double>(n + steps) * time_step;
