@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Feeds the readers of particle and parameter files with broken input, under the sanitizers.
+# Feeds the readers of particle and parameter files, the command line and the validator of the
+# parameters with broken input, under the sanitizers.
 # Usage: scripts/fuzz.sh [RUNS]   (of each target, 20000 unless told)
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -11,12 +12,12 @@ say "building the fuzz targets into $folder"
 CXX=clang++ configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRING_PENDULUM_TESTS=OFF -DSPRING_PENDULUM_FUZZ=ON \
   -DSPRING_PENDULUM_SANITIZE=fuzzer-no-link,address,undefined
-compile "$folder" particle_file_fuzz scenario_file_fuzz
+compile "$folder" {particle_file,scenario_file,command_line,parameters}_fuzz
 
 # What a target finds interesting goes into its first folder, so that is a temporary one.
 found=$(mktemp -d)
 trap 'rm -rf "$found"' EXIT
-for target in particle_file scenario_file; do
+for target in particle_file scenario_file command_line parameters; do
   say "$runs runs of $target"
   mkdir "$found/$target"
   "$folder/fuzz/${target}_fuzz" -runs="$runs" -seed=1 -timeout=10 -max_len=2000 -print_funcs=0 \

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <optional>
@@ -161,6 +162,7 @@ int report(std::string message, ExitStatus status) {
 
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone away is an error like any other
   try {
     const int status = runCommandLine(argc, argv);
     if (std::fflush(stdout) != 0) throw FileError("standard output: could not be written");

@@ -1,0 +1,49 @@
+// Any arguments, a line each, are either a scenario that can be run, an answer, or an error.
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/io/command_line.hpp>
+#include <spring_pendulum/model/errors.hpp>
+
+#include <string>
+#include <vector>
+
+#include "fuzz_target.hpp"
+
+namespace {
+
+using namespace spring_pendulum;
+
+/// Text as the arguments of a program: they end at a newline, and hold no zero byte.
+std::vector<std::string> argumentsFrom(const std::string& text) {
+  std::vector<std::string> arguments{"Exercise3"};
+  std::string argument;
+  for (const char c : text) {
+    if (c == '\0') continue;
+    if (c != '\n') {
+      argument += c;
+      continue;
+    }
+    arguments.push_back(argument);
+    argument.clear();
+  }
+  if (!argument.empty()) arguments.push_back(argument);
+  return arguments;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::vector<std::string> arguments = argumentsFrom(std::string(data, data + size));
+  std::vector<const char*> pointers;
+  for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
+  try {
+    const CommandLine line = parseCommandLine(static_cast<int>(pointers.size()), pointers.data());
+    if (!line.answer.empty()) return 0;
+    findMethod(line.scenario.method);
+    require(line.scenario.frames >= 1 && line.scenario.time_step > 0.0, "values in range");
+  } catch (const InputError& error) {
+    require(*error.what() != '\0', "a message");
+  } catch (const FileError& error) {  // --config
+    require(*error.what() != '\0', "a message");
+  }
+  return 0;
+}

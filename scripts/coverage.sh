@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Prints which lines and branches of the core (model, integration, simulation, io) the tests reach.
+# Usage: scripts/coverage.sh [LEAST]   (percent of lines and branches that must be reached, 95)
+# Branches that only an exception takes, and code that cannot be reached, do not count.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+least=${1:-95}
+folder=$build-coverage
+"$project/scripts/setup.sh" core test sanitize
+say "building for coverage into $folder"
+configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_BUILD_TYPE=Debug \
+  -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g0 --coverage -fprofile-update=atomic"
+compile "$folder"
+find "$folder" -name '*.gcda' -delete
+(cd "$folder" && ctest --output-on-failure -j "$(nproc)" -L 'unit|process' > ctest.log) ||
+  { tail -n 50 "$folder/ctest.log" >&2; die "a test failed"; }
+exec gcovr --root "$project" --object-directory "$folder" \
+  --filter 'src/(model|integration|simulation|io)/' \
+  --filter 'include/spring_pendulum/(model|integration|simulation|io)/' \
+  --exclude-throw-branches --exclude-unreachable-branches \
+  --fail-under-line "$least" --fail-under-branch "$least" --branches --print-summary
