@@ -5,6 +5,12 @@
 #include <utility>
 
 namespace spring_pendulum {
+namespace {
+
+/// In distances of output: steps shorter than that would never get there.
+constexpr double kLeastStep = 1e-12;
+
+}  // namespace
 
 ErrorControlled::ErrorControlled(std::unique_ptr<AdaptiveStepper> stepper)
     : stepper_(std::move(stepper)) {}
@@ -18,7 +24,7 @@ void ErrorControlled::restart() {
 void ErrorControlled::takeStep() {
   if (step_length_ > 0.0) heat_before_step_ += stepper_->dissipated(1.0);
   step_length_ = stepper_->step();
-  diverged_ = !(step_length_ > 0.0);
+  diverged_ = !(step_length_ > kLeastStep * output_step_);
   step_begin_ = step_end_;
   step_end_ = step_begin_ + step_length_;
 }
