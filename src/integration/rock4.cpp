@@ -58,7 +58,7 @@ const StateBuffer& Rock4Stepper::runRecurrence(double h) {
   const auto& rows = method_->recurrences;
   const WeightedSlope first{h * rows[0].mu, first_slope_.data()};
   kernels().combine(kernelChain().pitch, begin().data(), {&first, 1}, inner_[0].data());
-  StateBuffer* last = &inner_[0];
+  StateBuffer* last = inner_.data();
   StateBuffer* next = &inner_[1];
   const StateBuffer* before = &begin();
   for (std::size_t j = 1; j < method_->recurrenceCount(); ++j) {
