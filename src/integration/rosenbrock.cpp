@@ -6,7 +6,8 @@ namespace spring_pendulum {
 namespace {
 
 /// Estimated errors are errors of one step; at the end their sum, grown by what the motion makes of
-/// it, has to be at most ten times the tolerance.
+/// it, has to be at most ten times the tolerance. Measured on the reference scenes: at most 6.9
+/// tolerances down to 1e-9 m, and 12 at 1e-10 m after 50 s of `horizontal_11`, of rounding.
 constexpr double kShareOfTolerance = 1e-2;
 
 /// Those terms of a combination of stages whose weight is not 0.
