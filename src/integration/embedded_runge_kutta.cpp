@@ -12,6 +12,9 @@ namespace {
 /// chaotic `horizontal_11`, and far below it on all others.
 constexpr double kErrorRate = 0.005;
 
+/// Errors so small that their squares are 0, m.
+constexpr double kNoError = 1e-150;
+
 /// An error of a velocity counts for the position as if it lasted so long, s.
 constexpr double kVelocityTime = 0.1;
 
@@ -63,7 +66,7 @@ double EmbeddedRungeKutta::attempt(double h) {
   kernels().stageSlope(kernelChain(), end().data(), {}, slopes_[tableau.stages].data());
   counters().force_evaluations += static_cast<std::int64_t>(tableau.stages);
   const double error = errorOf(pair_.error, h);
-  if (!pair_.hasCoarseError() || error == 0.0) return error / h;
+  if (!pair_.hasCoarseError() || error < kNoError) return error / h;
   const double coarse = errorOf(pair_.coarse_error, h);
   return error / h * (error / std::sqrt(error * error + 0.01 * coarse * coarse));
 }

@@ -21,6 +21,9 @@ constexpr double kLargestLengthChange = 0.9;
 /// Growth from one coefficient to the next, 1/s, where it can't be seen: larger than it ever is.
 constexpr double kUnknownGrowth = 1e4;
 
+/// A coefficient that limits no step, so small that dividing by it could overflow.
+constexpr double kNoMotion = 1e-200;
+
 }  // namespace
 
 TaylorSeries::TaylorSeries(const Chain& chain, int order, const IntegratorOptions& options,
@@ -94,7 +97,7 @@ double TaylorSeries::longestAccurateStep() {
   double next = 0.0;
   for (std::size_t back = size.size(); back-- > 0;) next = growth * std::max(next, size[back]);
   statistics_.fastest_rate = order * ratio;
-  if (next == 0.0) return kLongestStep;
+  if (next < kNoMotion) return kLongestStep;
   return std::clamp(root(allowed_rate_ * (order + 1) / next, order), kShortestStep, kLongestStep);
 }
 

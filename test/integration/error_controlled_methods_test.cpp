@@ -153,6 +153,19 @@ TEST_P(ErrorControlledMethod, LeavesOneParticleAlone) {
   EXPECT_EQ(state.values(), scene.start.values());
 }
 
+TEST_P(ErrorControlledMethod, TakesLongStepsAtRest) {
+  for (const double disturbance : {0.0, 1e-300}) {
+    Scene scene{Chain(Eigen::VectorXd::Ones(4), SpringLaw{}, 0.0), State(4)};
+    scene.start.x() = Eigen::VectorXd::LinSpaced(4, 0.0, 3.0);
+    scene.start.vy()[2] = disturbance;
+    const auto integrator = make(scene, 1e-6);
+    State state = scene.start;
+    integrator->advance(state, 10.0, 10);
+    EXPECT_LT(positionError(state, scene.start), 1e-14) << disturbance;  // measured: 4.4e-16
+    EXPECT_LT(statisticsOf(*integrator).accepted, 2000) << disturbance;
+  }
+}
+
 // Of the energy the chain has lost, all is in the dashpots.
 TEST_P(ErrorControlledMethod, CountsTheHeatOnlyIfAskedTo) {
   const Scene scene = referenceScene("horizontal_11");
