@@ -44,7 +44,7 @@ def main(path):
             peer = cheapest([r for r in here if r["library"] != "own"], target)
             print(f"| `{scene}` | {target:.0e} m | {shown(own)} | {shown(peer)} | "
                   f"{ratio(own, peer)} |")
-    print("\n" + "\n".join(f"- {line}" for line in head if ": " in line))
+    print("\n" + "\n".join(f"- {line}" for line in head if line[0].islower()))
 
 
 if __name__ == "__main__":

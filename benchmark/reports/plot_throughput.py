@@ -75,7 +75,7 @@ def main(path, folder):
     draw(rows, divider_bound(head), folder)
     print("# Throughput of Runge-Kutta-4\n")
     table(rows)
-    print("\n" + "\n".join(f"- {line}" for line in head if ": " in line))
+    print("\n" + "\n".join(f"- {line}" for line in head if line[0].islower()))
 
 
 if __name__ == "__main__":

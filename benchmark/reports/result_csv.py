@@ -6,7 +6,7 @@ def read(path):
     """Head lines without '#', and rows as dictionaries."""
     with open(path, newline="", encoding="utf-8") as file:
         lines = file.readlines()
-    head = [line[1:].strip() for line in lines if line.startswith("#")]
+    head = [line[1:].strip() for line in lines if line.startswith("# ")]
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     return head, rows
 
