@@ -11,7 +11,7 @@ namespace spring_pendulum {
 namespace {
 
 /// Allowed rate of the velocity error, 1/s², times the tolerance. Measured on the reference scenes:
-/// with this the position error is at most 6 times the tolerance, after 50 s of the weakly
+/// with this the position error is at most 2.7 times the tolerance, after 50 s of the weakly
 /// chaotic `horizontal_11`, and far below it on all others.
 constexpr double kErrorRate = 0.01;
 
