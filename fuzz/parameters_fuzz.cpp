@@ -4,6 +4,7 @@
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/parameters.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -40,7 +41,9 @@ bool isAtLeastZero(double value) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const Scenario scenario = scenarioFrom(std::string(data, data + size));
+    std::string text(data, data + size);
+    text.erase(std::remove(text.begin(), text.end(), '\0'), text.end());  // would end a message
+    const Scenario scenario = scenarioFrom(text);
     require(scenario.frames >= 1 && scenario.steps_per_frame >= 1, "counts from 1 on");
     require(isAtLeastZero(scenario.stiffness) && isAtLeastZero(scenario.damping) &&
                 isAtLeastZero(scenario.rest_length) && std::isfinite(scenario.gravity),
