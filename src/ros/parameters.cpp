@@ -54,7 +54,9 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
   }
   for (auto& [key, value] : parameters) {
     const std::string text = parameterText(value, key, where);
-    if (isScenarioKey(key)) {
+    if (key == "output" && text.empty()) {
+      builder.set("no_frames", "true", where);  // a launch file can't leave a parameter out
+    } else if (isScenarioKey(key)) {
       builder.set(key, text, where);
     } else if (!setNodeOption(configuration.options, key, text, where)) {
       throw InputError(

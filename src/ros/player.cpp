@@ -16,7 +16,7 @@ constexpr double kLongestWait = 0.1;        // s, how fast the end of ROS is not
 constexpr double kLoopPause = 1.0;          // s, the last frame is looked at before a loop
 
 void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
-  response.success = success;
+  response.success = success ? 1 : 0;
   response.message = std::move(sentence);
 }
 
