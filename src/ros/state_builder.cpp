@@ -23,7 +23,7 @@ const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs:
   message_.header = header;
   message_.method = run.scenario().method;
   message_.frame = run.frame();
-  message_.at_frame = run.atFrame();
+  message_.at_frame = run.atFrame() ? 1 : 0;
   message_.time = run.time();
   message_.kinetic_energy = entry.energy.kinetic;
   message_.gravity_energy = entry.energy.gravity;

@@ -135,11 +135,11 @@ TEST(Exercise3Faults, ParticleFileChangedWhileReadIsReadOrRefused) {
 TEST(Exercise3Faults, ReaderOfTheClosingLineGoneAway) {
   const TemporaryFolder folder;
   folder.write("particle.txt", kTwoParticles);
-  const Result result = run(
-      {{"/bin/sh", "-c", "{ \"$0\" Euler --no-frames; echo \"status $?\" >&2; } | :", EXERCISE3},
-       folder.path(),
-       {},
-       [] { signal(SIGPIPE, SIG_DFL); }});
+  const Result result =
+      run({{"/bin/sh", "-c", R"({ "$0" Euler --no-frames; echo "status $?" >&2; } | :)", EXERCISE3},
+           folder.path(),
+           {},
+           [] { signal(SIGPIPE, SIG_DFL); }});
   // The pipe may still be open when the line is written: then nothing went wrong.
   EXPECT_THAT(result.errors, AnyOf(HasSubstr("standard output: could not be written\nstatus 1\n"),
                                    HasSubstr("status 0\n")));
@@ -151,6 +151,7 @@ TEST(Exercise3Faults, NoFileDescriptorLeft) {
   for (const rlim_t limit : {4, 5, 6}) {  // three are open already, and one loads the libraries
     Command command = exercise3(folder, {"Runge-Kutta-4", "--output", "out", "--energy", "e.csv"});
     command.prepare = [limit] {
+      close_range(3, ~0U, 0);  // what the test itself inherited
       const rlimit files{limit, limit};
       if (setrlimit(RLIMIT_NOFILE, &files) != 0) _exit(1);
     };

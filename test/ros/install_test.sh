@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Builds and installs the package in a catkin workspace of its own, and runs what was installed.
-# Usage: install_test.sh FOLDER
+# The workspace lies outside the package: roslaunch looks for its files in everything below it.
 set -euo pipefail
 
-workspace=$1
+workspace=$(mktemp -d)
+trap 'rm -rf "$workspace"' EXIT
 project=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$workspace/src" "$workspace/run"
 ln -sfn "$project" "$workspace/src/spring_pendulum"
-rm -rf "$workspace/install" "$workspace/run"/*
 launcher=()
 command -v ccache > /dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 catkin_make -C "$workspace" -j2 -DSPRING_PENDULUM_TESTS=OFF "${launcher[@]}" install \

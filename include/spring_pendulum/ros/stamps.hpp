@@ -8,7 +8,7 @@ namespace spring_pendulum {
 class Stamps {
  public:
   /// Simulated time 0 is stamped with this, because 0 is no valid stamp.
-  static ros::Time simulatedStart() { return ros::Time(1, 0); }
+  static ros::Time simulatedStart() { return {1, 0}; }
 
   /// \param simulated stamp with simulated instead of ROS time
   explicit Stamps(bool simulated) : simulated_(simulated) {}
