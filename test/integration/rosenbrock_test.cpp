@@ -143,8 +143,8 @@ TEST(Rodas5P, HeatClosesTheEnergyBalance) {
 
 TEST(Rodas5P, CountsItsEvaluations) {
   test::Scene scene = test::referenceScene("light_100");
-  ErrorControlled integrator(std::make_unique<RosenbrockStepper>(scene.chain, kRodas5PTableau,
-                                                                 IntegratorOptions{1e-3, false, 1}));
+  ErrorControlled integrator(std::make_unique<RosenbrockStepper>(
+      scene.chain, kRodas5PTableau, IntegratorOptions{1e-3, false, 1}));
   integrator.advance(scene.start, 1.0, 1);
   const StepStatistics statistics = integrator.statistics();
   EXPECT_GT(statistics.accepted, 10);

@@ -1,6 +1,6 @@
-// An explicit Runge-Kutta method with a fixed step, step by step and stage by stage as the formula is
-// written. `ExplicitRungeKutta` gives the same bits much faster; this is what it is compared with,
-// and what runs where the heat of the dashpots is integrated along.
+// An explicit Runge-Kutta method with a fixed step, step by step and stage by stage as the formula
+// is written. `ExplicitRungeKutta` gives the same bits much faster; this is what it is compared
+// with, and what runs where the heat of the dashpots is integrated along.
 #pragma once
 
 #include <spring_pendulum/integration/butcher_tableau.hpp>

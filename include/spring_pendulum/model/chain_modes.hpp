@@ -20,9 +20,9 @@ double largestSpringMode(const Chain& chain);
 /// within 1e-4 of it; 0 without gravity or without springs. O(N).
 double fastestSwing(const Chain& chain);
 
-/// Angular frequency in rad/s of the hanging chain swinging as if rigid, a few percent above that of
-/// the slowest sideways mode. Of a long chain only the ten springs at the free end, as in a run of
-/// any practical length it swings in parts. 0 without gravity or without springs. O(N).
+/// Angular frequency in rad/s of the hanging chain swinging as if rigid, a few percent above that
+/// of the slowest sideways mode. Of a long chain only the ten springs at the free end, as in a run
+/// of any practical length it swings in parts. 0 without gravity or without springs. O(N).
 double slowSwing(const Chain& chain);
 
 }  // namespace spring_pendulum
