@@ -83,13 +83,13 @@ bool Publisher::isWatched() const {
 void Publisher::waitForSubscribers(const NodeOptions& options) {
   const ros::WallTime start = ros::WallTime::now();
   const ros::WallDuration timeout(options.wait_timeout);
-  const auto isReady = [&] { return subscribers() >= options.wait_for_subscribers; };
-  if (isReady()) return;
+  const auto is_ready = [&] { return subscribers() >= options.wait_for_subscribers; };
+  if (is_ready()) return;
   PendulumStatus waiting;
   waiting.code = PendulumStatus::WAITING;
   waiting.text = fmt::format("waiting for {} subscribers", options.wait_for_subscribers);
   publishStatus(waiting, stamps_.next(0.0));
-  while (ros::ok() && interruption() == 0 && !isReady()) {
+  while (ros::ok() && interruption() == 0 && !is_ready()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kNap));
     if (timeout.isZero() || ros::WallTime::now() - start < timeout) continue;
     ROS_WARN("%u of %ld subscribers after %.6g s: starting without the others", subscribers(),

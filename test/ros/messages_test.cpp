@@ -18,8 +18,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-
 Particles horizontal(Eigen::Index particles) {
   Particles scene{Eigen::VectorXd::Ones(particles), State(particles)};
   for (Eigen::Index i = 0; i < particles; ++i) scene.state.x()[i] = static_cast<double>(i);
