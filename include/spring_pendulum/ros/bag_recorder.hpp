@@ -27,6 +27,6 @@ struct BagSummary {
 /// Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same scenario and options
 /// give the same bytes. A new bag is written as FILE.active and renamed at the end, so FILE is
 /// whole or absent. \throws InputError for a bad scenario, FileError naming the bag
-BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& bag);
+BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to);
 
 }  // namespace spring_pendulum
