@@ -17,7 +17,7 @@ packages_of() {
     core) echo g++ cmake ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev \
                libfast-float-dev libgtest-dev libgmock-dev gnuplot-nox ;;
     ros) echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
-              libgeometry-msgs-dev libstd-srvs-dev ros-visualization-msgs ros-geometry-msgs \
+              libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev ros-visualization-msgs ros-geometry-msgs \
               ros-std-msgs ros-message-generation ros-message-runtime python3-roslaunch \
               python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
               python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
