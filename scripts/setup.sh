@@ -14,7 +14,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 packages_of() {
   case $1 in
-    core) echo g++ cmake ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev \
+    core) echo g++ cmake make ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev \
                libfast-float-dev libgtest-dev libgmock-dev gnuplot-nox ;;
     ros) echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
               libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev ros-visualization-msgs ros-geometry-msgs \
@@ -27,7 +27,7 @@ packages_of() {
     test-ros) echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \
                    imagemagick ;;
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
-    lint) echo clang-format clang-tidy catkin-lint ;;
+    lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev gcovr ;;
     benchmark) echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev \
                     python3 ;;
