@@ -18,10 +18,13 @@ ControlledStepper::ControlledStepper(const Chain& chain, const IntegratorOptions
       controller_(error_order),
       begin_(chain.size()),
       end_(chain.size()),
+      begin_carry_(chain.size()),
+      end_carry_(chain.size()),
       sample_(chain.size()) {}
 
 void ControlledStepper::start(const State& state) {
   end_.values() = state.values();
+  end_carry_.values().setZero();
   controller_.restart();
   restarted_ = true;
   // Short for any scene at this tolerance; the controller makes five times as much of it a step.
@@ -30,6 +33,7 @@ void ControlledStepper::start(const State& state) {
 
 double ControlledStepper::step() {
   std::swap(begin_, end_);
+  std::swap(begin_carry_, end_carry_);
   prepare(restarted_);
   restarted_ = false;
   for (;;) {
@@ -45,6 +49,11 @@ double ControlledStepper::step() {
     if (at_the_shortest) return 0.0;
     ++statistics_.rejected;
   }
+}
+
+void ControlledStepper::setEnd(const StateBuffer& change, SlopeSum sum) {
+  kernels_.compensatedSum(begin_.pitch(), begin_.data(), change.data(), sum, end_.data(),
+                          end_carry_.data());
 }
 
 double ControlledStepper::dissipated(double fraction) const {

@@ -94,6 +94,27 @@ TEST(ChainKernels, CombinationHasTheBitsOfThePlainCode) {
   }
 }
 
+TEST(ChainKernels, CompensatedSumKeepsWhatRoundingTakes) {
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    for (const Eigen::Index size : kSizes) {
+      StateBuffer z(size), change(size), k(size), out(size), lost(size);
+      z.values() = randomState(size, 1).values();
+      change.values() = 1e-20 * randomState(size, 2).values();
+      k.values() = randomState(size, 3).values();
+      const WeightedSlope term{1e-9, k.data()};
+      kernels->compensatedSum(z.pitch(), z.data(), change.data(), {&term, 1}, out.data(),
+                              lost.data());
+      const State::Matrix step = change.values() + 1e-9 * k.values();
+      const State::Matrix sum = z.values() + step;
+      const State::Matrix difference = sum - z.values();
+      const State::Matrix rest = step - difference;
+      EXPECT_TRUE(sameBits(out.values(), sum)) << kernels->name << ", " << size;
+      EXPECT_TRUE(sameBits(lost.values(), rest)) << kernels->name << ", " << size;
+      EXPECT_GT(rest.cwiseAbs().maxCoeff(), 1e-19) << size;
+    }
+  }
+}
+
 TEST(ChainKernels, LargestChangeFindsEveryPlaceAndRemembersWhatIsNotFinite) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const ChainKernels* kernels : supportedChainKernels()) {

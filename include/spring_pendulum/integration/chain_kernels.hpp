@@ -3,6 +3,7 @@
 //
 //     slope of a stage     k = F(z + w_1 k_1 + w_2 k_2 + ...)
 //     combination          z + w_1 k_1 + w_2 k_2 + ...
+//     compensated sum      z + (d + w_1 k_1 + w_2 k_2 + ...), and what of it was rounded away
 //     recurrence           z + κ (y - z) + w F(z)
 //     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
 //
@@ -84,6 +85,12 @@ struct ChainKernels {
 
   /// out = state + sum
   void (*combine)(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out);
+
+  /// out = state + (change + sum), lost = (change + sum) - (out - state): what rounding took from
+  /// the sum, exactly where |change + sum| <= |state|. As a part of the next change it is not lost.
+  /// W. Kahan, Comm. ACM 8 (1965) 40, doi:10.1145/363707.363723.
+  void (*compensatedSum)(std::ptrdiff_t pitch, const double* state, const double* change,
+                         SlopeSum sum, double* out, double* lost);
 
   /// out = last + kappa (before - last) + weight F(last): one stage of a three-term recurrence.
   /// `out` may be `before`. Row 0 is that of `last` if it is also that of `before`.

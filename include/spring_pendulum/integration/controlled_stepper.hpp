@@ -1,5 +1,12 @@
 // What one-step methods with an error estimate share: repeating a step until its error is small
 // enough, choosing the next length, and the heat of a step.
+//
+// Steps are added up so that nothing is lost to rounding: what a sum cuts off its last term is
+// carried into the next step. Otherwise the rounding of very many steps would show at the tightest
+// tolerances.
+//
+// Reference: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002,
+// section 4.3 (compensated summation).
 #pragma once
 
 #include <spring_pendulum/integration/adaptive_stepper.hpp>
@@ -44,6 +51,10 @@ class ControlledStepper : public AdaptiveStepper {
   StateBuffer& end() { return end_; }
   const StateBuffer& begin() const { return begin_; }
   const StateBuffer& end() const { return end_; }
+  /// What is missing to `begin()`, less than its last bits.
+  const StateBuffer& carry() const { return begin_carry_; }
+  /// end() = begin() + (change + sum), where change contains `carry()`.
+  void setEnd(const StateBuffer& change, SlopeSum sum);
   StepStatistics& counters() { return statistics_; }
 
  private:
@@ -56,6 +67,8 @@ class ControlledStepper : public AdaptiveStepper {
   StepController controller_;
   StateBuffer begin_;
   StateBuffer end_;
+  StateBuffer begin_carry_;
+  StateBuffer end_carry_;
   bool restarted_ = true;
   double next_step_ = 0.0;
   StepStatistics statistics_;

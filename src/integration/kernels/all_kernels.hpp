@@ -13,8 +13,9 @@ namespace spring_pendulum {
 namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
-  return {name,          stageSlope,   combine,     recurrence,    largestChange,
-          advanceKernel, taylorSeries, taylorState, taylorLargest, taylorLengthChange};
+  return {name,        stageSlope,    combine,           compensatedSum,
+          recurrence,  largestChange, advanceKernel,     taylorSeries,
+          taylorState, taylorLargest, taylorLengthChange};
 }
 
 }  // namespace

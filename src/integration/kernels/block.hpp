@@ -35,6 +35,13 @@ struct BlockPlace {
   value.vy.store(to.first + 3 * to.pitch);
 }
 
+[[gnu::always_inline]] inline Block operator+(const Block& a, const Block& b) {
+  return {a.x + b.x, a.y + b.y, a.vx + b.vx, a.vy + b.vy};
+}
+[[gnu::always_inline]] inline Block operator-(const Block& a, const Block& b) {
+  return {a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy};
+}
+
 /// state + weight * slope
 [[gnu::always_inline]] inline Block plusWeighted(const Block& state, double weight,
                                                  const Block& slope) {

@@ -126,7 +126,7 @@ class Conveyor {
     return {statesOf(stage) + inRing(block), kLanes};
   }
 
-  const KernelChain& chain_;
+  const KernelChain chain_;  ///< a copy, which writing a state can not change
   const StepWeights& weights_;
   double* state_;
   double* workspace_;

@@ -21,8 +21,12 @@ namespace {
   return result;
 }
 
+// The chain's constants are copied: of the caller's the compiler must assume that they change with
+// every number that is written.
 template <bool kDamped>
-void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, double* slope) {
+void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum sum,
+                double* slope) {
+  const KernelChain chain = callers_chain;
   const std::ptrdiff_t blocks = blocksOf(chain.size);
   Block here = combinedBlock(chain.pitch, state, sum, 0);
   PlaneVector<Pack> left{};
@@ -74,6 +78,18 @@ void recurrence(const KernelChain& chain, const double* last, const double* befo
     return recurrence<false>(chain, last, before, kappa, weight, out);
   }
   recurrence<true>(chain, last, before, kappa, weight, out);
+}
+
+void compensatedSum(std::ptrdiff_t pitch, const double* state, const double* change, SlopeSum sum,
+                    double* out, double* lost) {
+  for (std::ptrdiff_t block = 0; block < pitch / kLanes; ++block) {
+    const std::ptrdiff_t first = block * kLanes;
+    const Block from = load({state + first, pitch});
+    const Block step = combinedBlock(pitch, change, sum, block);
+    const Block to = from + step;
+    store(to, {out + first, pitch});
+    store(step - (to - from), {lost + first, pitch});
+  }
 }
 
 LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum) {
