@@ -1,7 +1,8 @@
 // Steps of an embedded Runge-Kutta pair whose length follows the estimated error.
 //
-// The error is controlled per unit of time and in the maximum norm: no particle's error is diluted
-// by others that do nothing. The higher order method continues the motion.
+// The error is controlled in the maximum norm: no particle's error is diluted by others that do
+// nothing. It is that of a step, one power of h above the error of the motion a unit of time; as
+// the method of higher order continues the motion, its error is then proportional to the tolerance.
 #pragma once
 
 #include <spring_pendulum/integration/controlled_stepper.hpp>
