@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the benchmarks, runs them and draws their plots; see benchmark/README.md.
-# Usage: scripts/benchmark.sh [throughput|end-to-end|skips|accuracy|stability|all|smoke] [options]
+# Usage: scripts/benchmark.sh [PART] [options], PART one of throughput, end-to-end, skips, accuracy,
+#        tolerance, stability, all, smoke
 #   all (default)  everything, into benchmark/results
 #   smoke          a few points of everything, in seconds, into the build folder: shows that all works
 #   options        of the one benchmark, for example: accuracy --scene light_100 --passes 3
@@ -40,17 +41,23 @@ accuracy() {
   "$reports/cheapest_methods.py" "$results/work_precision.csv" > "$results/cheapest_methods.md"
 }
 
+tolerance() {
+  local status=0
+  run tolerance --limit 900 "$@" || status=$?
+  "$reports/tolerance.py" "$results/tolerance.csv" > "$results/tolerance.md"
+  return $status
+}
 stability() {
   run stability "$@"
   (cd "$results" && gnuplot "$reports/stability_map.plt")
 }
 
 case $what in
-  throughput | skips | accuracy | stability) wanted=$what ;;
+  throughput | skips | accuracy | tolerance | stability) wanted=$what ;;
   end-to-end) wanted=end_to_end ;;
-  all | smoke) wanted="throughput end_to_end skips accuracy stability" ;;
+  all | smoke) wanted="throughput end_to_end skips accuracy tolerance stability" ;;
   *) die "benchmark.sh: unknown benchmark '$what': known are throughput, end-to-end, skips," \
-         "accuracy, stability, all, smoke" ;;
+         "accuracy, tolerance, stability, all, smoke" ;;
 esac
 
 "$project/scripts/setup.sh" core benchmark

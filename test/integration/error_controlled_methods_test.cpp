@@ -50,6 +50,8 @@ class ErrorControlledMethod : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, ErrorControlledMethod,
                          testing::ValuesIn(errorControlledMethods()), testName);
 
+constexpr double kTolerances[] = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+
 StepStatistics statisticsOf(const Integrator& integrator) {
   return dynamic_cast<const ErrorControlled&>(integrator).statistics();
 }
@@ -68,13 +70,14 @@ double worstError(Integrator& integrator, const Scene& scene, const std::string&
   return worst;
 }
 
-// The promise, 10 tolerances, on the scenes that cost little; `scripts/benchmark.sh accuracy` tells
-// about all of them. Measured: at most 5 (Dormand-Prince-5), 2 (Dormand-Prince-8), 2.7 (Taylor-8),
-// 2 (Taylor-12), all after 50 s of horizontal_11.
+// The promise, 10 tolerances, on the scenes that cost little; `scripts/benchmark.sh tolerance` puts
+// it to the test on all of them. Measured: at most 7.0 (Dormand-Prince-5), 5.4 (Dormand-Prince-8),
+// 1.3 (Taylor-8), 2.0 (Taylor-12), 7.1 (ROCK4), 6.9 (Rodas5P), 2.0 (Auto), all after 50 s of
+// horizontal_11. At 1e-10 m steps must not lose their last bits: plain sums of them made an error
+// of 12 tolerances (Rodas5P).
 TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
-  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
-    // A coarse method would take millions of steps: the tightest tolerances are not for it.
-    if (GetParam().order < 6 && tolerance < 1e-8) continue;
+  for (const double tolerance : kTolerances) {
+    if (GetParam().name == "ROCK4" && tolerance < 1e-8) continue;  // breaks it by rounding
     for (const char* name : {"single_vertical", "two_masses_45deg", "horizontal_11"}) {
       const Scene scene = referenceScene(name);
       const auto integrator = make(scene, tolerance);
@@ -84,18 +87,20 @@ TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
   }
 }
 
+// Measured: at most 0.08 (Rodas5P on light_100 at 1e-10).
 TEST_P(ErrorControlledMethod, KeepsItsToleranceOnLongAndLightChains) {
-  for (const double tolerance : {1e-3, 1e-6}) {
+  for (const double tolerance : kTolerances) {
     const Scene light = referenceScene("light_100");
     EXPECT_LT(worstError(*make(light, tolerance), light, "light_100", {1, 5}, tolerance), 10.0)
         << tolerance;
     const Scene longer = referenceScene("horizontal_1000");
-    EXPECT_LT(worstError(*make(longer, tolerance), longer, "horizontal_1000", {1}, tolerance), 10.0)
+    EXPECT_LT(worstError(*make(longer, tolerance), longer, "horizontal_1000", {1, 2}, tolerance),
+              10.0)
         << tolerance;
   }
 }
 
-// Here stability limits the steps of explicit methods.
+// Here stability limits the steps of explicit methods. Measured: at most 0.01 (Rodas5P).
 TEST_P(ErrorControlledMethod, KeepsItsToleranceOnStiffChains) {
   const double tolerance = 1e-4;
   for (const char* name : {"lighter_100", "alternating_50"}) {
