@@ -5,7 +5,7 @@ import os
 import re
 import signal
 import subprocess
-import time
+import tempfile
 import unittest
 
 import rosgraph
@@ -66,12 +66,13 @@ class Display:
         read_end, write_end = os.pipe()
         self.process = subprocess.Popen(
             ['Xvfb', '-displayfd', str(write_end), '-screen', '0', '%dx%dx24' % (WIDTH, HEIGHT),
-             '-nolisten', 'tcp'], pass_fds=[write_end], stderr=subprocess.DEVNULL)
+             '-nolisten', 'tcp', '-noreset'], pass_fds=[write_end], stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as pipe:
             self.name = ':' + pipe.readline().strip()
+        # Mesa's other software renderer compiles with LLVM, and has crashed there as rviz started.
         self.environment = dict(os.environ, DISPLAY=self.name, LIBGL_ALWAYS_SOFTWARE='1',
-                                QT_QPA_PLATFORM='xcb')
+                                GALLIUM_DRIVER='softpipe', QT_QPA_PLATFORM='xcb')
         return self
 
     def __exit__(self, *_):
@@ -86,33 +87,63 @@ class Display:
             subprocess.run(['convert', 'ppm:-', os.path.join(PICTURES, name)], input=data, check=True)
         return Picture(data)
 
-    def wait_for_picture(self, name, condition, what):
-        try:
-            wait_until(lambda: condition(self.picture()), what, patience=90)
-        finally:
-            picture = self.picture(name)
-        return picture
 
-
-class Launched:
-    """A launch file: with Launched(display, 'view.launch', ...)."""
+class Viewer:
+    """A launch file that shows rviz: with Viewer(display, 'view.launch', ...) as viewer."""
+    MOST_STARTS = 3
 
     def __init__(self, display, file, *arguments):
-        self.process = subprocess.Popen(
-            ['roslaunch', '--wait', 'spring_pendulum', file, *arguments],
-            env=display.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.display = display
+        self.command = ['roslaunch', '--wait', '--screen', 'spring_pendulum', file, *arguments]
+        self.starts = 0
 
     def __enter__(self):
+        self.start()
         return self
 
     def __exit__(self, *_):
         self.process.send_signal(signal.SIGINT)
         self.process.wait(60)
 
+    def start(self):
+        self.starts += 1
+        self.log = tempfile.TemporaryFile(mode='w+')
+        self.process = subprocess.Popen(self.command, env=self.display.environment,
+                                        stdout=self.log, stderr=subprocess.STDOUT)
+
+    def look_after(self):
+        """A dead rviz, with which roslaunch ends, fails the test at once. Only a crash inside the
+        renderer, before rviz has any picture to draw, is none of ours: then it is started again."""
+        if self.process.poll() is None:
+            return
+        self.log.seek(0)
+        output = self.log.read()
+        crash = re.search(r'process has died \[pid \d+, exit code -\d+, cmd \S*/rviz ', output)
+        if not crash or 'OpenGl version' in output or self.starts == self.MOST_STARTS:
+            raise AssertionError('rviz ended (start %d):\n%s' % (self.starts, output))
+        print('rviz crashed before its first picture, and is started again: ' + crash.group())
+        self.start()
+
+    def wait_for_picture(self, name, condition, what):
+        def shown():
+            self.look_after()
+            return condition(self.display.picture())
+        try:
+            wait_until(shown, what, patience=90)
+        finally:
+            picture = self.display.picture(name)
+        return picture
+
 
 def pixel_of(point, scale, center_y):
     """The pixel of a point of the plane, from the view of the rviz configuration."""
     return round(WIDTH / 2 + scale * point.x), round(HEIGHT / 2 - scale * (point.z - center_y))
+
+
+def standing(states):
+    """The state that was shown twice, as a paused node does; None while the last two differ."""
+    last = states[-2:]
+    return last[1] if len(last) == 2 and last[0].time == last[1].time else None
 
 
 def view_of(config):
@@ -129,17 +160,17 @@ class Rviz(unittest.TestCase):
             master.deleteParam('/use_sim_time')
 
     def test_the_running_node(self):
-        with Display() as display, Launched(display, 'view.launch', 'rviz_args:=--fullscreen'), \
+        with Display() as display, \
+                Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer, \
                 PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=1) as node:
-            listener = Listener('state', PendulumState, keep=1)
-            wait_until(lambda: listener.messages and listener.messages[-1].frame >= 22, 'frame 22')
+            listener = Listener('state', PendulumState, keep=2)
+            listener.wait_for_any(lambda state: state.frame >= 22)
             rospy.ServiceProxy('/pendulum/pause', SetBool)(True)
-            time.sleep(0.3)
-            state = listener.messages[-1]
+            state = wait_until(lambda: standing(listener.messages), 'the pause')
             pixels = [pixel_of(p, *view_of('pendulum.rviz')) for p in state.positions]
             inside = [p for p in pixels if 20 < p[0] < WIDTH - 20 and 20 < p[1] < HEIGHT - 20]
             self.assertGreaterEqual(len(inside), 5)
-            picture = display.wait_for_picture(
+            picture = viewer.wait_for_picture(
                 'running_node.png',
                 lambda p: all(p.near(*pixel, is_yellow) for pixel in inside[1:]), 'the chain')
             self.check_chain(picture, inside)
@@ -160,21 +191,22 @@ class Rviz(unittest.TestCase):
             subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '60', '--bag', bag,
                             '--particles', project('data/particle.txt')], check=True,
                            stdout=subprocess.DEVNULL)
-            with Launched(display, 'replay.launch', 'bag:=' + bag):
-                picture = display.wait_for_picture(
+            with Viewer(display, 'replay.launch', 'bag:=' + bag) as viewer:
+                picture = viewer.wait_for_picture(
                     'replayed_bag.png', lambda p: p.count(is_yellow) > 200, 'the chain')
             self.assertGreater(picture.count(is_yellow), 200)
 
     def test_the_comparison(self):
         colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61),
                   'Runge-Kutta-4': (63, 182, 255)}
-        with Display() as display, Launched(display, 'compare.launch', 'frames:=60', 'at_end:=loop'):
+        with Display() as display, \
+                Viewer(display, 'compare.launch', 'frames:=60', 'at_end:=loop') as viewer:
             def all_shown(picture):
                 # The chain of Runge-Kutta-2 hides behind the one of Runge-Kutta-4; its text does not.
                 return (picture.count(is_like(colors['Runge-Kutta-4'])) > 150 and
                         picture.count(is_like(colors['Euler'])) > 150 and
                         picture.count(is_like(colors['Runge-Kutta-2'])) > 20)
-            display.wait_for_picture('comparison.png', all_shown, 'three chains')
+            viewer.wait_for_picture('comparison.png', all_shown, 'three chains')
 
 
 if __name__ == '__main__':
