@@ -67,15 +67,22 @@ fi
 # rviz takes its size from the configuration.
 sed -e "s/^  Width: .*/  Width: ${size%x*}/" -e "s/^  Height: .*/  Height: ${size#*x}/" "$config" \
   > "$work/film.rviz"
-start Xvfb -displayfd 3 -screen 0 "${size}x24" -nolisten tcp 3> "$work/display"
+start Xvfb -displayfd 3 -screen 0 "${size}x24" -nolisten tcp -noreset 3> "$work/display"
 until_true 20 test -s "$work/display"
 export DISPLAY=:$(cat "$work/display")
 start rosmaster --core -p "$port"
 until_true 20 rosparam set /use_sim_time true
-start roslaunch "$project/launch/view.launch" config:="$work/film.rviz" rviz_args:="$rviz_args"
 rviz_listens() { for topic in $topics; do rostopic info "$topic" | grep -q '\* /rviz '; done; }
-until_true 60 rviz_listens
-sleep 2
+rviz_listens_or_ended() { rviz_listens || ! kill -0 "${started[-1]}"; }
+# Mesa's software renderer can crash as rviz starts: one more try then.
+for try in first second; do
+  start roslaunch "$project/launch/view.launch" config:="$work/film.rviz" rviz_args:="$rviz_args"
+  until_true 60 rviz_listens_or_ended
+  sleep 2
+  kill -0 "${started[-1]}" 2> /dev/null && break
+  [ $try = first ] || { cat "$work/roslaunch.log" >&2; die "film.sh: rviz does not stay"; }
+  say "rviz crashed as it started: once more"
+done
 
 calculate() { awk "BEGIN { printf \"%.4f\", $1 }"; }
 
