@@ -14,23 +14,26 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 packages_of() {
   case $1 in
-    core) echo g++ cmake make ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev \
-               libfast-float-dev libgtest-dev libgmock-dev gnuplot-nox ;;
-    ros) echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
-              libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev ros-visualization-msgs ros-geometry-msgs \
-              ros-std-msgs ros-message-generation ros-message-runtime python3-roslaunch \
-              python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
-              python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
-              python3-geometry-msgs python3-roslib rosbash ;;
+    core)
+      echo g++ cmake make ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev \
+           libfast-float-dev libgtest-dev libgmock-dev gnuplot-nox ;;
+    ros)
+      echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
+           libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev ros-visualization-msgs \
+           ros-geometry-msgs ros-std-msgs ros-message-generation ros-message-runtime \
+           python3-roslaunch python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
+           python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
+           python3-geometry-msgs python3-roslib rosbash ;;
     rviz) echo rviz tf2-tools libtf2-ros-dev ;;
     test) echo procps locales-all ;;
-    test-ros) echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \
-                   imagemagick ;;
+    test-ros)
+      echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \
+           imagemagick ;;
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev gcovr ;;
-    benchmark) echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev \
-                    python3 ;;
+    benchmark)
+      echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev python3 ;;
     *) die "setup.sh: unknown component '$1'" ;;
   esac
 }
@@ -66,12 +69,16 @@ offered_components() {
 }
 
 [ -n "$(missing_packages "$@")" ] || exit 0
-command -v apt-get > /dev/null || die "needs Debian or Ubuntu; install by hand:" $(missing_packages "$@")
+command -v apt-get > /dev/null ||
+  die "needs Debian or Ubuntu; install by hand:" $(missing_packages "$@")
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-as_root apt-get update > "$log" 2>&1 || say "could not update the package lists"
+# A download that fails for a moment is tried again.
+retry=(-o Acquire::Retries=3)
+as_root apt-get "${retry[@]}" update > "$log" 2>&1 || say "could not update the package lists"
 missing=$(missing_packages $(offered_components "$@"))
 [ -n "$missing" ] || exit 0
 say "installing" $missing
-as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing \
-  > "$log" 2>&1 || { tail -n 20 "$log" >&2; die "could not install the packages"; }
+as_root env DEBIAN_FRONTEND=noninteractive apt-get "${retry[@]}" install -y \
+  --no-install-recommends $missing > "$log" 2>&1 ||
+  { tail -n 20 "$log" >&2; die "could not install the packages"; }
