@@ -1,6 +1,6 @@
 #include <spring_pendulum/integration/auto_stepper.hpp>
-#include <spring_pendulum/integration/rock4.hpp>
 #include <spring_pendulum/integration/rosenbrock.hpp>
+#include <spring_pendulum/integration/stabilized_taylor.hpp>
 #include <spring_pendulum/integration/taylor_series.hpp>
 #include <spring_pendulum/model/chain_modes.hpp>
 
@@ -15,7 +15,7 @@ constexpr double kTightTolerance = 1e-2;
 constexpr double kTightToleranceIfFast = 1e-5;
 constexpr double kFastRate = 100.0;
 
-/// Rate in 1/s from which on an implicit method may be better than the most stages of ROCK4.
+/// Rate in 1/s from which on an implicit method may be better than the longest stabilised steps.
 constexpr double kRateForImplicit = 1e4;
 
 /// Part of its stability limit from which on an explicit method counts as held back by it.
@@ -38,9 +38,10 @@ constexpr double kWorkOfFirstRace = 600.0;
 /// How much faster a challenger has to be.
 constexpr double kHysteresis = 1.2;
 
-/// Work of an evaluation, in those of ROCK4: measured for chains of 10 to 1000 particles.
+/// Work of an evaluation, in those of Taylor-8: measured for chains of 10 to 1000 particles.
 constexpr double kTaylorWork = 1.0;
-constexpr double kRock4Work = 1.0;
+constexpr double kStabilizedTaylor4Work = 1.1;
+constexpr double kStabilizedTaylor8Work = 1.4;
 constexpr double kRodas5PWork = 5.0;
 
 double fastestDampingRate(const Chain& chain) {
@@ -67,9 +68,13 @@ AutoStepper::AutoStepper(const Chain& chain, const IntegratorOptions& options)
   first_race_costs_ = 10.0 * kWorkOfFirstRace > work_of_a_second ? kWorkOfFirstRace : 0.0;
   candidates_.push_back(
       {method.name, kTaylorWork, std::make_unique<TaylorSeries>(chain, method.order, options)});
-  candidates_.push_back(
-      {"ROCK4", kRock4Work,
-       std::make_unique<Rock4Stepper>(chain, options, Rock4Stepper::kShareOfToleranceIfStiff)});
+  const auto add_stabilized = [&](std::string_view name, double work, int order) {
+    candidates_.push_back({name, work,
+                           std::make_unique<StabilizedTaylor>(
+                               chain, order, options, StabilizedTaylor::kShareOfToleranceIfStiff)});
+  };
+  add_stabilized("Stabilized-Taylor-4", kStabilizedTaylor4Work, 4);
+  add_stabilized("Stabilized-Taylor-8", kStabilizedTaylor8Work, 8);
   if (fastest_rate_ < kRateForImplicit) return;
   candidates_.push_back({"Rodas5P", kRodas5PWork,
                          std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options)});

@@ -15,9 +15,6 @@ namespace {
 /// chaotic `horizontal_11`, and far below it on all others.
 constexpr double kErrorRate = 0.01;
 
-/// Relative, of any spring in one step.
-constexpr double kLargestLengthChange = 0.9;
-
 /// Growth from one coefficient to the next, 1/s, where it can't be seen: larger than it ever is.
 constexpr double kUnknownGrowth = 1e4;
 
@@ -32,23 +29,12 @@ TaylorSeries::TaylorSeries(const Chain& chain, int order, const IntegratorOption
       track_dissipation_(options.track_dissipation),
       allowed_rate_(kErrorRate * options.tolerance),
       kernels_(kernels),
+      expansion_(chain, order),
+      work_(expansion_.work()),
       begin_(chain.size()),
       end_(chain.size()),
       inside_(chain.size()),
-      sample_(chain.size()) {
-  work_.spring = chain.spring();
-  work_.gravity = chain.gravity();
-  work_.size = chain.size();
-  work_.pitch = begin_.pitch();
-  work_.order = order;
-  inverse_masses_ = AlignedNumbers(work_.pitch);
-  std::copy_n(chain.inverseMasses().data(), chain.size(), inverse_masses_.data());
-  springs_ = AlignedNumbers(TaylorWorkspace::springNumbers(work_.pitch, order));
-  accelerations_ = AlignedNumbers(TaylorWorkspace::accelerationNumbers(work_.pitch, order));
-  work_.inverse_masses = inverse_masses_.data();
-  work_.springs = springs_.data();
-  work_.accelerations = accelerations_.data();
-}
+      sample_(chain.size()) {}
 
 void TaylorSeries::start(const State& state) {
   end_.values() = state.values();
@@ -108,29 +94,33 @@ double TaylorSeries::step() {
   // The series follows a spring whose ends meet to negative lengths, the motion does not: go close
   // to that moment, and past it with the shortest step. So close to it the coefficients are mostly
   // rounding errors, of which one term of the forces keeps clear.
-  while (h > kShortestStep && !(kernels_.taylorLengthChange(work_, h) < kLargestLengthChange)) {
-    h = std::max(0.5 * h, kShortestStep);
+  for (;; h = std::max(0.5 * h, kShortestStep)) {
+    const bool shortest = h <= kShortestStep;
+    sumSeries(h, shortest ? 1 : work_.order);
+    if (shortest ||
+        !kernels_.springsChangeMuch(work_.size, work_.pitch, begin_.data(), end_.data()))
+      break;
   }
-  sumSeries(h, h > kShortestStep ? work_.order : 1);
+  ++statistics_.accepted;
   return h;
 }
 
 void TaylorSeries::stepBy(double h) {
   expand();
   sumSeries(h, work_.order);
+  ++statistics_.accepted;
 }
 
 void TaylorSeries::sumSeries(double h, std::ptrdiff_t terms) {
-  summed_ = work_;
-  summed_.order = terms;
+  terms_ = terms;
   sumAt(h, end_);
-  ++statistics_.accepted;
   statistics_.last_step = h;
 }
 
 void TaylorSeries::sumAt(double time, StateBuffer& out) const {
-  kernels_.taylorState(summed_, begin_.data(), time, out.data());
-  const Eigen::Index falling = chain_.size() - summed_.size;
+  kernels_.taylorState(work_, begin_.data(), begin_.data(), taylorWeights(terms_, time),
+                       out.data());
+  const Eigen::Index falling = chain_.size() - work_.size;
   if (falling == 0) return;
   // The kernel's arithmetic with the one coefficient that is not zero.
   const double speed = time * -chain_.gravity();

@@ -155,17 +155,8 @@ TEST(TaylorSeries, LeavingOutTheFreelyFallingEndChangesNoBit) {
   for (const char* name : {"horizontal_11", "light_100", "horizontal_1000"}) {
     const Scene scene = referenceScene(name);
     const Eigen::Index size = scene.start.size();
-    TaylorWorkspace work{scene.chain.spring(), scene.chain.gravity()};
-    work.size = size;
-    work.pitch = StateBuffer::paddedSize(size);
-    work.order = 8;
-    AlignedNumbers masses(work.pitch);
-    std::copy_n(scene.chain.inverseMasses().data(), size, masses.data());
-    AlignedNumbers springs(TaylorWorkspace::springNumbers(work.pitch, work.order));
-    AlignedNumbers accelerations(TaylorWorkspace::accelerationNumbers(work.pitch, work.order));
-    work.inverse_masses = masses.data();
-    work.springs = springs.data();
-    work.accelerations = accelerations.data();
+    const TaylorExpansion expansion(scene.chain, 8);
+    const TaylorWorkspace& work = expansion.work();
     StateBuffer whole(size);
     whole.values() = scene.start.values();
 
@@ -175,7 +166,8 @@ TEST(TaylorSeries, LeavingOutTheFreelyFallingEndChangesNoBit) {
     for (int n = 0; n < 40; ++n) {
       const double h = series.step();
       fastestChainKernels().taylorSeries(work, whole.data());
-      fastestChainKernels().taylorState(work, whole.data(), h, whole.data());
+      fastestChainKernels().taylorState(work, whole.data(), whole.data(), taylorWeights(8, h),
+                                        whole.data());
       series.interpolate(1.0, state);
       ASSERT_EQ(state.values(), State::Matrix(whole.values())) << name << " " << n;
     }

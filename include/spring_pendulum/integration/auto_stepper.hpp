@@ -1,12 +1,12 @@
 // Auto: takes the method that is cheapest for the chain, the tolerance and the motion at hand.
 //
 // It begins with a Taylor series method, of order 8 or 12 by tolerance, which nothing beats as long
-// as accuracy limits its steps. When they come near its
-// stability limit (step * k_d μ, with the chain's largest spring mode μ), the motion has turned
-// stiff: the methods race. Each takes a few steps from the same state, and what counts is the time
-// it covers per work, in force evaluations of ROCK4. The work of a method's evaluation is a
-// constant of this file, no clock is read, so every machine chooses alike and the bits stay the
-// same.
+// as accuracy limits its steps. When they come near its stability limit (step * k_d μ, with the
+// chain's largest spring mode μ), the motion has turned stiff: the methods race, with the
+// stabilised Taylor series of order 4 and 8 and, for very light particles, Rodas5P. Each takes a
+// few steps from the same state, and what counts is the time it covers per work, in force
+// evaluations of Taylor-8. The work of a method's evaluation is a constant, no clock is read, so
+// every machine chooses alike and the bits stay the same.
 //
 // Races are held rarely enough to cost some percents of the work, and a challenger has to be
 // better by a fifth, so that two methods that are equally good do not take turns. Races go on while
@@ -42,7 +42,7 @@ class AutoStepper final : public AdaptiveStepper {
   }
   StepStatistics statistics() const override;
 
-  /// "Taylor-8 for 0.4 s, ROCK4 for 4.6 s, 1 switch"
+  /// "Taylor-8 for 0.4 s, Stabilized-Taylor-8 for 4.6 s, 1 switch"
   std::string report() const override;
 
   /// The method at work.
@@ -51,7 +51,7 @@ class AutoStepper final : public AdaptiveStepper {
  private:
   struct Candidate {
     std::string_view name;
-    double work_per_evaluation;  ///< in force evaluations of ROCK4
+    double work_per_evaluation;  ///< in force evaluations of Taylor-8
     std::unique_ptr<AdaptiveStepper> stepper;
     double covered = 0.0;  ///< time integrated with it, s
   };

@@ -4,7 +4,6 @@
 //     slope of a stage     k = F(z + w_1 k_1 + w_2 k_2 + ...)
 //     combination          z + w_1 k_1 + w_2 k_2 + ...
 //     compensated sum      z + (d + w_1 k_1 + w_2 k_2 + ...), and what of it was rounded away
-//     recurrence           z + κ (y - z) + w F(z)
 //     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
 //
 // Every particle sees the operations of the plain code (computeAccelerations) in its order and
@@ -92,13 +91,13 @@ struct ChainKernels {
   void (*compensatedSum)(std::ptrdiff_t pitch, const double* state, const double* change,
                          SlopeSum sum, double* out, double* lost);
 
-  /// out = last + kappa (before - last) + weight F(last): one stage of a three-term recurrence.
-  /// `out` may be `before`. Row 0 is that of `last` if it is also that of `before`.
-  void (*recurrence)(const KernelChain& chain, const double* last, const double* before,
-                     double kappa, double weight, double* out);
-
   /// Of the sum alone, over the first `size` particles. A maximum, so no order matters.
   LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);
+
+  /// Whether any spring of the first `size` particles changes, from one state to another, along its
+  /// old direction by 0.9 of its old length or more (or has none, or is not a number).
+  bool (*springsChangeMuch)(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
+                            const double* to);
 
   /// Whole steps of a tableau, for chains with or without damping and gravity; null if none was
   /// compiled for this tableau (which is known by its address).
@@ -107,15 +106,15 @@ struct ChainKernels {
   /// All Taylor coefficients of the motion about a state.
   void (*taylorSeries)(const TaylorWorkspace& work, const double* state);
 
-  /// out = the sum of the series about `state`, `time` s later; `out` may be `state`.
-  void (*taylorState)(const TaylorWorkspace& work, const double* state, double time, double* out);
+  /// out = base + the weighted sum of the series about `state`; `out` may be either.
+  void (*taylorState)(const TaylorWorkspace& work, const double* state, const double* base,
+                      const TaylorWeights& weights, double* out);
+
+  /// Largest absolute values in a weighted sum of the accelerations' coefficients.
+  LargestChange (*taylorLargestSum)(const TaylorWorkspace& work, const TaylorWeights& weights);
 
   /// Largest absolute value of coefficient n of the accelerations; NaN if one is not finite.
   double (*taylorLargest)(const TaylorWorkspace& work, std::ptrdiff_t n);
-
-  /// Largest change of a spring's length within `time` s by the sum of its series, relative to the
-  /// length; NaN if one is not finite.
-  double (*taylorLengthChange)(const TaylorWorkspace& work, double time);
 };
 
 /// The kernels of every instruction set that this processor has, the fastest first. The last is the

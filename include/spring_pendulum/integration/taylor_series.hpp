@@ -32,7 +32,7 @@
 #include <spring_pendulum/integration/chain_kernels.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/integration/state_buffer.hpp>
-#include <spring_pendulum/integration/taylor_workspace.hpp>
+#include <spring_pendulum/integration/taylor_expansion.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
 namespace spring_pendulum {
@@ -68,11 +68,9 @@ class TaylorSeries final : public AdaptiveStepper {
   bool track_dissipation_;
   double allowed_rate_;  ///< of the error of the velocities, m/s²
   const ChainKernels& kernels_;
-  AlignedNumbers inverse_masses_;
-  AlignedNumbers springs_;
-  AlignedNumbers accelerations_;
-  TaylorWorkspace work_;    ///< of the part of the chain that is not left out
-  TaylorWorkspace summed_;  ///< with as many terms as the last step took
+  TaylorExpansion expansion_;
+  TaylorWorkspace& work_;     ///< of the part of the chain that is not left out
+  std::ptrdiff_t terms_ = 0;  ///< summed in the last step
   StateBuffer begin_;
   StateBuffer end_;
   mutable StateBuffer inside_;

@@ -4,6 +4,7 @@
 
 #include <spring_pendulum/model/spring_law.hpp>
 
+#include <array>
 #include <cstddef>
 
 namespace spring_pendulum {
@@ -20,19 +21,29 @@ struct TaylorWorkspace {
   std::ptrdiff_t pitch = 0;                ///< a multiple of 8, at least N
   std::ptrdiff_t order = 0;                ///< K in 2..30: how many coefficients the forces have
 
-  /// Eight springs at a time: K + 2 rows of 4 times 8 numbers. Row n holds coefficient n of the
-  /// separation (x, y), the length L and the quotient u = T/L; the last row 1/L_0 times the
-  /// separation (x, y), and 1/L_0.
+  /// Eight springs at a time: K + 3 rows of 4 times 8 numbers. Row n holds coefficient n of the
+  /// separation (x, y), the length L and the quotient u = T/L; row K + 1 1/L_0 times the separation
+  /// (x, y), and 1/L_0; row K + 2 sums for the next order.
   double* springs = nullptr;
   /// K times 2 times `pitch` numbers: coefficient n of the accelerations (x, y).
   double* accelerations = nullptr;
 
+  static std::ptrdiff_t springRows(std::ptrdiff_t order) { return order + 3; }
   static std::ptrdiff_t springNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
-    return pitch * 4 * (order + 2);
+    return pitch * 4 * springRows(order);
   }
   static std::ptrdiff_t accelerationNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
     return pitch * 2 * order;
   }
+};
+
+/// What is summed: of the accelerations' coefficients n < `count` so many times each makes a change
+/// of the positions, and of the velocities; of the velocities at the start, a change of positions.
+struct TaylorWeights {
+  std::ptrdiff_t count = 0;
+  double start_velocity = 0.0;                         ///< s
+  std::array<double, kLargestTaylorOrder> position{};  ///< s^(n+2)
+  std::array<double, kLargestTaylorOrder> velocity{};  ///< s^(n+1)
 };
 
 }  // namespace spring_pendulum

@@ -13,9 +13,9 @@ namespace spring_pendulum {
 namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
-  return {name,        stageSlope,    combine,           compensatedSum,
-          recurrence,  largestChange, advanceKernel,     taylorSeries,
-          taylorState, taylorLargest, taylorLengthChange};
+  return {name,          stageSlope,        combine,       compensatedSum,
+          largestChange, springsChangeMuch, advanceKernel, taylorSeries,
+          taylorState,   taylorLargestSum,  taylorLargest};
 }
 
 }  // namespace

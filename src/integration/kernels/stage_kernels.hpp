@@ -11,6 +11,9 @@
 namespace spring_pendulum {
 namespace {
 
+/// Part of a spring's length.
+constexpr double kMuch = 0.9;
+
 [[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
                                                   SlopeSum sum, std::ptrdiff_t block) {
   Block result = load({state + block * kLanes, pitch});
@@ -51,35 +54,6 @@ void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* ou
   }
 }
 
-template <bool kDamped>
-void recurrence(const KernelChain& chain, const double* last, const double* before, double kappa,
-                double weight, double* out) {
-  const std::ptrdiff_t blocks = blocksOf(chain.size);
-  const std::ptrdiff_t pitch = chain.pitch;
-  Block here = load({last, pitch});
-  PlaneVector<Pack> left{};
-  for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-    const std::ptrdiff_t next_block = block + 1 < blocks ? block + 1 : block;
-    const Block next = load({last + next_block * kLanes, pitch});
-    const PlaneVector<Pack> right = forcesFromRight<kDamped>(chain, here, next, block);
-    const Block slope = slopeOf<true>(chain, here, left, right, block);
-    const Block old = load({before + block * kLanes, pitch});
-    const Block back{old.x - here.x, old.y - here.y, old.vx - here.vx, old.vy - here.vy};
-    store(plusWeighted(plusWeighted(here, kappa, back), weight, slope),
-          {out + block * kLanes, pitch});
-    left = right;
-    here = next;
-  }
-}
-
-void recurrence(const KernelChain& chain, const double* last, const double* before, double kappa,
-                double weight, double* out) {
-  if (chain.spring.damping == 0.0) {
-    return recurrence<false>(chain, last, before, kappa, weight, out);
-  }
-  recurrence<true>(chain, last, before, kappa, weight, out);
-}
-
 void compensatedSum(std::ptrdiff_t pitch, const double* state, const double* change, SlopeSum sum,
                     double* out, double* lost) {
   for (std::ptrdiff_t block = 0; block < pitch / kLanes; ++block) {
@@ -107,6 +81,37 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
     velocity.add(change.vy);
   }
   return {position.result(), velocity.result()};
+}
+
+/// Separations of the particles of a block from their right neighbours.
+[[gnu::always_inline]] inline PlaneVector<Pack> separations(const double* state,
+                                                            std::ptrdiff_t pitch,
+                                                            std::ptrdiff_t block,
+                                                            std::ptrdiff_t next) {
+  const auto difference = [block, next](const double* column) {
+    const Pack here = Pack::load(column + block * kLanes);
+    return rightNeighbours(here, Pack::load(column + next * kLanes)) - here;
+  };
+  return {difference(state), difference(state + pitch)};
+}
+
+bool springsChangeMuch(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
+                       const double* to) {
+  Pack much;
+  const std::ptrdiff_t blocks = blocksOf(size);
+  for (std::ptrdiff_t block = 0; block < blocks; ++block) {
+    const std::ptrdiff_t next = block + 1 < blocks ? block + 1 : block;
+    const PlaneVector<Pack> before = separations(from, pitch, block, next);
+    const PlaneVector<Pack> after = separations(to, pitch, block, next);
+    const PlaneVector<Pack> change{after.x - before.x, after.y - before.y};
+    const Pack along = absolute(before.x * change.x + before.y * change.y);
+    const Pack limit = kMuch * (before.x * before.x + before.y * before.y);
+    const Pack counted = {along.lanes < limit.lanes ? Pack::Native{} : Pack::all(1.0).lanes};
+    much = much + only(counted, 0, size - 1 - block * kLanes);
+  }
+  double sum = 0.0;
+  for (int lane = 0; lane < kLanes; ++lane) sum += much.lanes[lane];
+  return sum > 0.0;
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <spring_pendulum/integration/taylor_workspace.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
-#include <array>
 #include <cstddef>
 
 #include "block.hpp"
@@ -18,11 +17,19 @@ namespace {
 using Index = std::ptrdiff_t;
 constexpr Index kGroup = 8;  ///< springs whose coefficients lie together, on all instruction sets
 
+/// What is missing to coefficients of one order: of sum_j a_j b_{n-j} the terms known so far.
+struct Convolutions {
+  Pack length;              ///< of L_{n+1}, times L_0
+  Pack quotient;            ///< of u L
+  PlaneVector<Pack> force;  ///< of u d
+};
+
 /// The coefficients of the springs of one block.
 class SpringSeries {
  public:
   SpringSeries(const TaylorWorkspace& work, Index block)
-      : first_(work.springs + block * kLanes / kGroup * (work.order + 2) * kRow +
+      : first_(work.springs +
+               block * kLanes / kGroup * TaylorWorkspace::springRows(work.order) * kRow +
                block * kLanes % kGroup),
         order_(work.order) {}
 
@@ -31,6 +38,9 @@ class SpringSeries {
   Pack quotient(Index n) const { return at(n, 3); }
   PlaneVector<Pack> direction() const { return separation(order_ + 1); }
   Pack inverseLength() const { return at(order_ + 1, 2); }
+  Convolutions convolutions() const {
+    return {length(order_ + 2), quotient(order_ + 2), separation(order_ + 2)};
+  }
 
   void setSeparation(Index n, const PlaneVector<Pack>& value) {
     value.x.store(row(n));
@@ -40,6 +50,11 @@ class SpringSeries {
   void setQuotient(Index n, Pack value) { value.store(row(n) + 3 * kGroup); }
   void setDirection(const PlaneVector<Pack>& value) { setSeparation(order_ + 1, value); }
   void setInverseLength(Pack value) { setLength(order_ + 1, value); }
+  void setConvolutions(const Convolutions& value) {
+    setSeparation(order_ + 2, value.force);
+    setLength(order_ + 2, value.length);
+    setQuotient(order_ + 2, value.quotient);
+  }
 
  private:
   static constexpr Index kRow = 4 * kGroup;
@@ -50,45 +65,100 @@ class SpringSeries {
   Index order_;
 };
 
-/// What is missing to L_0 L_{n+1} = d_0·d_{n+1} + (this).
-[[gnu::always_inline]] inline Pack lengthConvolution(const SpringSeries& spring, Index n) {
-  const auto product = [&spring](Index i, Index j) {
-    const PlaneVector<Pack> a = spring.separation(i);
-    const PlaneVector<Pack> b = spring.separation(j);
-    return a.x * b.x + a.y * b.y - spring.length(i) * spring.length(j);
-  };
-  Pack sum;
-  for (Index j = 1; 2 * j < n + 1; ++j) sum = sum + product(j, n + 1 - j);
-  if (n % 2 == 1) sum = sum + 0.5 * product((n + 1) / 2, (n + 1) / 2);
-  return sum;
+/// A coefficient of a spring: of its separation and its length.
+struct SpringCoefficient {
+  PlaneVector<Pack> separation;
+  Pack length;
+};
+
+[[gnu::always_inline]] inline SpringCoefficient coefficient(const SpringSeries& spring, Index n) {
+  return {spring.separation(n), spring.length(n)};
+}
+
+/// Its term in the convolution for the length.
+[[gnu::always_inline]] inline Pack product(const SpringCoefficient& a, const SpringCoefficient& b) {
+  return a.separation.x * b.separation.x + a.separation.y * b.separation.y - a.length * b.length;
+}
+
+[[gnu::always_inline]] inline void addTerm(Convolutions& sums, Pack quotient,
+                                           const SpringCoefficient& other) {
+  sums.quotient = sums.quotient + quotient * other.length;
+  sums.force.x = sums.force.x + quotient * other.separation.x;
+  sums.force.y = sums.force.y + quotient * other.separation.y;
+}
+
+/// Of the even order n and of the next one, what the coefficients before n give: the loads are
+/// shared, and there is twice as much to do side by side.
+[[gnu::always_inline]] inline void addKnownTerms(const SpringSeries& spring, Index n,
+                                                 Convolutions& here, Convolutions& next) {
+  if (n == 0) return;
+  SpringCoefficient last = coefficient(spring, n);
+  const SpringCoefficient first = coefficient(spring, 1);
+  here.length = here.length + product(first, last);
+  for (Index j = 2; 2 * j <= n; ++j) {
+    const SpringCoefficient a = coefficient(spring, j);
+    next.length = next.length + product(a, last);
+    last = coefficient(spring, n + 1 - j);
+    here.length = here.length + product(a, last);
+  }
+  const SpringCoefficient middle = coefficient(spring, n / 2 + 1);
+  next.length = next.length + 0.5 * product(middle, middle);
+
+  last = coefficient(spring, n);
+  addTerm(here, spring.quotient(0), last);
+  for (Index j = 1; j < n; ++j) {
+    const Pack quotient = spring.quotient(j);
+    addTerm(next, quotient, last);
+    last = coefficient(spring, n - j);
+    addTerm(here, quotient, last);
+  }
+}
+
+/// What order n adds to the sums of order n + 1.
+[[gnu::always_inline]] inline void addNewTerms(const SpringSeries& spring, Index n,
+                                               Convolutions& next) {
+  const SpringCoefficient first = coefficient(spring, 1);
+  const SpringCoefficient newest = coefficient(spring, n + 1);
+  next.length = next.length + (n == 0 ? 0.5 : 1.0) * product(first, newest);
+  addTerm(next, spring.quotient(0), newest);
+  if (n > 0) addTerm(next, spring.quotient(n), first);
 }
 
 /// L_{n+1}, u_n and the force coefficient n of the springs of one block; d_0 to d_{n+1} are known.
 [[gnu::always_inline]] inline PlaneVector<Pack> springCoefficients(const TaylorWorkspace& work,
-                                                                   SpringSeries spring, Index n) {
-  const Pack length_sum = lengthConvolution(spring, n);
-  Pack quotient_sum;
-  PlaneVector<Pack> force;
-  for (Index j = 0; j < n; ++j) {
-    const Pack quotient = spring.quotient(j);
-    const PlaneVector<Pack> separation = spring.separation(n - j);
-    quotient_sum = quotient_sum + quotient * spring.length(n - j);
-    force.x = force.x + quotient * separation.x;
-    force.y = force.y + quotient * separation.y;
-  }
+                                                                   SpringSeries spring, Index n,
+                                                                   const Convolutions& sums) {
   const Pack inverse_length = spring.inverseLength();
   const PlaneVector<Pack> direction = spring.direction();
   const PlaneVector<Pack> newest = spring.separation(n + 1);
-  const Pack length = direction.x * newest.x + direction.y * newest.y + length_sum * inverse_length;
+  const Pack length =
+      direction.x * newest.x + direction.y * newest.y + sums.length * inverse_length;
   spring.setLength(n + 1, length);
 
   const Pack stretch = n == 0 ? spring.length(0) - work.spring.rest_length : spring.length(n);
-  const Pack elastic = (work.spring.stiffness * stretch - quotient_sum) * inverse_length;
+  const Pack elastic = (work.spring.stiffness * stretch - sums.quotient) * inverse_length;
   const Pack damping = (work.spring.damping * static_cast<double>(n + 1)) * inverse_length;
   const Pack quotient = elastic + damping * length;
   spring.setQuotient(n, quotient);
   const PlaneVector<Pack> origin = spring.separation(0);
-  return {force.x + quotient * origin.x, force.y + quotient * origin.y};
+  return {sums.force.x + quotient * origin.x, sums.force.y + quotient * origin.y};
+}
+
+/// The same, with the sums of even orders made here, those of odd orders on the way.
+template <bool kEven>
+[[gnu::always_inline]] inline PlaneVector<Pack> springCoefficients(const TaylorWorkspace& work,
+                                                                   SpringSeries spring, Index n) {
+  if constexpr (kEven) {
+    Convolutions here{};
+    Convolutions next{};
+    addKnownTerms(spring, n, here, next);
+    const PlaneVector<Pack> force = springCoefficients(work, spring, n, here);
+    addNewTerms(spring, n, next);
+    spring.setConvolutions(next);
+    return force;
+  } else {
+    return springCoefficients(work, spring, n, spring.convolutions());
+  }
 }
 
 /// From the state: d_0, d_1 = w, L_0 and what is divided by it.
@@ -115,7 +185,8 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
 }
 
 /// Coefficient n of all accelerations, and n + 2 of all separations.
-inline void addOrder(const TaylorWorkspace& work, Index n) {
+template <bool kEven>
+void addOrder(const TaylorWorkspace& work, Index n) {
   const double share = 1.0 / (static_cast<double>(n + 1) * static_cast<double>(n + 2));
   const auto differ = [share](const PlaneVector<Pack>& here, const PlaneVector<Pack>& next) {
     return PlaneVector<Pack>{share * (rightNeighbours(here.x, next.x) - here.x),
@@ -128,7 +199,7 @@ inline void addOrder(const TaylorWorkspace& work, Index n) {
   PlaneVector<Pack> previous{};  // its accelerations
   for (Index block = 0; block < blocks; ++block) {
     const Index first = block * kLanes;
-    const PlaneVector<Pack> right = springCoefficients(work, SpringSeries(work, block), n);
+    const PlaneVector<Pack> right = springCoefficients<kEven>(work, SpringSeries(work, block), n);
     const Pack inverse_mass = Pack::load(work.inverse_masses + first);
     PlaneVector<Pack> here{(right.x - leftNeighbours(left.x, right.x)) * inverse_mass,
                            (right.y - leftNeighbours(left.y, right.y)) * inverse_mass};
@@ -146,36 +217,58 @@ inline void addOrder(const TaylorWorkspace& work, Index n) {
   if (wanted) SpringSeries(work, blocks - 1).setSeparation(n + 2, differ(previous, previous));
 }
 
-void taylorSeries(const TaylorWorkspace& work, const double* state) {
+// The workspace is copied: of the caller's the compiler must assume that it changes with every
+// number that is written.
+void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
+  const TaylorWorkspace work = callers_work;
   beginSeries(work, state);
-  for (Index n = 0; n < work.order; ++n) addOrder(work, n);
+  for (Index n = 0; n < work.order; n += 2) {
+    addOrder<true>(work, n);
+    if (n + 1 < work.order) addOrder<false>(work, n + 1);
+  }
 }
 
-void taylorState(const TaylorWorkspace& work, const double* state, double time, double* out) {
-  std::array<double, kLargestTaylorOrder> for_velocity{};
-  std::array<double, kLargestTaylorOrder> for_position{};
-  double power = time;
-  for (Index n = 0; n < work.order; ++n) {
-    const auto i = static_cast<std::size_t>(n);
-    for_velocity[i] = power / static_cast<double>(n + 1);
-    power *= time;
-    for_position[i] = power / (static_cast<double>(n + 1) * static_cast<double>(n + 2));
+/// The weighted sum of the accelerations' coefficients of one block.
+[[gnu::always_inline]] inline Block weightedSum(const TaylorWorkspace& work,
+                                                const TaylorWeights& weights, Index block) {
+  Block change{};
+  for (Index n = weights.count - 1; n >= 0; --n) {
+    const double* row = work.accelerations + n * 2 * work.pitch + block * kLanes;
+    const Pack x = Pack::load(row);
+    const Pack y = Pack::load(row + work.pitch);
+    const double position = weights.position[static_cast<std::size_t>(n)];
+    const double velocity = weights.velocity[static_cast<std::size_t>(n)];
+    change = {change.x + position * x, change.y + position * y, change.vx + velocity * x,
+              change.vy + velocity * y};
   }
+  return change;
+}
+
+void taylorState(const TaylorWorkspace& callers_work, const double* state, const double* base,
+                 const TaylorWeights& weights, double* out) {
+  const TaylorWorkspace work = callers_work;
+  const double time = weights.start_velocity;
   for (Index block = 0; block < blocksOf(work.size); ++block) {
-    Block change{};
-    for (Index n = work.order - 1; n >= 0; --n) {
-      const double* row = work.accelerations + n * 2 * work.pitch + block * kLanes;
-      const Pack x = Pack::load(row);
-      const Pack y = Pack::load(row + work.pitch);
-      const auto i = static_cast<std::size_t>(n);
-      change = {change.x + for_position[i] * x, change.y + for_position[i] * y,
-                change.vx + for_velocity[i] * x, change.vy + for_velocity[i] * y};
-    }
-    const Block from = load({state + block * kLanes, work.pitch});
-    store({from.x + (time * from.vx + change.x), from.y + (time * from.vy + change.y),
+    const Block change = weightedSum(work, weights, block);
+    const Block speed = load({state + block * kLanes, work.pitch});
+    const Block from = load({base + block * kLanes, work.pitch});
+    store({from.x + (time * speed.vx + change.x), from.y + (time * speed.vy + change.y),
            from.vx + change.vx, from.vy + change.vy},
           {out + block * kLanes, work.pitch});
   }
+}
+
+LargestChange taylorLargestSum(const TaylorWorkspace& work, const TaylorWeights& weights) {
+  Largest position;
+  Largest velocity;
+  for (Index block = 0; block < blocksOf(work.size); ++block) {
+    const Block change = weightedSum(work, weights, block);
+    position.add(change.x);
+    position.add(change.y);
+    velocity.add(change.vx);
+    velocity.add(change.vy);
+  }
+  return {position.result(), velocity.result()};
 }
 
 double taylorLargest(const TaylorWorkspace& work, std::ptrdiff_t n) {
@@ -184,17 +277,6 @@ double taylorLargest(const TaylorWorkspace& work, std::ptrdiff_t n) {
   for (Index block = 0; block < blocksOf(work.size); ++block) {
     largest.add(Pack::load(row + block * kLanes));
     largest.add(Pack::load(row + work.pitch + block * kLanes));
-  }
-  return largest.result();
-}
-
-double taylorLengthChange(const TaylorWorkspace& work, double time) {
-  Largest largest;
-  for (Index block = 0; block < blocksOf(work.size); ++block) {
-    const SpringSeries spring(work, block);
-    Pack change = time * spring.length(work.order);
-    for (Index n = work.order - 1; n > 0; --n) change = time * (spring.length(n) + change);
-    largest.add(change * spring.inverseLength());
   }
   return largest.result();
 }
