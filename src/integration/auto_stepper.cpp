@@ -21,8 +21,8 @@ constexpr double kRateForImplicit = 1e4;
 /// Part of its stability limit from which on an explicit method counts as held back by it.
 constexpr double kStiffFrom = 0.25;
 
-/// Steps of the active method before a race, so that its pace is known.
-constexpr int kStepsBeforeRace = 16;
+/// Steps of the active method before another takes its place, so that its pace is known.
+constexpr int kLeastSteps = 16;
 
 /// Steps of a challenger: those in which it finds its step length do not count.
 constexpr int kWarmingUp = 6;
@@ -31,9 +31,8 @@ constexpr int kCounted = 6;
 /// Work between two races, in work of a race.
 constexpr double kWorkPerRace = 25.0;
 
-/// Work of the first race, roughly. It is held at once where that is little of the work of a
-/// second.
-constexpr double kWorkOfFirstRace = 600.0;
+/// Work before the first race: about as much as the race itself.
+constexpr double kWorkBeforeFirstRace = 500.0;
 
 /// How much faster a challenger has to be.
 constexpr double kHysteresis = 1.2;
@@ -64,8 +63,7 @@ AutoStepper::AutoStepper(const Chain& chain, const IntegratorOptions& options)
     : fastest_rate_(fastestDampingRate(chain)), state_(chain.size()) {
   const Method& method = explicitMethod(chain, options.tolerance);
   explicit_limit_ = method.real_stability_limit;
-  const double work_of_a_second = method.stages * fastest_rate_ / explicit_limit_;
-  first_race_costs_ = 10.0 * kWorkOfFirstRace > work_of_a_second ? kWorkOfFirstRace : 0.0;
+  successor_is_better_ = method.order == 8;
   candidates_.push_back(
       {method.name, kTaylorWork, std::make_unique<TaylorSeries>(chain, method.order, options)});
   const auto add_stabilized = [&](std::string_view name, double work, int order) {
@@ -73,8 +71,8 @@ AutoStepper::AutoStepper(const Chain& chain, const IntegratorOptions& options)
                            std::make_unique<StabilizedTaylor>(
                                chain, order, options, StabilizedTaylor::kShareOfToleranceIfStiff)});
   };
-  add_stabilized("Stabilized-Taylor-4", kStabilizedTaylor4Work, 4);
   add_stabilized("Stabilized-Taylor-8", kStabilizedTaylor8Work, 8);
+  add_stabilized("Stabilized-Taylor-4", kStabilizedTaylor4Work, 4);
   if (fastest_rate_ < kRateForImplicit) return;
   candidates_.push_back({"Rodas5P", kRodas5PWork,
                          std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options)});
@@ -84,7 +82,7 @@ void AutoStepper::start(const State& state) {
   active_ = 0;
   recent_ = {};
   recent_steps_ = 0;
-  work_of_last_race_ = first_race_costs_;
+  work_before_race_ = kWorkBeforeFirstRace;
   candidates_[0].stepper->start(state);
 }
 
@@ -98,9 +96,13 @@ bool AutoStepper::isStiff() const {
 }
 
 double AutoStepper::step() {
-  if (recent_steps_ >= kStepsBeforeRace && recent_.work >= kWorkPerRace * work_of_last_race_ &&
-      isStiff()) {
-    race();
+  if (recent_steps_ >= kLeastSteps && isStiff()) {
+    if (active_ == 0 && successor_is_better_) {
+      active().stepper->interpolate(1.0, state_);
+      change(1);
+    } else if (recent_.work >= work_before_race_) {
+      race();
+    }
   }
   Candidate& candidate = candidates_[active_];
   const double before = workOf(candidate);
@@ -131,23 +133,28 @@ AutoStepper::Pace AutoStepper::paceOf(Candidate& candidate, const State& state) 
 
 void AutoStepper::race() {
   active().stepper->interpolate(1.0, state_);
-  work_of_last_race_ = 0.0;
+  double work = 0.0;
   std::size_t fastest = active_;
   Pace best = recent_;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (i == active_) continue;
     const double before = workOf(candidates_[i]);
     const Pace pace = paceOf(candidates_[i], state_);
-    work_of_last_race_ += workOf(candidates_[i]) - before;
+    work += workOf(candidates_[i]) - before;
     if (pace.isFasterThan(best)) {
       fastest = i;
       best = pace;
     }
   }
+  work_before_race_ = kWorkPerRace * work;
+  change(fastest);
+}
+
+void AutoStepper::change(std::size_t to) {
   recent_ = {};
   recent_steps_ = 0;
-  if (fastest == active_) return;
-  active_ = fastest;
+  if (to == active_) return;
+  active_ = to;
   ++switches_;
   candidates_[active_].stepper->start(state_);
 }

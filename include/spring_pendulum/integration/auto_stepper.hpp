@@ -2,11 +2,12 @@
 //
 // It begins with a Taylor series method, of order 8 or 12 by tolerance, which nothing beats as long
 // as accuracy limits its steps. When they come near its stability limit (step * k_d μ, with the
-// chain's largest spring mode μ), the motion has turned stiff: the methods race, with the
-// stabilised Taylor series of order 4 and 8 and, for very light particles, Rodas5P. Each takes a
-// few steps from the same state, and what counts is the time it covers per work, in force
-// evaluations of Taylor-8. The work of a method's evaluation is a constant, no clock is read, so
-// every machine chooses alike and the bits stay the same.
+// chain's largest spring mode μ), the motion has turned stiff, and the stabilised series of order 8
+// takes over from the plain one of order 8, as it can only need less work. Then the methods race:
+// the plain series, the stabilised ones of order 4 and 8 and, for very light particles, Rodas5P.
+// Each takes a few steps from the same state, and what counts is the time it covers per work, in
+// force evaluations of Taylor-8. The work of a method's evaluation is a constant, no clock is read,
+// so every machine chooses alike and the bits stay the same.
 //
 // Races are held rarely enough to cost some percents of the work, and a challenger has to be
 // better by a fifth, so that two methods that are equally good do not take turns. Races go on while
@@ -67,15 +68,17 @@ class AutoStepper final : public AdaptiveStepper {
   static Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
   void race();
+  /// Goes on from `state_` with another candidate, or with the same one.
+  void change(std::size_t to);
 
-  double fastest_rate_;            ///< of the damped modes, 1/s
-  double explicit_limit_ = 0.0;    ///< h|λ| up to which the first candidate is stable
-  double first_race_costs_ = 0.0;  ///< work, before it is known
+  double fastest_rate_;               ///< of the damped modes, 1/s
+  bool successor_is_better_ = false;  ///< candidate 1 than the first, if the motion is stiff
+  double explicit_limit_ = 0.0;       ///< h|λ| up to which the first candidate is stable
   std::vector<Candidate> candidates_;
   std::size_t active_ = 0;
   Pace recent_;  ///< of the active method since it began or since the last race
   std::int64_t recent_steps_ = 0;
-  double work_of_last_race_ = 0.0;
+  double work_before_race_ = 0.0;
   std::int64_t steps_ = 0;
   int switches_ = 0;
   double last_step_ = 0.0;
