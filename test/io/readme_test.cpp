@@ -1,0 +1,48 @@
+// Tables of the README that other things state too.
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+namespace {
+
+/// The rows of the first table in a file of the project whose header begins like this.
+std::vector<std::string> tableRows(const std::string& path, const std::string& header) {
+  std::ifstream file(PROJECT_DIR "/" + path);
+  std::string line;
+  while (std::getline(file, line) && line.rfind(header, 0) != 0) {
+  }
+  std::getline(file, line);  // the line below the header
+  std::vector<std::string> rows;
+  while (std::getline(file, line) && line.rfind('|', 0) == 0) rows.push_back(line);
+  return rows;
+}
+
+TEST(Readme, ShowsTheCheapestMethodsThatWereMeasured) {
+  const std::string header = "| scene | to 1e-3 m | to 1e-6 m | to 1e-9 m |";
+  const auto measured = tableRows("benchmark/results/cheapest_methods.md", header);
+  ASSERT_FALSE(measured.empty());
+  EXPECT_EQ(tableRows("README.md", header), measured) << "copy the rows from there to the README";
+}
+
+TEST(Readme, ListsTheMethodsOfTheTable) {
+  const auto rows = tableRows("README.md", "| name | order | steps | use |");
+  ASSERT_EQ(rows.size(), methodTable().size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Method& method = methodTable()[i];
+    // Auto has the order of whatever it takes.
+    const std::string order = method.name == "Auto" ? "" : fmt::format(" {}", method.order);
+    EXPECT_THAT(rows[i], testing::StartsWith(
+                             fmt::format("| `{}` |{} | {} | ", method.name, order,
+                                         method.control == StepControl::kFixed ? "fixed" : "own")));
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum
