@@ -153,6 +153,8 @@ class Runs {
 /// Rounding, grown by fifty seconds of weakly chaotic motion.
 constexpr double kAgreement = 1e-6;  // m
 
+}  // namespace
+
 int run(const Options& options) {
   const Runs runs(std::filesystem::path(options.output) / "end_to_end_frames");
   const double difference = runs.difference();
@@ -188,10 +190,4 @@ int run(const Options& options) {
   return 0;
 }
 
-}  // namespace
 }  // namespace spring_pendulum::benchmark
-
-int main(int count, char** words) {
-  using namespace spring_pendulum::benchmark;
-  return runBenchmark(count, words, run);
-}

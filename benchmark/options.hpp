@@ -15,8 +15,8 @@ struct Options {
   bool smoke = false;  ///< few points, seconds in all: shows that everything works
 };
 
-/// What main() does: reads the options, runs, and reports what goes wrong.
-/// \return exit status: what `run` returns, 1 if it throws, 2 for options it does not know
-int runBenchmark(int count, char** words, int (*run)(const Options&));
+/// A benchmark. Each program defines its own, and main.cpp calls it.
+/// \return exit status; 1 if it throws, 2 for options that it does not know
+int run(const Options& options);
 
 }  // namespace spring_pendulum::benchmark

@@ -75,6 +75,6 @@ struct PeerRow {
 const std::vector<PeerRow>& allPeers();
 
 /// Libraries that this build lacks, for the head of a result.
-const std::vector<std::string>& missingPeers();
+std::vector<std::string> missingPeers();
 
 }  // namespace spring_pendulum::benchmark

@@ -159,6 +159,8 @@ std::vector<Pair> timePairs(Eigen::Index size, const Options& options) {
   return pairs;
 }
 
+}  // namespace
+
 int run(const Options& options) {
   ResultFile file(
       options.output + "/skips.csv",
@@ -177,10 +179,4 @@ int run(const Options& options) {
   return 0;
 }
 
-}  // namespace
 }  // namespace spring_pendulum::benchmark
-
-int main(int count, char** words) {
-  using namespace spring_pendulum::benchmark;
-  return runBenchmark(count, words, run);
-}

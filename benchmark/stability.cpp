@@ -1,4 +1,4 @@
-// Puts stability to the test: benchmark_stability [--output DIR] [--smoke 1]
+// Puts stability to the test.
 // Two reports, as CSV in DIR:
 // - stability_map.csv, stability_border.csv: the verdict on a grid of time steps against mass,
 //   stiffness, damping and length of the chain, for each method with a fixed step, and the border
@@ -10,16 +10,14 @@
 #include <fmt/os.h>
 
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "options.hpp"
 #include "support/verdict_of_run.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::benchmark {
 namespace {
 
 using test::Scene;
@@ -56,26 +54,9 @@ std::vector<Axis> axes() {
   };
 }
 
-struct Options {
-  std::string output = ".";
-  bool smoke = false;  ///< only a few points, to show that all works
-
-  /// Cells on a side of a map.
-  int cells() const { return smoke ? 4 : 48; }
-  std::size_t scenes() const { return smoke ? 2 : test::stabilityScenes().size(); }
-};
-
-Options parse(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; i += 2) {
-    const std::string name = argv[i];
-    if (i + 1 == argc || (name != "--output" && name != "--smoke")) {
-      throw std::invalid_argument("known are --output DIR and --smoke 0|1");
-    }
-    if (name == "--output") options.output = argv[i + 1];
-    if (name == "--smoke") options.smoke = std::string(argv[i + 1]) != "0";
-  }
-  return options;
+/// Cells on a side of a map.
+int cells(const Options& options) {
+  return options.smoke ? 4 : 48;
 }
 
 double onScale(double least, double most, int cell, int cells) {
@@ -97,14 +78,14 @@ void writeMaps(const Options& options) {
   border.print("axis,method,value,largest step [s],spring step [s]\n");
   for (const Axis& axis : axes()) {
     for (const Method* method : fixedStepMethods()) {
-      for (int column = 0; column < options.cells(); ++column) {
-        const double value = onScale(axis.least, axis.most, column, options.cells());
+      for (int column = 0; column < cells(options); ++column) {
+        const double value = onScale(axis.least, axis.most, column, cells(options));
         const Scene scene = axis.scene(value);
         const auto advice = adviseOnStability(*method, scene.chain, scene.start, 0.01, kDuration);
         border.print("{},{},{:.6g},{:.6g},{:.6g}\n", axis.name, method->name, value,
                      advice.largestStep(), advice.spring_step);
-        for (int row = 0; row < options.cells(); ++row) {
-          const double step = onScale(1e-4, 1.0, row, options.cells());
+        for (int row = 0; row < cells(options); ++row) {
+          const double step = onScale(1e-4, 1.0, row, cells(options));
           const VerdictKind kind = verdictOfRun(scene, *method, step, kDuration, true).kind;
           map.print("{},{},{:.6g},{:.6g},{},{}\n", axis.name, method->name, value, step,
                     toString(kind), static_cast<int>(kind));
@@ -137,7 +118,8 @@ void writeAdvice(const Options& options) {
   auto table = fmt::output_file(options.output + "/stability_advice.csv");
   table.print("scene,method,advised [s],decided by,bisected [s],ratio\n");
   const std::vector<Scene> scenes = test::stabilityScenes();
-  for (std::size_t i = 0; i < options.scenes(); ++i) {
+  const std::size_t count = options.smoke ? 2 : scenes.size();
+  for (std::size_t i = 0; i < count; ++i) {
     const Scene& scene = scenes[i];
     for (const Method* method : fixedStepMethods()) {
       const auto advice =
@@ -156,16 +138,11 @@ void writeAdvice(const Options& options) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
 
-int main(int argc, char** argv) {
-  using namespace spring_pendulum;
-  try {
-    const Options options = parse(argc, argv);
-    writeAdvice(options);
-    writeMaps(options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "benchmark_stability: {}\n", error.what());
-    return 1;
-  }
+int run(const Options& options) {
+  writeAdvice(options);
+  writeMaps(options);
+  return 0;
 }
+
+}  // namespace spring_pendulum::benchmark

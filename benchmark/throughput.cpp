@@ -166,6 +166,8 @@ bool runSize(std::size_t particles, int rounds, std::set<std::string>& lost, Res
   return all_agree;
 }
 
+}  // namespace
+
 int run(const Options& options) {
   ResultFile file(options.output + "/throughput.csv",
                   {"Classical Runge-Kutta method: nanoseconds per spring force, by chain length.",
@@ -185,10 +187,4 @@ int run(const Options& options) {
   return all_agree ? 0 : 1;
 }
 
-}  // namespace
 }  // namespace spring_pendulum::benchmark
-
-int main(int count, char** words) {
-  using namespace spring_pendulum::benchmark;
-  return runBenchmark(count, words, run);
-}

@@ -85,6 +85,8 @@ bool runPoint(const Point& point, double limit, ResultFile& file) {
   return kept;
 }
 
+}  // namespace
+
 int run(const Options& options) {
   ResultFile file(options.output + "/tolerance.csv",
                   {"Largest position error over the tolerance asked for, at all times with a",
@@ -106,10 +108,4 @@ int run(const Options& options) {
   return all_kept ? 0 : 1;
 }
 
-}  // namespace
 }  // namespace spring_pendulum::benchmark
-
-int main(int count, char** words) {
-  using namespace spring_pendulum::benchmark;
-  return runBenchmark(count, words, run);
-}

@@ -193,6 +193,8 @@ bool runScene(const ReferenceScene& scene, const Options& options, ResultFile& f
   return all_agree;
 }
 
+}  // namespace
+
 int run(const Options& options) {
   ResultFile file(
       options.output + "/work_precision.csv",
@@ -209,10 +211,4 @@ int run(const Options& options) {
   return all_agree ? 0 : 1;
 }
 
-}  // namespace
 }  // namespace spring_pendulum::benchmark
-
-int main(int count, char** words) {
-  using namespace spring_pendulum::benchmark;
-  return runBenchmark(count, words, run);
-}

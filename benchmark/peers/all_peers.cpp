@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iterator>
 
 #include "rows.hpp"
@@ -5,62 +6,45 @@
 namespace spring_pendulum::benchmark {
 namespace {
 
-struct PeerList {
-  std::vector<PeerRow> rows;
-  std::vector<std::string> missing;
-
-  void add(std::vector<PeerRow> more) {
-    rows.insert(rows.end(), std::make_move_iterator(more.begin()),
-                std::make_move_iterator(more.end()));
-  }
-};
-
-PeerList makeList() {
-  PeerList list;
-  list.add(ownRows());
-  list.add(plainRows());
+std::vector<PeerRow> makeList() {
+  std::vector<PeerRow> list;
+  const auto add = [&list](std::vector<PeerRow> rows) {
+    std::move(rows.begin(), rows.end(), std::back_inserter(list));
+  };
+  add(ownRows());
+  add(plainRows());
 #ifdef BENCHMARK_HAS_BOOST
-  list.add(boostRows());
-#else
-  list.missing.emplace_back("Boost.odeint");
+  add(boostRows());
 #endif
 #ifdef BENCHMARK_HAS_GSL
-  list.add(gslRows());
-#else
-  list.missing.emplace_back("GSL");
+  add(gslRows());
 #endif
 #ifdef BENCHMARK_HAS_SUNDIALS
-  list.add(arkodeRows());
-  list.add(cvodeRows());
-#else
-  list.missing.emplace_back("SUNDIALS");
+  add(arkodeRows());
+  add(cvodeRows());
 #endif
 #ifdef BENCHMARK_HAS_MUJOCO
-  list.add(mujocoRows());
-#else
-  list.missing.emplace_back("MuJoCo");
+  add(mujocoRows());
 #endif
 #ifdef BENCHMARK_HAS_SIMBODY
-  list.add(simbodyRows());
-#else
-  list.missing.emplace_back("Simbody");
+  add(simbodyRows());
 #endif
   return list;
-}
-
-const PeerList& theList() {
-  static const PeerList kList = makeList();
-  return kList;
 }
 
 }  // namespace
 
 const std::vector<PeerRow>& allPeers() {
-  return theList().rows;
+  static const std::vector<PeerRow> kList = makeList();
+  return kList;
 }
 
-const std::vector<std::string>& missingPeers() {
-  return theList().missing;
+std::vector<std::string> missingPeers() {
+  std::vector<std::string> missing{"Boost.odeint", "GSL", "SUNDIALS", "MuJoCo", "Simbody"};
+  for (const PeerRow& row : allPeers()) {
+    missing.erase(std::remove(missing.begin(), missing.end(), row.library), missing.end());
+  }
+  return missing;
 }
 
 }  // namespace spring_pendulum::benchmark

@@ -1,8 +1,9 @@
-#include "options.hpp"
-
+// What the benchmark programs share: each of them defines run().
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+
+#include "options.hpp"
 
 namespace spring_pendulum::benchmark {
 namespace {
@@ -35,8 +36,10 @@ Options parseOptions(int count, char** words) {
 }
 
 }  // namespace
+}  // namespace spring_pendulum::benchmark
 
-int runBenchmark(int count, char** words, int (*run)(const Options&)) {
+int main(int count, char** words) {
+  using namespace spring_pendulum::benchmark;
   try {
     return run(parseOptions(count, words));
   } catch (const std::invalid_argument& error) {
@@ -47,5 +50,3 @@ int runBenchmark(int count, char** words, int (*run)(const Options&)) {
     return 1;
   }
 }
-
-}  // namespace spring_pendulum::benchmark
