@@ -34,6 +34,7 @@ std::vector<std::string> argumentsFrom(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::vector<std::string> arguments = argumentsFrom(std::string(data, data + size));
   std::vector<const char*> pointers;
+  pointers.reserve(arguments.size());
   for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
   try {
     const CommandLine line = parseCommandLine(static_cast<int>(pointers.size()), pointers.data());
