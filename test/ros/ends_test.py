@@ -23,8 +23,10 @@ def stamps(messages):
 class Ends(unittest.TestCase):
 
     def test_hold_keeps_showing_the_last_frame(self):
+        status = Listener('status', PendulumStatus)
         with PendulumNode(frames=3, at_end='hold') as node:
-            time.sleep(1.0)
+            status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
+            status.close()
             listener = Listener('state', PendulumState)
             messages = listener.wait_for(2)
             listener.close()

@@ -37,6 +37,7 @@ class Frames(unittest.TestCase):
                               wait_for_subscribers=1) as node:
                 self.assertEqual(node.wait(), 0, node.output())
             self.assertEqual(read_frames(folder), expected)
+        state.wait_for_any(lambda m: m.frame == 20)
         state.close()
         in_between = [m for m in state.messages if not m.at_frame]
         self.assertGreater(len(in_between), 3, 'states in between were to be shown')

@@ -91,6 +91,10 @@ class PendulumNode:
     def lines(self, severity):
         return [line for line in self.output().splitlines() if line.startswith('[%5s]' % severity)]
 
+    def messages_built(self):
+        """How many marker and state messages there were in all, once the node has ended."""
+        return map(int, re.search(r'(\d+) marker and (\d+) state messages built', self.output()).groups())
+
     def resident_bytes(self):
         with open('/proc/%d/status' % self.process.pid) as status:
             return int(re.search(r'VmRSS:\s+(\d+) kB', status.read()).group(1)) * 1024
@@ -121,6 +125,12 @@ class Listener:
 
     def close(self):
         self.subscriber.unregister()
+
+
+def standing(states):
+    """The state that came twice, as a paused node shows it; None while the last two differ."""
+    last = states[-2:]
+    return last[1] if len(last) == 2 and last[0].time == last[1].time else None
 
 
 def run_exercise(folder, method='Runge-Kutta-4', *options, status=0):

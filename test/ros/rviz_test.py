@@ -14,7 +14,8 @@ import rostest
 from spring_pendulum.msg import PendulumState
 from std_srvs.srv import SetBool
 
-from pendulum_process import Folder, Listener, PendulumNode, program, project, wait_until
+from pendulum_process import (Folder, Listener, PendulumNode, program, project, standing,
+                              wait_until)
 
 WIDTH, HEIGHT = 1280, 800
 PICTURES = os.environ.get('PENDULUM_PICTURES', '/tmp')
@@ -138,12 +139,6 @@ class Viewer:
 def pixel_of(point, scale, center_y):
     """The pixel of a point of the plane, from the view of the rviz configuration."""
     return round(WIDTH / 2 + scale * point.x), round(HEIGHT / 2 - scale * (point.z - center_y))
-
-
-def standing(states):
-    """The state that was shown twice, as a paused node does; None while the last two differ."""
-    last = states[-2:]
-    return last[1] if len(last) == 2 and last[0].time == last[1].time else None
 
 
 def view_of(config):

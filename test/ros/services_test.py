@@ -1,6 +1,5 @@
 #!/usr/bin/python3
 """~pause, ~step and ~reset: each answers with a sentence, and none changes a frame."""
-import time
 import unittest
 
 import rospy
@@ -9,7 +8,7 @@ from spring_pendulum.msg import PendulumState, PendulumStatus
 from std_srvs.srv import SetBool, Trigger
 
 from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
-                              wait_until)
+                              standing, wait_until)
 
 SCENE = project('data/horizontal_11.txt')
 
@@ -51,8 +50,7 @@ class Services(unittest.TestCase):
         self.assertTrue(all(a < b for a, b in zip(seconds, seconds[1:])))
 
     def check_stands_still(self):
-        time.sleep(0.3)
-        paused_at = self.last().time
+        paused_at = wait_until(lambda: standing(self.state.messages), 'the pause').time
         count = len(self.state.messages)
         self.state.wait_for(count + 2)
         self.assertEqual({m.time for m in self.state.messages[count:]}, {paused_at})

@@ -20,6 +20,7 @@ class SimTime(unittest.TestCase):
         listener = Listener('state', PendulumState)
         with PendulumNode(frames=11, real_time_factor=2.0, wait_for_subscribers=1) as node:
             self.assertEqual(node.wait(), 0, node.output())
+        listener.wait_for_any(lambda m: m.frame == 10)
         listener.close()
         self.assertGreater(len(listener.messages), 11)
         self.assert_increasing(listener)

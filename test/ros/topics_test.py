@@ -13,7 +13,7 @@ from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
-from pendulum_process import Folder, Listener, PendulumNode, project, run_exercise, wait_until
+from pendulum_process import Folder, Listener, PendulumNode, project, run_exercise
 
 HORIZONTAL = project('data/horizontal_11.txt')
 
@@ -45,7 +45,9 @@ class Topics(unittest.TestCase):
         with PendulumNode(frames=20, real_time_factor=4.0, display_rate=60.0,
                           wait_for_subscribers=3, frame_id='base') as node:
             self.assertEqual(node.wait(), 0, node.output())
-            wait_until(lambda: len(markers.messages) == len(state.messages) > 0, 'equal numbers')
+            for listener, count in zip((markers, state), node.messages_built()):
+                self.assertEqual(len(listener.wait_for(count)), count)
+        status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
         self.assertEqual(state.messages[0].time, 0.0)
         self.assertEqual([m.frame for m in state.messages if m.at_frame and m.frame < 19],
                          list(range(19)))
@@ -155,6 +157,7 @@ class Topics(unittest.TestCase):
             start = time.monotonic()
             self.assertEqual(node.wait(), 0, node.output())
             self.assertGreater(time.monotonic() - start, 1.45)  # 3 s of motion at double speed
+        state.wait_for_any(lambda m: m.frame == 30)
         times = [m.time for m in state.messages]
         # 40 Hz at double speed: 2 states a frame of 0.1 s; a late node leaves in-between ones out.
         self.assertGreater(len(times), 31)
@@ -177,6 +180,8 @@ class Topics(unittest.TestCase):
                 PendulumNode('/a/pendulum', real_time_factor=1.0, frames=11,
                              wait_for_subscribers=2) as one:
             self.assertEqual((one.wait(), two.wait()), (0, 0), two.output())
+        for listener in (leader, follower):
+            listener.wait_for_any(lambda m: m.frame == 10)
         leader_times = sorted({m.time for m in leader.messages})
         self.assertTrue({m.time for m in follower.messages} <= set(leader_times) | {0.0})
         self.assertEqual(follower.messages[-1].frame, 10)
