@@ -120,8 +120,10 @@ void firstPass(const ReferenceScene& scene, Line& line, const Options& options) 
     }
     line.points.push_back(point);
     if (point.status == "too slow") ++worthless;
-    const double last_error = k > 0 ? line.points[k - 1].error : point.error;
-    const bool rounding = point.error < 1e-8 && point.error > 0.7 * last_error;
+    const Point& last = line.points[k > 0 ? k - 1 : 0];
+    const bool more_work =
+        static_cast<double>(point.evaluations) > 1.05 * static_cast<double>(last.evaluations);
+    const bool rounding = more_work && point.error < 1e-8 && point.error > 0.7 * last.error;
     if (point.status == "ok" && (point.error < kBestError || rounding)) worthless += 2;
     if (worthless >= 2 || (fixed && point.status == "too slow")) break;
   }

@@ -35,6 +35,7 @@ class SimbodyPeer : public Peer {
       static_cast<const SimTK::MobilizedBody::Translation&>(bodies_[i])
           .setQToFitTranslation(start_, place(i));
     }
+    if (run.tolerance >= 1.0) throw PeerError("its accuracy must be below 1");
     integrator_.setAccuracy(run.tolerance);
     reset();
   }

@@ -29,6 +29,15 @@ def cheapest(rows, target, libraries):
     return min(good, key=lambda r: float(r["time_ms"]), default=None)
 
 
+def three_digits(number):
+    return f"{number:.3g}" if number < 1000 else f"{number:.0f}"
+
+
+def ratio(row, own):
+    times = float(row["time_ms"]) / float(own["time_ms"])
+    return f"{times:.1f}x" if times < 100 else f"{times:.0f}x"
+
+
 class Best:
     """The cheapest of each side for one target on one scene."""
 
@@ -41,12 +50,12 @@ class Best:
     def ratio(self, other):
         if self.own is None or other is None:
             return NONE
-        return f"{float(other['time_ms']) / float(self.own['time_ms']):.1f}x"
+        return ratio(other, self.own)
 
     def in_short(self):
         if self.own is None:
             return NONE
-        return f"{float(self.own['time_ms']):.3g} ms ({self.own['method']}), " \
+        return f"{three_digits(float(self.own['time_ms']))} ms ({self.own['method']}), " \
                f"packages {self.ratio(self.package)}, plain loop {self.ratio(self.plain)}"
 
     def in_full(self):
@@ -58,7 +67,7 @@ def point(row):
     if row is None:
         return NONE
     return f"{row['method']} ({row['control']} {float(row['value_s_or_m']):.2g}): " \
-           f"{float(row['time_ms']):.3g} ms"
+           f"{three_digits(float(row['time_ms']))} ms"
 
 
 def main(path):
