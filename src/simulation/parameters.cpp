@@ -154,8 +154,7 @@ const Method& ScenarioBuilder::findGivenMethod() const {
   try {
     return findMethod(scenario_.method);
   } catch (const InputError& error) {
-    const auto given = given_.find("method");
-    throw InputError(prefixFor(given == given_.end() ? "" : given->second) + error.what());
+    throw InputError(prefixFor(given_.at("method")) + error.what());  // the default is known
   }
 }
 

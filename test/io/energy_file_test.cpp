@@ -61,6 +61,18 @@ TEST_F(EnergyFileTest, IsAbsentUntilItIsWholeAndKeepsTheEarlierOneSoLong) {
   EXPECT_FALSE(std::filesystem::exists(path("e.csv.unfinished")));
 }
 
+TEST_F(EnergyFileTest, TellsWhatCameIntoItsWayMeanwhile) {
+  EnergyFile file(path("e.csv"));
+  file.write(0, someEntry());
+  std::filesystem::create_directory(path("e.csv"));
+  try {
+    file.finish();
+    FAIL() << "no error";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.what(), path("e.csv") + ": could not be written: Is a directory");
+  }
+}
+
 TEST_F(EnergyFileTest, RefusesASecondWriter) {
   const EnergyFile file(path("e.csv"));
   EXPECT_THROW(EnergyFile second(path("e.csv")), FileError);

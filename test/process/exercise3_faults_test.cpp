@@ -163,12 +163,34 @@ TEST(Exercise3Faults, NoFileDescriptorLeft) {
   }
 }
 
+// A thread's stack is as large as the limit says, and so large a one fits into no address space.
+TEST(Exercise3Faults, NoThreadToBeHadGivesTheSameFrames) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", chainOf(20000));
+  for (const char* output : {"with", "without"}) {
+    Command command =
+        exercise3(folder, {"Runge-Kutta-4", "--frames", "3", "--threads", "3", "--output", output});
+    if (output == std::string("without")) {
+      command.prepare = [] {
+        const rlimit stack{rlim_t{1} << 47U, RLIM_INFINITY};
+        if (setrlimit(RLIMIT_STACK, &stack) != 0) _exit(1);
+      };
+    }
+    const Result result = run(command);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(result.errors, "");
+  }
+  for (const std::string name : {"frame_0000.txt", "frame_0001.txt", "frame_0002.txt"}) {
+    EXPECT_EQ(readFile(folder.path("with/" + name)), readFile(folder.path("without/" + name)));
+  }
+}
+
 TEST(Exercise3Faults, LedgerOnAFullDisk) {
   const TemporaryFolder folder;
   folder.write("particle.txt", kTwoParticles);
   Command command = exercise3(folder, {"Runge-Kutta-4", "--no-frames", "--energy", "e.csv"});
   command.prepare = [] {
-    const rlimit size{4096, 4096};
+    const rlimit size{65536, 65536};  // of the 75 kB that the ledger has
     if (setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(1);
     signal(SIGXFSZ, SIG_IGN);
   };

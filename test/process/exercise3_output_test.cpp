@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <sched.h>
 #include <sstream>
@@ -18,6 +20,7 @@ namespace spring_pendulum {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
@@ -208,6 +211,52 @@ TEST(Exercise3Output, WhatIsNoFileIsNeverRemoved) {
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.errors, StartsWith(folder.path(frame(3)) + ": is in the way of the frames"));
   EXPECT_EQ(readFile(folder.path(frame(0))), "earlier\n");
+}
+
+TEST(Exercise3Output, EarlierFramesThatCannotBeRemovedStay) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  std::filesystem::create_directory(folder.path("locked"));
+  folder.write("locked/" + frame(7), "earlier\n");
+  chmod(folder.path("locked").c_str(), 0555);
+  Command command = exercise3(folder, {"Euler", "--output", "locked"});
+  command.prepare = respectPermissions;
+  const Result result = run(command);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors,
+            folder.path("locked/" + frame(7)) + ": could not be removed: Permission denied\n");
+  EXPECT_EQ(readFile(folder.path("locked/" + frame(7))), "earlier\n");
+  chmod(folder.path("locked").c_str(), 0755);
+}
+
+/// All that a terminal is told until nobody holds its other end, or until it holds `wanted`.
+std::string readTerminal(int terminal, const std::string& wanted) {
+  std::string text;
+  for (char letter = 0; read(terminal, &letter, 1) == 1;) {
+    text += letter;
+    if (!wanted.empty() && text.find(wanted) != std::string::npos) break;
+  }
+  return text;
+}
+
+TEST(Exercise3Output, ATerminalIsToldHowFarALongRunIs) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", chainOf(1000));
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ASSERT_TRUE(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+  const std::string other_end = ptsname(terminal);
+  Command command = exercise3(folder, {"Runge-Kutta-4", "--no-frames", "--frames", "1000000000"});
+  command.prepare = [&other_end] {
+    const int errors = open(other_end.c_str(), O_RDWR | O_NOCTTY);
+    if (errors < 0 || dup2(errors, STDERR_FILENO) < 0 || close(errors) != 0) _exit(1);
+  };
+  Process process(command);
+  EXPECT_THAT(readTerminal(terminal, " %\x1b[K"),
+              MatchesRegex(".*\r[1-9][0-9]* of 1000000000 frames, 0 %\x1b.K"));
+  process.sendSignal(SIGINT);
+  EXPECT_EQ(process.wait().status, 128 + SIGINT);
+  EXPECT_THAT(readTerminal(terminal, ""), EndsWith("\r\x1b[K"));
+  close(terminal);
 }
 
 TEST(Exercise3Output, NoFramesTouchesNothing) {

@@ -52,6 +52,10 @@ TEST(EnergyScale, FollowsTheFreeFallOfAChainWithoutStiffness) {
 TEST(EnergyScale, RefusesEnergiesBeyondADouble) {
   Eigen::VectorXd masses = Eigen::VectorXd::Constant(3, 1e300);
   EXPECT_THROW(EnergyScale(Chain(masses, SpringLaw{}, 9.81), horizontal(3, 1.0)), InputError);
+  const SpringLaw stiff{1e300, 0.0, 1.0};
+  EXPECT_THROW(EnergyScale(uniform(3, stiff, 0.0), horizontal(3, 1e10)), InputError);
+  const SpringLaw none{0.0, 0.0, 0.0};
+  EXPECT_THROW(EnergyScale(uniform(3, none, 1e160), horizontal(3, 1.0)), InputError);
 }
 
 TEST(EnergyLedger, ClosesWithTheOrderOfTheMethod) {

@@ -14,6 +14,7 @@ namespace spring_pendulum {
 namespace {
 
 using test::Scene;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -129,6 +130,35 @@ TEST(StabilityAdvice, DescribesWhatHolds) {
   EXPECT_EQ(text,
             "fastest spring mode 14 1/s, fastest swing 10.6 rad/s, slow swing 0.794 rad/s\n"
             "Runge-Kutta-4: the springs bear steps up to 0.202 s; a step of 0.01 s holds\n");
+}
+
+TEST(StabilityAdvice, DescribesWhatToDoWithAStepThatDoesNotHold) {
+  const Scene light = test::horizontalChain("light", 11, 0.001);
+  EXPECT_THAT(describeStability(light.chain, light.start, Scenario{}),
+              HasSubstr("\na step of 0.01 s is too large for the springs: Runge-Kutta-4 bears "
+                        "steps up to 0.000721 s here; Auto holds, which chooses its own steps\n"));
+  Scenario coarse;
+  coarse.time_step = 0.0075;
+  coarse.method = "Runge-Kutta-2";
+  const Scene heavier = test::horizontalChain("heavier", 11, 0.01);
+  EXPECT_THAT(describeStability(heavier.chain, heavier.start, coarse),
+              HasSubstr("here; Runge-Kutta-4 holds with 0.0075 s\n"));
+}
+
+TEST(StabilityAdvice, LeavesTheStepToTheMethodsThatChooseIt) {
+  const Scene scene = test::horizontalChain("exercise", 11, 1.0);
+  Scenario scenario;
+  scenario.method = "Taylor-8";
+  EXPECT_THAT(describeStability(scene.chain, scene.start, scenario),
+              EndsWith("\nTaylor-8 chooses its own steps\n"));
+  EXPECT_EQ(warnOfInstability(scene.chain, scene.start, scenario), "");
+  EXPECT_EQ(methodThatHolds(scene.chain, scene.start, scenario), "Auto");
+  EXPECT_EQ(remedyForDivergence(scene.chain, scene.start, scenario),
+            "a tolerance below 1e-06 m may hold; Auto holds, which chooses its own steps");
+  scenario.method = "Auto";
+  EXPECT_EQ(methodThatHolds(scene.chain, scene.start, scenario), "");
+  EXPECT_EQ(remedyForDivergence(scene.chain, scene.start, scenario),
+            "a tolerance below 1e-06 m may hold");
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+#include <spring_pendulum/io/text_file.hpp>
+
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+TEST(TextFile, IsReadToItsEndThoughItsSizeIsNotTold) {
+  const std::string path = "/proc/version";  // which says to be of 0 bytes
+  const std::string text = readTextFile(path);
+  EXPECT_EQ(text, readFile(path));
+  EXPECT_GT(text.size(), 20U);
+}
+
+TEST(TextFile, LosesItsByteOrderMarkAndNothingElse) {
+  const TemporaryFolder folder;
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(readTextFile(folder.write("marked", mark + "a" + mark)), "a" + mark);
+  EXPECT_EQ(readTextFile(folder.write("short", "\xEF\xBB")), "\xEF\xBB");
+  EXPECT_EQ(readTextFile(folder.write("empty", "")), "");
+}
+
+TEST(TextFile, IsQuotedOnOneLine) {
+  EXPECT_EQ(spring_pendulum::quoted("a\tb\nc\x7f"), "'a?b?c?'");
+  EXPECT_EQ(spring_pendulum::quoted(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
+  EXPECT_EQ(spring_pendulum::quoted(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+}
+
+}  // namespace
+}  // namespace spring_pendulum
