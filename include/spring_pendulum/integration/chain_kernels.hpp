@@ -95,7 +95,8 @@ struct ChainKernels {
   LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);
 
   /// Whether any spring of the first `size` particles changes, from one state to another, along its
-  /// old direction by 0.9 of its old length or more (or has none, or is not a number).
+  /// old direction by 0.9 of its old length or more, or to 1e-12 m or more if it had no length. Yes
+  /// if anything is not a number.
   bool (*springsChangeMuch)(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
                             const double* to);
 

@@ -14,6 +14,10 @@ namespace {
 /// Part of a spring's length.
 constexpr double kMuch = 0.9;
 
+/// A spring without length exerts no force; in a step that makes it no longer than this, m, that
+/// does not matter.
+constexpr double kNoLength = 1e-12;
+
 [[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
                                                   SlopeSum sum, std::ptrdiff_t block) {
   Block result = load({state + block * kLanes, pitch});
@@ -105,8 +109,12 @@ bool springsChangeMuch(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* 
     const PlaneVector<Pack> after = separations(to, pitch, block, next);
     const PlaneVector<Pack> change{after.x - before.x, after.y - before.y};
     const Pack along = absolute(before.x * change.x + before.y * change.y);
-    const Pack limit = kMuch * (before.x * before.x + before.y * before.y);
-    const Pack counted = {along.lanes < limit.lanes ? Pack::Native{} : Pack::all(1.0).lanes};
+    const Pack square = before.x * before.x + before.y * before.y;
+    const Pack grown = change.x * change.x + change.y * change.y;
+    const Pack::Native one = Pack::all(1.0).lanes;
+    const Pack::Native with_length = along.lanes < (kMuch * square).lanes ? Pack::Native{} : one;
+    const Pack::Native without = grown.lanes < kNoLength * kNoLength ? Pack::Native{} : one;
+    const Pack counted = {square.lanes == 0.0 ? without : with_length};
     much = much + only(counted, 0, size - 1 - block * kLanes);
   }
   double sum = 0.0;
