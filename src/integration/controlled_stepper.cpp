@@ -8,13 +8,14 @@
 namespace spring_pendulum {
 
 ControlledStepper::ControlledStepper(const Chain& chain, const IntegratorOptions& options,
-                                     double allowed_error, int error_order)
+                                     double allowed_error, int error_order,
+                                     const ChainKernels& kernels)
     : chain_(chain),
       track_dissipation_(options.track_dissipation),
       allowed_error_(allowed_error),
       error_order_(error_order),
       constants_(chain_),
-      kernels_(fastestChainKernels()),
+      kernels_(kernels),
       controller_(error_order),
       begin_(chain.size()),
       end_(chain.size()),

@@ -32,9 +32,10 @@ class EmbeddedRungeKutta::Sum {
 };
 
 EmbeddedRungeKutta::EmbeddedRungeKutta(const Chain& chain, const EmbeddedPair& pair,
-                                       const IntegratorOptions& options)
+                                       const IntegratorOptions& options,
+                                       const ChainKernels& kernels)
     : ControlledStepper(chain, options, pair.share_of_tolerance * options.tolerance,
-                        pair.error_order),
+                        pair.error_order, kernels),
       pair_(pair),
       inside_(chain.size()) {
   for (std::size_t i = 0; i < std::max(pair.dense_slopes, pair.tableau.stages + 1); ++i) {

@@ -40,8 +40,8 @@ TaylorWeights errorOf(const StabilizedPolynomial& polynomial, double time) {
 }  // namespace
 
 StabilizedTaylor::StabilizedTaylor(const Chain& chain, int order, const IntegratorOptions& options,
-                                   double share_of_tolerance)
-    : ControlledStepper(chain, options, share_of_tolerance * options.tolerance, order),
+                                   double share_of_tolerance, const ChainKernels& kernels)
+    : ControlledStepper(chain, options, share_of_tolerance * options.tolerance, order, kernels),
       fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
       polynomials_(stabilizedPolynomials(order)),
       polynomial_(polynomials_.begin()),

@@ -131,25 +131,6 @@ TEST(TaylorSeries, StabilityLimitsOfTheTableAreThoseOfItsPolynomial) {
   }
 }
 
-TEST(TaylorSeries, HasTheSameBitsOnEveryInstructionSet) {
-  for (const char* name : {"two_masses_45deg", "horizontal_11", "light_100"}) {
-    const Scene scene = referenceScene(name);
-    std::vector<State> ends;
-    for (const ChainKernels* kernels : supportedChainKernels()) {
-      TaylorSeries series(scene.chain, 6, {}, *kernels);
-      series.start(scene.start);
-      for (int n = 0; n < 100; ++n) ASSERT_GT(series.step(), 0.0);
-      ends.emplace_back(scene.start.size());
-      series.interpolate(1.0, ends.back());
-      const State::Matrix& a = ends.front().values();
-      const State::Matrix& b = ends.back().values();
-      EXPECT_EQ(
-          std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())), 0)
-          << name << " " << kernels->name;
-    }
-  }
-}
-
 // The kernels over the whole chain, with the lengths of step that the stepper chose.
 TEST(TaylorSeries, LeavingOutTheFreelyFallingEndChangesNoBit) {
   for (const char* name : {"horizontal_11", "light_100", "horizontal_1000"}) {

@@ -31,7 +31,7 @@ class ControlledStepper : public AdaptiveStepper {
   /// \param allowed_error position error allowed in a step, m
   /// \param error_order   power of h with which the estimated error grows
   ControlledStepper(const Chain& chain, const IntegratorOptions& options, double allowed_error,
-                    int error_order);
+                    int error_order, const ChainKernels& kernels);
 
   /// Before the first attempt from the new state that `begin()` holds.
   /// \param restarted whether it is not the `end()` of the last step

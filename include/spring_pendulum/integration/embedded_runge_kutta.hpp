@@ -17,8 +17,8 @@ namespace spring_pendulum {
 class EmbeddedRungeKutta final : public ControlledStepper {
  public:
   /// \param pair must outlive the stepper
-  EmbeddedRungeKutta(const Chain& chain, const EmbeddedPair& pair,
-                     const IntegratorOptions& options);
+  EmbeddedRungeKutta(const Chain& chain, const EmbeddedPair& pair, const IntegratorOptions& options,
+                     const ChainKernels& kernels = fastestChainKernels());
 
   void interpolate(double fraction, State& state) const override;
   StepStatistics statistics() const override;

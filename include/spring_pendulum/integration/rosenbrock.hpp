@@ -19,7 +19,8 @@ namespace spring_pendulum {
 class RosenbrockStepper final : public ControlledStepper {
  public:
   RosenbrockStepper(const Chain& chain, const RosenbrockTableau& tableau,
-                    const IntegratorOptions& options);
+                    const IntegratorOptions& options,
+                    const ChainKernels& kernels = fastestChainKernels());
 
   void interpolate(double fraction, State& state) const override;
 

@@ -42,7 +42,8 @@ class StabilizedTaylor final : public ControlledStepper {
 
   /// \param order 4 or 8
   StabilizedTaylor(const Chain& chain, int order, const IntegratorOptions& options,
-                   double share_of_tolerance = kShareOfTolerance);
+                   double share_of_tolerance = kShareOfTolerance,
+                   const ChainKernels& kernels = fastestChainKernels());
 
   void interpolate(double fraction, State& state) const override;
 
