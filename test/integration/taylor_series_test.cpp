@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstring>
-#include <vector>
 
 #include "support/reference.hpp"
 
