@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <poll.h>
 #include <stdexcept>
 #include <sys/time.h>
@@ -83,6 +84,17 @@ Isolated runIsolated(const std::function<std::string()>& task, double limit) {
   }
   const bool done = message.front() == '+';
   return {done ? Isolated::Ending::kDone : Isolated::Ending::kFailed, message.substr(1)};
+}
+
+std::vector<double> numbersOf(const std::string& text) {
+  std::vector<double> numbers;
+  const char* rest = text.c_str();
+  char* end = nullptr;
+  for (double value = std::strtod(rest, &end); end != rest; value = std::strtod(rest, &end)) {
+    numbers.push_back(value);
+    rest = end;
+  }
+  return numbers;
 }
 
 }  // namespace spring_pendulum::benchmark

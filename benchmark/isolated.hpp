@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace spring_pendulum::benchmark {
 
@@ -12,8 +13,11 @@ struct Isolated {
   std::string text;  ///< what the work returned, or why it failed
 };
 
-/// \param work  its result is handed over as text; an exception means failure
+/// \param task  its result is handed over as text; an exception means failure
 /// \param limit s of processor time; after that it is ended
-Isolated runIsolated(const std::function<std::string()>& work, double limit);
+Isolated runIsolated(const std::function<std::string()>& task, double limit);
+
+/// The numbers of a text, which whitespace separates; nan and inf are numbers too.
+std::vector<double> numbersOf(const std::string& text);
 
 }  // namespace spring_pendulum::benchmark

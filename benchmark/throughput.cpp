@@ -67,8 +67,8 @@ std::string runOnce(const Problem& problem, const Candidate& candidate) {
   const auto plain = baseline().make(problem, run);
   for (int call = 0; call < calls; ++call) plain->advance();
   const double difference = stateDifference(peer->state(), plain->state());
-  return fmt::format("{} {}", seconds * static_cast<double>(candidate.run.steps / run.steps),
-                     difference);
+  const std::int64_t times_as_many = candidate.run.steps / run.steps;
+  return fmt::format("{} {}", seconds * static_cast<double>(times_as_many), difference);
 }
 
 void probe(const Problem& problem, Candidate& candidate) {
@@ -78,7 +78,9 @@ void probe(const Problem& problem, Candidate& candidate) {
   if (result.ending == Isolated::Ending::kFailed) candidate.status = "failed";
   if (result.ending != Isolated::Ending::kDone) return;
   candidate.note.clear();
-  std::sscanf(result.text.c_str(), "%lf %lf", &candidate.seconds_a_call, &candidate.difference);
+  const std::vector<double> numbers = numbersOf(result.text);
+  candidate.seconds_a_call = numbers.at(0);
+  candidate.difference = numbers.at(1);
   const double allowed = candidate.row->library == "GSL" ? kAgreementGsl : kAgreement;
   if (candidate.difference > allowed) {
     candidate.status = "disagrees";

@@ -29,7 +29,7 @@ constexpr const char* kScenes[] = {"single_vertical", "two_masses_45deg", "horiz
                                    "horizontal_1000", "light_100",        "lighter_100",
                                    "alternating_50",  "feather_50"};
 
-struct Point {
+struct Case {
   std::string scene;
   const Method* method = nullptr;
   int exponent = 0;  ///< the tolerance is 10^-exponent m
@@ -47,19 +47,19 @@ std::vector<int> referenceTimes(const std::string& scene) {
 
 /// Runs in a process of its own: the worst error in tolerances and its time, force evaluations and
 /// s of processor time until the last time.
-std::string measure(const Point& point) {
-  const test::Scene scene = test::referenceScene(point.scene);
-  const double tolerance = std::pow(10.0, -point.exponent);
-  const auto integrator = makeIntegrator(point.method->name, scene.chain, {tolerance});
+std::string measure(const Case& one) {
+  const test::Scene scene = test::referenceScene(one.scene);
+  const double tolerance = std::pow(10.0, -one.exponent);
+  const auto integrator = makeIntegrator(one.method->name, scene.chain, {tolerance});
   State state = scene.start;
   double worst = 0.0;
   int worst_time = 0;
   int now = 0;
   const Stopwatch stopwatch;
-  for (const int time : referenceTimes(point.scene)) {
+  for (const int time : referenceTimes(one.scene)) {
     integrator->advance(state, 1.0, time - now);
     now = time;
-    const State exact = test::referenceSolution(point.scene, time);
+    const State exact = test::referenceSolution(one.scene, time);
     const double ratio = test::positionError(state, exact) / tolerance;
     if (ratio > worst || std::isnan(ratio)) {
       worst = ratio;
@@ -71,17 +71,17 @@ std::string measure(const Point& point) {
 }
 
 /// \returns whether the promise is kept, as far as the point was run
-bool runPoint(const Point& point, double limit, ResultFile& file) {
-  const Isolated result = runIsolated([&point] { return measure(point); }, limit);
+bool runPoint(const Case& one, double limit, ResultFile& file) {
+  const Isolated result = runIsolated([&one] { return measure(one); }, limit);
   const bool done = result.ending == Isolated::Ending::kDone;
   double ratio = 0.0;
   if (done) ratio = std::stod(result.text);
   const bool kept = ratio <= kPromise && result.ending != Isolated::Ending::kFailed;
   const char* status = !kept ? "broken" : done ? "kept" : "not run";
-  file.add(fmt::format("{},{},1e-{:02},{},{},{}", point.scene, point.method->name, point.exponent,
-                       status, done ? result.text : ",,,", done ? "" : quoted(result.text)));
-  std::printf("%s, %s, 1e-%d: %s %s\n", point.scene.c_str(), point.method->name.data(),
-              point.exponent, status, result.text.c_str());
+  file.add(fmt::format("{},{},1e-{:02},{},{},{}", one.scene, one.method->name, one.exponent, status,
+                       done ? result.text : ",,,", done ? "" : quoted(result.text)));
+  std::printf("%s, %s, 1e-%d: %s %s\n", one.scene.c_str(), one.method->name.data(), one.exponent,
+              status, result.text.c_str());
   return kept;
 }
 

@@ -68,8 +68,10 @@ Point measured(const ReferenceScene& scene, const PeerRow& row, const Run& run,
   if (result.ending == Isolated::Ending::kTooSlow) point.status = "too slow";
   if (result.ending == Isolated::Ending::kFailed) point.status = "failed";
   if (result.ending != Isolated::Ending::kDone) return point;
-  std::sscanf(result.text.c_str(), "%lf %lf %lld", &point.seconds, &point.error,
-              &point.evaluations);
+  const std::vector<double> numbers = numbersOf(result.text);
+  point.seconds = numbers.at(0);
+  point.error = numbers.at(1);
+  point.evaluations = std::llround(numbers.at(2));
   const bool finite = std::isfinite(point.error);
   point.status = finite ? "ok" : "failed";
   point.note = finite ? "" : "the motion diverged";
@@ -173,7 +175,7 @@ void write(const ReferenceScene& scene, const Line& line, ResultFile& file) {
 }
 
 bool runScene(const ReferenceScene& scene, const Options& options, ResultFile& file) {
-  std::vector<Line> lines;
+  std::vector<Line> lines{};
   for (const PeerRow& row : allPeers()) {
     if (!options.peer.empty() && row.library != options.peer && row.name != options.peer) continue;
     lines.push_back({&row,

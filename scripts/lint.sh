@@ -3,17 +3,21 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-"$project/scripts/setup.sh" core ros test-ros lint
+"$project/scripts/setup.sh" core ros test-ros benchmark lint
 cd "$project"
 mapfile -t sources < <(git -c safe.directory="$project" ls-files '*.hpp' '*.cpp')
 say "clang-format on ${#sources[@]} files"
 clang-format --dry-run -Werror "${sources[@]}"
 
-# clang-tidy wants every generated header, so the tree must have been built (scripts/test.sh).
-[ -f "$build/compile_commands.json" ] || { configure "$build"; compile "$build"; }
+folder=$build-lint
+configure "$folder" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSPRING_PENDULUM_BENCHMARKS=ON \
+  -DSPRING_PENDULUM_FUZZ=ON
+if have_ros; then compile "$folder" spring_pendulum_generate_messages_cpp; fi
+"$project/scripts/lint_units.py" "$folder" "$folder/units"
 say "clang-tidy"
-run-clang-tidy -quiet -j "$(nproc)" -p "$build" "$project/(src|test)/.*\.cpp" > "$build/tidy.log" 2>&1 ||
-  { grep -E 'warning:|error:' "$build/tidy.log" | sort -u >&2; die "clang-tidy found something"; }
+run-clang-tidy -quiet -j "$(nproc)" -p "$folder/units" -config "$(cat .clang-tidy)" \
+  > "$folder/tidy.log" 2>&1 ||
+  { grep -E 'warning:|error:' "$folder/tidy.log" | sort -u >&2; die "clang-tidy found something"; }
 
 # What is ignored: the build without ROS makes catkin optional and installs to other folders; the
 # scripts, the benchmarks and the fuzz targets belong to the checkout; Eigen's and GSL's variables,

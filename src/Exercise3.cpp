@@ -3,6 +3,7 @@
 #include <spring_pendulum/io/background_frame_writer.hpp>
 #include <spring_pendulum/io/command_line.hpp>
 #include <spring_pendulum/io/energy_file.hpp>
+#include <spring_pendulum/io/failure.hpp>
 #include <spring_pendulum/io/interruption.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/progress.hpp>
@@ -26,8 +27,6 @@
 
 namespace spring_pendulum {
 namespace {
-
-enum ExitStatus { kDone = 0, kFileFailed = 1, kBadInput = 2, kDiverged = 3, kSignalled = 128 };
 
 /// What the closing line tells.
 struct Summary {
@@ -149,14 +148,6 @@ int runCommandLine(int argc, const char* const* argv) {
   return kDone;
 }
 
-/// Foreign text in a message must not break its line.
-int report(std::string message, ExitStatus status) {
-  std::replace_if(
-      message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  std::fprintf(stderr, "%s\n", message.c_str());
-  return status;
-}
-
 }  // namespace
 }  // namespace spring_pendulum
 
@@ -167,11 +158,9 @@ int main(int argc, char** argv) {
     const int status = runCommandLine(argc, argv);
     if (std::fflush(stdout) != 0) throw FileError("standard output: could not be written");
     return status;
-  } catch (const InputError& error) {
-    return report(error.what(), kBadInput);
-  } catch (const std::bad_alloc&) {
-    return report("not enough memory for a chain of this length", kFileFailed);
   } catch (const std::exception& error) {
-    return report(error.what(), kFileFailed);
+    const Failure failure = failureOf(error);
+    std::fprintf(stderr, "%s\n", failure.message.c_str());
+    return failure.status;
   }
 }

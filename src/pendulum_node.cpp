@@ -1,6 +1,6 @@
 // The ROS node: carries a chain through time, writes its frames and shows it.
+#include <spring_pendulum/io/failure.hpp>
 #include <spring_pendulum/io/interruption.hpp>
-#include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/ros/parameters.hpp>
 #include <spring_pendulum/ros/player.hpp>
 #include <spring_pendulum/ros/publisher.hpp>
@@ -10,15 +10,12 @@
 
 #include <ros/ros.h>
 
-#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <string>
 
 namespace spring_pendulum {
 namespace {
-
-enum ExitStatus { kDone = 0, kFileFailed = 1, kBadInput = 2, kDiverged = 3 };
 
 constexpr double kLastMessages = 0.5;  // s for the last messages to leave the node
 
@@ -98,14 +95,6 @@ int runNode() {
   return diverged ? kDiverged : kDone;
 }
 
-/// Foreign text in a message must not break its line.
-int report(std::string message, ExitStatus status) {
-  std::replace_if(
-      message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  ROS_FATAL_STREAM(message);
-  return status;
-}
-
 }  // namespace
 }  // namespace spring_pendulum
 
@@ -117,11 +106,9 @@ int main(int argc, char** argv) {
   ros::NodeHandle keeps_ros_started;
   try {
     return runNode();
-  } catch (const InputError& error) {
-    return report(error.what(), kBadInput);
-  } catch (const std::bad_alloc&) {
-    return report("not enough memory for a chain of this length", kFileFailed);
   } catch (const std::exception& error) {
-    return report(error.what(), kFileFailed);
+    const Failure failure = failureOf(error);
+    ROS_FATAL_STREAM(failure.message);
+    return failure.status;
   }
 }

@@ -1,6 +1,7 @@
 // Writes the messages of a run straight into a bag: no master, no waiting, simulated time as
 // stamps, the same bytes in every run.
 #include <spring_pendulum/io/command_line.hpp>
+#include <spring_pendulum/io/failure.hpp>
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/ros/bag_recorder.hpp>
 
@@ -16,8 +17,6 @@
 
 namespace spring_pendulum {
 namespace {
-
-enum ExitStatus { kDone = 0, kFileFailed = 1, kBadInput = 2, kDiverged = 3 };
 
 constexpr std::string_view kUsage =
     "Writes the messages that pendulum_node publishes straight into a bag.\n"
@@ -95,11 +94,6 @@ int record(int argc, const char* const* argv) {
   return summary.verdict.kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 
-int report(const std::string& message, ExitStatus status) {
-  std::fprintf(stderr, "%s\n", message.c_str());
-  return status;
-}
-
 }  // namespace
 }  // namespace spring_pendulum
 
@@ -107,9 +101,9 @@ int main(int argc, char** argv) {
   using namespace spring_pendulum;
   try {
     return record(argc, argv);
-  } catch (const InputError& error) {
-    return report(error.what(), kBadInput);
   } catch (const std::exception& error) {
-    return report(error.what(), kFileFailed);
+    const Failure failure = failureOf(error);
+    std::fprintf(stderr, "%s\n", failure.message.c_str());
+    return failure.status;
   }
 }

@@ -11,19 +11,10 @@
 namespace spring_pendulum::benchmark {
 namespace {
 
-int derivative(realtype /*time*/, N_Vector state, N_Vector slope, void* force) {
-  (*static_cast<PlainForce*>(force))(NV_DATA_S(state), NV_DATA_S(slope));
-  return 0;
-}
-
 class ArkodePeer : public Peer {
  public:
   ArkodePeer(const Problem& problem, const Run& run, int order)
-      : start_(problem.start),
-        force_(problem),
-        run_(run),
-        state_(start_.size(), context_),
-        memory_(nullptr) {
+      : start_(problem.start), force_(problem), run_(run), state_(start_.size(), context_) {
     std::copy(start_.begin(), start_.end(), state_.data());
     memory_ = ERKStepCreate(derivative, 0.0, state_.get(), context_.get());
     if (memory_ == nullptr) throw PeerError("ERKStepCreate failed");
@@ -78,7 +69,7 @@ class ArkodePeer : public Peer {
   Run run_;
   SundialsContext context_;
   SundialsVector state_;
-  void* memory_;
+  void* memory_ = nullptr;
   double time_ = 0.0;
 };
 

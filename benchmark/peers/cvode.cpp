@@ -19,11 +19,6 @@ enum class Formula { kAdams, kBdf, kBdfExactJacobian };
 constexpr sunindextype kUpper = 5;
 constexpr sunindextype kLower = 7;
 
-int derivative(realtype /*time*/, N_Vector state, N_Vector slope, void* force) {
-  (*static_cast<PlainForce*>(force))(NV_DATA_S(state), NV_DATA_S(slope));
-  return 0;
-}
-
 int interleavedDerivative(realtype /*time*/, N_Vector state, N_Vector slope, void* force) {
   static_cast<PlainForce*>(force)->interleaved(NV_DATA_S(state), NV_DATA_S(slope));
   return 0;

@@ -24,8 +24,11 @@ class SimbodyPeer : public Peer {
       SimTK::MobilizedBody::Translation mobilizer(matter_.Ground(), body);
       bodies_.push_back(mobilizer);
       const SimTK::Vec3 near = i == 1 ? place(0) : SimTK::Vec3(0.0);
+      // The objects are handles: the subsystem owns what they make.
+      // NOLINTNEXTLINE(bugprone-unused-raii)
       SimTK::Force::TwoPointLinearSpring(forces_, bodies_[i - 1], near, mobilizer, SimTK::Vec3(0.0),
                                          problem.stiffness, problem.rest_length);
+      // NOLINTNEXTLINE(bugprone-unused-raii)
       SimTK::Force::TwoPointLinearDamper(forces_, bodies_[i - 1], near, mobilizer, SimTK::Vec3(0.0),
                                          problem.damping);
     }

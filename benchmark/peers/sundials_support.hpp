@@ -7,6 +7,7 @@
 #include <string>
 
 #include "../peer.hpp"
+#include "plain_force.hpp"
 
 namespace spring_pendulum::benchmark {
 
@@ -46,6 +47,12 @@ class SundialsVector {
 /// A driver's own messages would end up between ours; its return values say enough.
 inline void dropMessage(int /*code*/, const char* /*module*/, const char* /*function*/,
                         char* /*message*/, void* /*data*/) {}
+
+/// A CVRhsFn and ERKRhsFn; `force` is a PlainForce.
+inline int derivative(realtype /*time*/, N_Vector state, N_Vector slope, void* force) {
+  (*static_cast<PlainForce*>(force))(NV_DATA_S(state), NV_DATA_S(slope));
+  return 0;
+}
 
 constexpr long kUnlimitedSteps = 2'000'000'000;
 

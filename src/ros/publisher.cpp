@@ -12,7 +12,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kNap = 0.01;  // s, how closely subscribers are waited for
+constexpr double kPollInterval = 0.01;  // s, how closely subscribers are waited for
 
 /// A subscriber that is slow loses messages; it never makes the node grow. As many states wait for
 /// it as fit into this.
@@ -90,7 +90,7 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   waiting.text = fmt::format("waiting for {} subscribers", options.wait_for_subscribers);
   publishStatus(waiting, stamps_.next(0.0));
   while (ros::ok() && interruption() == 0 && !is_ready()) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kNap));
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPollInterval));
     if (timeout.isZero() || ros::WallTime::now() - start < timeout) continue;
     ROS_WARN("%u of %ld subscribers after %.6g s: starting without the others", subscribers(),
              static_cast<long>(options.wait_for_subscribers), options.wait_timeout);

@@ -150,7 +150,7 @@ TEST_P(ErrorControlledMethod, RestartsFromAnyState) {
 }
 
 TEST_P(ErrorControlledMethod, LeavesOneParticleAlone) {
-  const Scene scene{Chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81), State(1)};
+  const Scene scene{"fixed", Chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81), State(1)};
   const auto integrator = make(scene, 1e-6);
   State state = scene.start;
   integrator->advance(state, 0.1, 10);
@@ -159,7 +159,7 @@ TEST_P(ErrorControlledMethod, LeavesOneParticleAlone) {
 
 TEST_P(ErrorControlledMethod, TakesLongStepsAtRest) {
   for (const double disturbance : {0.0, 1e-300}) {
-    Scene scene{Chain(Eigen::VectorXd::Ones(4), SpringLaw{}, 0.0), State(4)};
+    Scene scene{"free", Chain(Eigen::VectorXd::Ones(4), SpringLaw{}, 0.0), State(4)};
     scene.start.x() = Eigen::VectorXd::LinSpaced(4, 0.0, 3.0);
     scene.start.vy()[2] = disturbance;
     const auto integrator = make(scene, 1e-6);

@@ -2,7 +2,7 @@
 #include <spring_pendulum/integration/rosenbrock.hpp>
 #include <spring_pendulum/model/energy.hpp>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -22,12 +22,6 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-std::string chainOf(int particles, const std::string& mass = "1") {
-  std::string text;
-  for (int i = 0; i < particles; ++i) text += std::to_string(i) + " 0 " + mass + "\n";
-  return text;
-}
-
 std::vector<std::string> methods() {
   std::vector<std::string> names;
   for (const Method& method : methodTable()) names.emplace_back(method.name);

@@ -25,13 +25,6 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
 
-/// A horizontal chain, a metre between neighbours.
-std::string chainOf(int particles) {
-  std::string text;
-  for (int i = 0; i < particles; ++i) text += std::to_string(i) + " 0 1\n";
-  return text;
-}
-
 std::string frame(int index) {
   std::string number = std::to_string(index);
   number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');

@@ -15,22 +15,10 @@
 namespace spring_pendulum {
 namespace {
 
+using test::hangingAtRest;
 using test::horizontalChain;
 using test::Scene;
 using test::straightLine;
-
-/// Hanging at rest: spring i carries the weight of all particles beyond it.
-State hangingAtRest(const Chain& chain) {
-  State state(chain.size());
-  double weight = 0.0;
-  for (Eigen::Index i = 1; i < chain.size(); ++i) weight += chain.masses()[i] * chain.gravity();
-  for (Eigen::Index i = 1; i < chain.size(); ++i) {
-    const double length = chain.spring().rest_length + weight / chain.spring().stiffness;
-    state.y()[i] = state.y()[i - 1] - length;
-    weight -= chain.masses()[i] * chain.gravity();
-  }
-  return state;
-}
 
 /// 300 steps of 0.8 times the step advised.
 VerdictKind kindWithAdvisedStep(const Scene& scene) {

@@ -5,16 +5,10 @@
 
 #include <limits>
 
+#include <support/scenes.hpp>
+
 namespace spring_pendulum {
 namespace {
-
-/// Three particles hanging at rest, each spring stretched by the weight below it.
-State hangingAtRest(const Chain& chain) {
-  State state(3);
-  const double weight = chain.masses()[1] * chain.gravity() / chain.spring().stiffness;
-  state.y() << 0.0, -1.0 - 2.0 * weight, -2.0 - 3.0 * weight;
-  return state;
-}
 
 class Sleep : public testing::Test {
  protected:
@@ -23,7 +17,7 @@ class Sleep : public testing::Test {
   }
 
   Chain chain_{Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81};
-  State rest_ = hangingAtRest(chain_);
+  State rest_ = test::hangingAtRest(chain_);
 };
 
 TEST_F(Sleep, ChainAtRestIsFoundAndAnythingElseIsNot) {

@@ -1,14 +1,13 @@
 // The scenes of test/data/reference and their exact motion.
 #pragma once
 
-#include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/state.hpp>
-
 #include <cstddef>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "support/scene.hpp"
 
 namespace spring_pendulum::test {
 
@@ -26,12 +25,7 @@ inline std::vector<std::vector<double>> readTable(const std::string& path, std::
   return rows;
 }
 
-/// A scene let go at rest, with the default spring and gravity.
-struct Scene {
-  Chain chain;
-  State start;
-};
-
+/// Let go at rest.
 inline Scene referenceScene(const std::string& name, const SpringLaw& spring = {},
                             double gravity = 9.81) {
   const auto rows = readTable(TEST_DATA_DIR "/reference/" + name + ".txt", 3);
@@ -43,7 +37,7 @@ inline Scene referenceScene(const std::string& name, const SpringLaw& spring = {
     start.y()[i] = row[1];
     masses[i] = row[2];
   }
-  return {Chain(masses, spring, gravity), start};
+  return {name, Chain(masses, spring, gravity), start};
 }
 
 /// Where the scene really is after `seconds` (a time the folder has a file for).

@@ -1,21 +1,14 @@
 // Scenes on which stability is put to the test.
 #pragma once
 
-#include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/state.hpp>
-
 #include <cmath>
 #include <random>
 #include <string>
 #include <vector>
 
-namespace spring_pendulum::test {
+#include "support/scene.hpp"
 
-struct Scene {
-  std::string name;
-  Chain chain;
-  State start;
-};
+namespace spring_pendulum::test {
 
 /// P_i at (i - 1) (dx, dy), at rest.
 inline State straightLine(Eigen::Index particles, double dx, double dy) {
@@ -23,6 +16,19 @@ inline State straightLine(Eigen::Index particles, double dx, double dy) {
   for (Eigen::Index i = 0; i < particles; ++i) {
     state.x()[i] = dx * static_cast<double>(i);
     state.y()[i] = dy * static_cast<double>(i);
+  }
+  return state;
+}
+
+/// Hanging at rest: spring i carries the weight of all particles beyond it.
+inline State hangingAtRest(const Chain& chain) {
+  State state(chain.size());
+  double weight = 0.0;
+  for (Eigen::Index i = 1; i < chain.size(); ++i) weight += chain.masses()[i] * chain.gravity();
+  for (Eigen::Index i = 1; i < chain.size(); ++i) {
+    const double length = chain.spring().rest_length + weight / chain.spring().stiffness;
+    state.y()[i] = state.y()[i - 1] - length;
+    weight -= chain.masses()[i] * chain.gravity();
   }
   return state;
 }
@@ -61,11 +67,9 @@ inline Scene heavyBob(const std::string& name, const SpringLaw& spring, double d
 /// Hanging at rest, then moved aside by up to 0.05 m.
 inline Scene pluckedChain() {
   Scene scene = horizontalChain("plucked", 11, 1.0);
-  double y = 0.0;
+  scene.start = hangingAtRest(scene.chain);
   for (Eigen::Index i = 0; i < 11; ++i) {
     scene.start.x()[i] = 0.05 * std::sin(0.6 * static_cast<double>(i));
-    scene.start.y()[i] = y;
-    y -= 1.0 + 9.81 * static_cast<double>(10 - i) / 50.0;
   }
   return scene;
 }
