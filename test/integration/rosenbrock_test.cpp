@@ -2,12 +2,13 @@
 #include <spring_pendulum/integration/rosenbrock.hpp>
 #include <spring_pendulum/model/energy.hpp>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <memory>
+#include <vector>
 
 #include <support/dense_output.hpp>
 #include <support/order_conditions.hpp>
@@ -37,7 +38,13 @@ Coefficients coefficientsOf(const RosenbrockTableau& tableau) {
       inverse(i, j) = (i == j ? 1.0 / tableau.gamma : 0.0) - tableau.c[row][column];
     }
   }
-  const Eigen::MatrixXd gamma = inverse.inverse();
+  Eigen::MatrixXd gamma = Eigen::MatrixXd::Zero(stages, stages);  // both are lower triangular
+  for (Eigen::Index j = 0; j < stages; ++j) {
+    for (Eigen::Index i = j; i < stages; ++i) {
+      const double rest = inverse.row(i).head(i).dot(gamma.col(j).head(i));
+      gamma(i, j) = ((i == j ? 1.0 : 0.0) - rest) / inverse(i, i);
+    }
+  }
   return {a * gamma, a * gamma + gamma, gamma.transpose() * m, gamma.transpose() * (m - e)};
 }
 
@@ -77,13 +84,17 @@ TEST(Rodas5P, AnAlteredCoefficientBreaksTheOrder) {
 
 // R(z) of z' = λz, z = hλ.
 std::complex<double> stabilityFunction(const Coefficients& method, std::complex<double> z) {
-  const Eigen::Index stages = method.weights.size();
-  const Eigen::MatrixXcd matrix =
-      Eigen::MatrixXcd::Identity(stages, stages) - z * method.beta.cast<std::complex<double>>();
-  const Eigen::VectorXcd ones = Eigen::VectorXcd::Ones(stages);
-  return 1.0 + z * method.weights.cast<std::complex<double>>()
-                       .cwiseProduct(matrix.partialPivLu().solve(ones))
-                       .sum();
+  std::vector<std::complex<double>> slopes;
+  std::complex<double> result = 1.0;
+  for (Eigen::Index i = 0; i < method.weights.size(); ++i) {
+    std::complex<double> argument = 1.0;
+    for (Eigen::Index j = 0; j < i; ++j) {
+      argument += z * method.beta(i, j) * slopes[static_cast<std::size_t>(j)];
+    }
+    slopes.push_back(argument / (1.0 - z * method.beta(i, i)));
+    result += z * method.weights[i] * slopes.back();
+  }
+  return result;
 }
 
 TEST(Rodas5P, IsAStableAndLStable) {
