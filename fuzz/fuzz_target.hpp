@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// Called by the driver for each input.
+/// Called by the driver for each input; the name is libFuzzer's.
+// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 /// Ends the program if a reader broke a promise, so that the driver keeps the input.
