@@ -70,8 +70,8 @@ std::string measure(const Case& one) {
                      stopwatch.alone());
 }
 
-/// \returns whether the promise is kept, as far as the point was run
-bool runPoint(const Case& one, double limit, ResultFile& file) {
+/// \returns whether the promise is kept, as far as the case was run
+bool runCase(const Case& one, double limit, ResultFile& file) {
   const Isolated result = runIsolated([&one] { return measure(one); }, limit);
   const bool done = result.ending == Isolated::Ending::kDone;
   double ratio = 0.0;
@@ -101,7 +101,7 @@ int run(const Options& options) {
       if (method.control != StepControl::kErrorControlled) continue;
       if (!options.peer.empty() && method.name != options.peer) continue;
       for (int exponent = 3; exponent <= (options.smoke ? 5 : 10); ++exponent) {
-        all_kept = runPoint({scene, &method, exponent}, options.limit, file) && all_kept;
+        all_kept = runCase({scene, &method, exponent}, options.limit, file) && all_kept;
       }
     }
   }

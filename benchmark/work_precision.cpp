@@ -175,7 +175,7 @@ void write(const ReferenceScene& scene, const Line& line, ResultFile& file) {
 }
 
 bool runScene(const ReferenceScene& scene, const Options& options, ResultFile& file) {
-  std::vector<Line> lines{};
+  std::vector<Line> lines;
   for (const PeerRow& row : allPeers()) {
     if (!options.peer.empty() && row.library != options.peer && row.name != options.peer) continue;
     lines.push_back({&row,

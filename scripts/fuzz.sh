@@ -10,7 +10,7 @@ folder=$build-fuzz
 "$project/scripts/setup.sh" core sanitize
 say "building the fuzz targets into $folder"
 CXX=clang++ configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_BUILD_TYPE=Debug \
-  -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRING_PENDULUM_TESTS=OFF -DSPRING_PENDULUM_FUZZ=ON \
+  -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRING_PENDULUM_TESTS=OFF -DSPRING_PENDULUM_FUZZ=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
   -DSPRING_PENDULUM_SANITIZE=fuzzer-no-link,address,undefined
 compile "$folder" {particle_file,scenario_file,command_line,parameters}_fuzz
 

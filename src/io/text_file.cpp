@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <fcntl.h>
@@ -53,14 +54,16 @@ std::string readTextFile(const std::string& path) {
   return text;
 }
 
+std::string onOneLine(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return line;
+}
+
 std::string quoted(std::string_view text) {
   const bool is_long = text.size() > kLongestQuote;
-  std::string result = "'";
-  for (const char c : text.substr(0, kLongestQuote)) {
-    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    result += is_control ? '?' : c;
-  }
-  return result += is_long ? "...'" : "'";
+  return "'" + onOneLine(text.substr(0, kLongestQuote)) + (is_long ? "...'" : "'");
 }
 
 }  // namespace spring_pendulum

@@ -12,6 +12,8 @@
 namespace spring_pendulum {
 namespace {
 
+using test::BadText;
+
 constexpr const char* kPlain = "0 0 1\n1 -0.5 2.5\n";
 
 void expectPlain(const std::string& text) {
@@ -60,7 +62,7 @@ TEST(ParticleFile, MassOfTheFixedParticleIsFree) {
   }
 }
 
-class ParticleFileRefuses : public testing::TestWithParam<test::BadText> {};
+class ParticleFileRefuses : public testing::TestWithParam<BadText> {};
 
 TEST_P(ParticleFileRefuses, WithOneLineThatTellsWhere) {
   try {
@@ -82,40 +84,38 @@ const std::string kMass = ", must be above 0 kg for a moving particle";
 INSTANTIATE_TEST_SUITE_P(
     BadRows, ParticleFileRefuses,
     testing::Values(
-        test::BadText{"", kNoParticles}, test::BadText{"\n# nothing\n\n", kNoParticles},
-        test::BadText{"0 0 1\n1 0\n", "particle.txt:2: 2 numbers, must be 3: x y m"},
-        test::BadText{"7", "particle.txt:1: 1 number, must be 3: x y m"},
-        test::BadText{"0 0 1\n\n# c\n1 0 1 0\n", "particle.txt:4: 4 numbers, must be 3: x y m"},
-        test::BadText{"0 0 1\n1 zero 1\n", noNumber("2", "'zero'")},
-        test::BadText{"0 0 1\n1.0x 0 1\n", noNumber("2", "'1.0x'")},
-        test::BadText{"0 0 1\n1 0 1;\n", noNumber("2", "'1;'")},
-        test::BadText{"0 0 1\n1,5 0 1\n", noNumber("2", "'1,5'")},
-        test::BadText{"0 0 1\nnan 0 1\n", noNumber("2", "'nan'")},
-        test::BadText{"0 0 1\n0 -inf 1\n", noNumber("2", "'-inf'")},
-        test::BadText{"0 0 1\n0 infinity 1\n", noNumber("2", "'infinity'")},
-        test::BadText{"0 0 1\n1e400 0 1\n", noNumber("2", "'1e400'")},
-        test::BadText{"0 0 1\n0x10 0 1\n", noNumber("2", "'0x10'")},
-        test::BadText{"0 0 1\n+-1 0 1\n", noNumber("2", "'+-1'")},
-        test::BadText{"0 0 1\n++1 0 1\n", noNumber("2", "'++1'")},
-        test::BadText{"0 0 1\n+ 0 1\n", noNumber("2", "'+'")},
-        test::BadText{std::string("0 0 1\n1\0 0 1\n", 13), noNumber("2", "'1?'")},
-        test::BadText{"0 0 1\r1 0 1", noNumber("1", "'1?1'")},
-        test::BadText{"0 0 1\n1 0 1\v\n", noNumber("2", "'1?'")},
-        test::BadText{"0 0 " + std::string(1000, 'm'),
-                      noNumber("1", "'" + std::string(40, 'm') + "...'")},
-        test::BadText{"0 0 1\n1 0 0\n", "particle.txt:2: mass 0" + kMass},
-        test::BadText{"0 0 1\n1 0 -0\n", "particle.txt:2: mass 0" + kMass},
-        test::BadText{"0 0 1\n1 0 -2\n", "particle.txt:2: mass -2" + kMass},
-        test::BadText{"0 0 1\n1 0 1e-310\n", "particle.txt:2: mass 1e-310" + kMass},
-        test::BadText{
-            "0 0 1\n\n0 -0 1\n",
-            "particle.txt:3: same place as the particle of line 1, neighbours must lie apart"},
-        test::BadText{
-            "0 0 1\n1e-170 0 1\n",
-            "particle.txt:2: same place as the particle of line 1, neighbours must lie apart"},
-        test::BadText{"0 0 1\n1e200 0 1\n",
-                      "particle.txt:2: too far from the particle of line 1, the square of their "
-                      "distance must be a finite number"}));
+        BadText{"", kNoParticles}, BadText{"\n# nothing\n\n", kNoParticles},
+        BadText{"0 0 1\n1 0\n", "particle.txt:2: 2 numbers, must be 3: x y m"},
+        BadText{"7", "particle.txt:1: 1 number, must be 3: x y m"},
+        BadText{"0 0 1\n\n# c\n1 0 1 0\n", "particle.txt:4: 4 numbers, must be 3: x y m"},
+        BadText{"0 0 1\n1 zero 1\n", noNumber("2", "'zero'")},
+        BadText{"0 0 1\n1.0x 0 1\n", noNumber("2", "'1.0x'")},
+        BadText{"0 0 1\n1 0 1;\n", noNumber("2", "'1;'")},
+        BadText{"0 0 1\n1,5 0 1\n", noNumber("2", "'1,5'")},
+        BadText{"0 0 1\nnan 0 1\n", noNumber("2", "'nan'")},
+        BadText{"0 0 1\n0 -inf 1\n", noNumber("2", "'-inf'")},
+        BadText{"0 0 1\n0 infinity 1\n", noNumber("2", "'infinity'")},
+        BadText{"0 0 1\n1e400 0 1\n", noNumber("2", "'1e400'")},
+        BadText{"0 0 1\n0x10 0 1\n", noNumber("2", "'0x10'")},
+        BadText{"0 0 1\n+-1 0 1\n", noNumber("2", "'+-1'")},
+        BadText{"0 0 1\n++1 0 1\n", noNumber("2", "'++1'")},
+        BadText{"0 0 1\n+ 0 1\n", noNumber("2", "'+'")},
+        BadText{std::string("0 0 1\n1\0 0 1\n", 13), noNumber("2", "'1?'")},
+        BadText{"0 0 1\r1 0 1", noNumber("1", "'1?1'")},
+        BadText{"0 0 1\n1 0 1\v\n", noNumber("2", "'1?'")},
+        BadText{"0 0 " + std::string(1000, 'm'),
+                noNumber("1", "'" + std::string(40, 'm') + "...'")},
+        BadText{"0 0 1\n1 0 0\n", "particle.txt:2: mass 0" + kMass},
+        BadText{"0 0 1\n1 0 -0\n", "particle.txt:2: mass 0" + kMass},
+        BadText{"0 0 1\n1 0 -2\n", "particle.txt:2: mass -2" + kMass},
+        BadText{"0 0 1\n1 0 1e-310\n", "particle.txt:2: mass 1e-310" + kMass},
+        BadText{"0 0 1\n\n0 -0 1\n",
+                "particle.txt:3: same place as the particle of line 1, neighbours must lie apart"},
+        BadText{"0 0 1\n1e-170 0 1\n",
+                "particle.txt:2: same place as the particle of line 1, neighbours must lie apart"},
+        BadText{"0 0 1\n1e200 0 1\n",
+                "particle.txt:2: too far from the particle of line 1, the square of their "
+                "distance must be a finite number"}));
 
 TEST(ParticleFile, TwoParticlesThatAreNoNeighboursMayShareAPlace) {
   EXPECT_EQ(parseParticles("0 0 1\n1 0 1\n0 0 1\n", "").state.size(), 3);

@@ -12,6 +12,8 @@
 namespace spring_pendulum {
 namespace {
 
+using test::BadText;
+
 Scenario parse(const std::string& text) {
   ScenarioBuilder builder;
   parseScenario(text, "run.yaml", builder);
@@ -48,7 +50,7 @@ TEST(ScenarioFile, AcceptsFlowStyleAndWindowsLines) {
   EXPECT_EQ(parse("frames: 3\r\ndamping: 0.5\r\n").damping, 0.5);
 }
 
-class ScenarioFileRefuses : public testing::TestWithParam<test::BadText> {};
+class ScenarioFileRefuses : public testing::TestWithParam<BadText> {};
 
 TEST_P(ScenarioFileRefuses, WithOneLineThatTellsWhere) {
   try {
@@ -64,36 +66,33 @@ TEST_P(ScenarioFileRefuses, WithOneLineThatTellsWhere) {
 INSTANTIATE_TEST_SUITE_P(
     Rows, ScenarioFileRefuses,
     testing::Values(
-        test::BadText{"frames: 5\nframes: 5\n", "run.yaml:2: frames is given twice"},
-        test::BadText{"\nframes: 5.5\n",
-                      "run.yaml:2: frames is '5.5': must be a whole number of at"},
-        test::BadText{"frames: 99999999999999999999\n", "run.yaml:1: frames is '9999"},
-        test::BadText{"frames: \"5\"\n",
-                      "run.yaml:1: frames must be a whole number of at least 1, "
-                      "a single value without quotes"},
-        test::BadText{"frames: !!int 5\n", "run.yaml:1: frames must be a whole"},
-        test::BadText{"frames:\n", "run.yaml:1: frames must be a whole"},
-        test::BadText{"frames: ~\n", "run.yaml:1: frames must be a whole"},
-        test::BadText{"method: null\n", "run.yaml:1: method must be the name of a method"},
-        test::BadText{"frames: [5]\n", "run.yaml:1: frames must be a whole"},
-        test::BadText{"damping:\n  value: 5\n",
-                      "run.yaml:1: damping must be a number of at least 0"},
-        test::BadText{"damping: .nan\n", "run.yaml:1: damping is '.nan': must be a number"},
-        test::BadText{"damping: .inf\n", "run.yaml:1: damping is '.inf': must be a number"},
-        test::BadText{"damping: 0x10\n", "run.yaml:1: damping is '0x10': must be a number"},
-        test::BadText{"no_frames: yes\n", "run.yaml:1: no_frames is 'yes': must be true or false"},
-        test::BadText{"no_frames: \"true\"\n",
-                      "run.yaml:1: no_frames must be true or false, a single"},
-        test::BadText{"- frames\n", "run.yaml:1: must be lines 'key: value'"},
-        test::BadText{"frames\n", "run.yaml:1: must be lines 'key: value'"},
-        test::BadText{"[a, b]: 5\n", "run.yaml:1: must be lines 'key: value'"},
-        test::BadText{"output: b: c\n", "run.yaml:1: no YAML ("},
-        test::BadText{"frames: 5\n}\n", "run.yaml:2: no"},
-        test::BadText{"frames: [1\n", "run.yaml:1: frames must be a whole"},
-        test::BadText{"frames: *five\n", "run.yaml:1: no YAML ("},
-        test::BadText{"frames: 5\n---\ngravity: 1\n", "run.yaml:2: a second document, must be one"},
-        test::BadText{", 5]\n: &x {c: *x}\n", "run.yaml:"},  // YAML::LoadAll never ends on this
-        test::BadText{std::string(20000, '['), "run.yaml"}));
+        BadText{"frames: 5\nframes: 5\n", "run.yaml:2: frames is given twice"},
+        BadText{"\nframes: 5.5\n", "run.yaml:2: frames is '5.5': must be a whole number of at"},
+        BadText{"frames: 99999999999999999999\n", "run.yaml:1: frames is '9999"},
+        BadText{"frames: \"5\"\n",
+                "run.yaml:1: frames must be a whole number of at least 1, "
+                "a single value without quotes"},
+        BadText{"frames: !!int 5\n", "run.yaml:1: frames must be a whole"},
+        BadText{"frames:\n", "run.yaml:1: frames must be a whole"},
+        BadText{"frames: ~\n", "run.yaml:1: frames must be a whole"},
+        BadText{"method: null\n", "run.yaml:1: method must be the name of a method"},
+        BadText{"frames: [5]\n", "run.yaml:1: frames must be a whole"},
+        BadText{"damping:\n  value: 5\n", "run.yaml:1: damping must be a number of at least 0"},
+        BadText{"damping: .nan\n", "run.yaml:1: damping is '.nan': must be a number"},
+        BadText{"damping: .inf\n", "run.yaml:1: damping is '.inf': must be a number"},
+        BadText{"damping: 0x10\n", "run.yaml:1: damping is '0x10': must be a number"},
+        BadText{"no_frames: yes\n", "run.yaml:1: no_frames is 'yes': must be true or false"},
+        BadText{"no_frames: \"true\"\n", "run.yaml:1: no_frames must be true or false, a single"},
+        BadText{"- frames\n", "run.yaml:1: must be lines 'key: value'"},
+        BadText{"frames\n", "run.yaml:1: must be lines 'key: value'"},
+        BadText{"[a, b]: 5\n", "run.yaml:1: must be lines 'key: value'"},
+        BadText{"output: b: c\n", "run.yaml:1: no YAML ("},
+        BadText{"frames: 5\n}\n", "run.yaml:2: no"},
+        BadText{"frames: [1\n", "run.yaml:1: frames must be a whole"},
+        BadText{"frames: *five\n", "run.yaml:1: no YAML ("},
+        BadText{"frames: 5\n---\ngravity: 1\n", "run.yaml:2: a second document, must be one"},
+        BadText{", 5]\n: &x {c: *x}\n", "run.yaml:"},  // YAML::LoadAll never ends on this
+        BadText{std::string(20000, '['), "run.yaml"}));
 
 TEST(ScenarioFile, UnknownKeyListsTheKnownOnes) {
   try {

@@ -13,6 +13,7 @@ struct Failure {
   ExitStatus status;
 };
 
+/// kBadInput for an InputError, kFileFailed for all else.
 Failure failureOf(const std::exception& error);
 
 }  // namespace spring_pendulum

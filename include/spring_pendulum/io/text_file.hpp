@@ -11,6 +11,9 @@ namespace spring_pendulum {
 /// \throws FileError naming the file and why it could not be read
 std::string readTextFile(const std::string& path);
 
+/// Foreign text with '?' for each control character.
+std::string onOneLine(std::string_view text);
+
 /// A piece of foreign text, fit for a message of one line: quoted, without control characters, and
 /// cut short if it is long.
 std::string quoted(std::string_view text);
