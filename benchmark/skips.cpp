@@ -1,6 +1,6 @@
 // What each skip saves: the same scene with the skip and without it. The bits of the result are
 // the same, which is checked before anything is timed.
-#include <spring_pendulum/integration/explicit_runge_kutta.hpp>
+#include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>

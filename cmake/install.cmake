@@ -14,8 +14,7 @@ endif()
 install(TARGETS spring_pendulum EXPORT spring_pendulumTargets
   LIBRARY DESTINATION ${install_lib} ARCHIVE DESTINATION ${install_lib})
 install(TARGETS Exercise3 RUNTIME DESTINATION ${install_bin})
-install(DIRECTORY include/spring_pendulum DESTINATION include
-  PATTERN "ros" EXCLUDE)
+install(DIRECTORY include/spring_pendulum DESTINATION include)
 install(DIRECTORY data config DESTINATION ${install_share})
 
 # find_package(spring_pendulum) gives the target spring_pendulum::spring_pendulum. catkin writes the

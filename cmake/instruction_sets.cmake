@@ -7,6 +7,6 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
     COMPILE_OPTIONS -mavx2)
   set_source_files_properties(src/integration/kernels/avx512.cpp PROPERTIES
     COMPILE_OPTIONS "-mavx512f;-mavx512dq;-mavx512vl;-mprefer-vector-width=512")
-  set_source_files_properties(src/integration/chain_kernels.cpp PROPERTIES
+  set_source_files_properties(src/integration/kernels/chain_kernels.cpp PROPERTIES
     COMPILE_DEFINITIONS SPRING_PENDULUM_X86_KERNELS)
 endif()

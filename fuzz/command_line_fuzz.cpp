@@ -1,6 +1,6 @@
 // Any arguments, a line each, are either a scenario that can be run, an answer, or an error.
+#include "io/command_line.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/command_line.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
 #include <string>

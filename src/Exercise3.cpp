@@ -1,18 +1,18 @@
 // The exercise: carries a chain of particles through time and writes a file a frame.
+#include "io/background_frame_writer.hpp"
+#include "io/command_line.hpp"
+#include "io/energy_file.hpp"
+#include "io/failure.hpp"
+#include "io/interruption.hpp"
+#include "io/progress.hpp"
+#include "simulation/sleep.hpp"
+#include "simulation/work.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/background_frame_writer.hpp>
-#include <spring_pendulum/io/command_line.hpp>
-#include <spring_pendulum/io/energy_file.hpp>
-#include <spring_pendulum/io/failure.hpp>
-#include <spring_pendulum/io/interruption.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/io/progress.hpp>
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
-#include <spring_pendulum/simulation/sleep.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
-#include <spring_pendulum/simulation/work.hpp>
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // The ROS node: carries a chain through time, writes its frames and shows it.
-#include <spring_pendulum/io/failure.hpp>
-#include <spring_pendulum/io/interruption.hpp>
-#include <spring_pendulum/ros/parameters.hpp>
-#include <spring_pendulum/ros/player.hpp>
-#include <spring_pendulum/ros/publisher.hpp>
-#include <spring_pendulum/ros/run_files.hpp>
+#include "io/failure.hpp"
+#include "io/interruption.hpp"
+#include "ros/parameters.hpp"
+#include "ros/player.hpp"
+#include "ros/publisher.hpp"
+#include "ros/run_files.hpp"
 
 #include <fmt/format.h>
 

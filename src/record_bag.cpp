@@ -1,9 +1,9 @@
 // Writes the messages of a run straight into a bag: no master, no waiting, simulated time as
 // stamps, the same bytes in every run.
-#include <spring_pendulum/io/command_line.hpp>
-#include <spring_pendulum/io/failure.hpp>
+#include "io/command_line.hpp"
+#include "io/failure.hpp"
+#include "ros/bag_recorder.hpp"
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/ros/bag_recorder.hpp>
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
-#include <spring_pendulum/integration/auto_stepper.hpp>
-#include <spring_pendulum/integration/embedded_runge_kutta.hpp>
-#include <spring_pendulum/integration/error_controlled.hpp>
-#include <spring_pendulum/integration/explicit_runge_kutta.hpp>
+#include "integration/automatic/auto_stepper.hpp"
+#include "integration/embedded/embedded_runge_kutta.hpp"
+#include "integration/error_control/error_controlled.hpp"
+#include "integration/fixed_step/explicit_runge_kutta.hpp"
+#include "integration/fixed_step/plain_runge_kutta.hpp"
+#include "integration/fixed_step/symplectic.hpp"
+#include "integration/implicit/rosenbrock.hpp"
+#include "integration/taylor/stabilized_taylor.hpp"
+#include "integration/taylor/taylor_series.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/integration/plain_runge_kutta.hpp>
-#include <spring_pendulum/integration/rosenbrock.hpp>
-#include <spring_pendulum/integration/stabilized_taylor.hpp>
-#include <spring_pendulum/integration/symplectic.hpp>
-#include <spring_pendulum/integration/taylor_series.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>

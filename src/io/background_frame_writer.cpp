@@ -1,4 +1,4 @@
-#include <spring_pendulum/io/background_frame_writer.hpp>
+#include "io/background_frame_writer.hpp"
 
 #include <chrono>
 #include <system_error>

@@ -1,5 +1,6 @@
+#include "io/command_line.hpp"
+
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/command_line.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/parameters.hpp>

@@ -1,4 +1,5 @@
-#include <spring_pendulum/io/energy_file.hpp>
+#include "io/energy_file.hpp"
+
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/compile.h>

@@ -1,5 +1,6 @@
-#include <spring_pendulum/io/failure.hpp>
-#include <spring_pendulum/io/text_file.hpp>
+#include "io/failure.hpp"
+
+#include "io/text_file.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <new>

@@ -1,4 +1,5 @@
-#include <spring_pendulum/io/frame_folder.hpp>
+#include "io/frame_folder.hpp"
+
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>

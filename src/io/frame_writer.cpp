@@ -1,3 +1,4 @@
+#include "io/frame_folder.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
 
 #include <fmt/compile.h>
@@ -33,27 +34,34 @@ class Stopwatch {
 FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames)
     : folder_([&] {
         const Stopwatch stopwatch(seconds_);
-        return FrameFolder(folder, frames);
+        return std::make_unique<FrameFolder>(folder, frames);
       }()) {}
+
+FrameWriter::FrameWriter(FrameWriter&&) noexcept = default;
+FrameWriter::~FrameWriter() = default;
+
+const std::string& FrameWriter::folder() const {
+  return folder_->path();
+}
 
 void FrameWriter::write(std::int64_t index, const Eigen::Ref<const PlaneVectors>& positions) {
   const Stopwatch stopwatch(seconds_);
   const Eigen::Index size = positions.rows();
   text_.resize(static_cast<std::size_t>(std::min(size, kLinesAtOnce)) * kLongestLine);
-  folder_.beginFrame(index);
+  folder_->beginFrame(index);
   for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
     char* end = text_.data();
     for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
       end = fmt::format_to(end, FMT_COMPILE("{} {}\n"), positions(i, 0), positions(i, 1));
     }
-    folder_.write(text_.data(), static_cast<std::size_t>(end - text_.data()));
+    folder_->write(text_.data(), static_cast<std::size_t>(end - text_.data()));
   }
-  folder_.endFrame();
+  folder_->endFrame();
 }
 
 void FrameWriter::finish() {
   const Stopwatch stopwatch(seconds_);
-  folder_.close();
+  folder_->close();
 }
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-#include <spring_pendulum/io/interruption.hpp>
+#include "io/interruption.hpp"
 
 #include <csignal>
 

@@ -1,7 +1,7 @@
+#include "io/text_file.hpp"
+#include "model/numbers.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/io/text_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/model/numbers.hpp>
 
 #include <fmt/format.h>
 

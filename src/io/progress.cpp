@@ -1,4 +1,4 @@
-#include <spring_pendulum/io/progress.hpp>
+#include "io/progress.hpp"
 
 #include <fmt/format.h>
 

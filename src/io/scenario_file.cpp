@@ -1,5 +1,5 @@
+#include "io/text_file.hpp"
 #include <spring_pendulum/io/scenario_file.hpp>
-#include <spring_pendulum/io/text_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
-#include <spring_pendulum/io/file_descriptor.hpp>
-#include <spring_pendulum/io/text_file.hpp>
+#include "io/text_file.hpp"
+
+#include "io/file_descriptor.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>

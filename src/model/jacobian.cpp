@@ -1,4 +1,4 @@
-#include <spring_pendulum/model/jacobian.hpp>
+#include "model/jacobian.hpp"
 
 namespace spring_pendulum {
 

@@ -1,4 +1,4 @@
-#include <spring_pendulum/model/numbers.hpp>
+#include "model/numbers.hpp"
 
 #include <fast_float/fast_float.h>
 

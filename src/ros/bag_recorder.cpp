@@ -1,9 +1,10 @@
+#include "ros/bag_recorder.hpp"
+
+#include "ros/marker_builder.hpp"
+#include "ros/publisher.hpp"
+#include "ros/stamps.hpp"
+#include "ros/state_builder.hpp"
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/ros/bag_recorder.hpp>
-#include <spring_pendulum/ros/marker_builder.hpp>
-#include <spring_pendulum/ros/publisher.hpp>
-#include <spring_pendulum/ros/stamps.hpp>
-#include <spring_pendulum/ros/state_builder.hpp>
 
 #include <boost/make_shared.hpp>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include <spring_pendulum/ros/color.hpp>
+#include "ros/color.hpp"
 
 #include <algorithm>
 #include <charconv>

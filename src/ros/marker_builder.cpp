@@ -1,6 +1,7 @@
+#include "ros/marker_builder.hpp"
+
+#include "ros/color.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/ros/color.hpp>
-#include <spring_pendulum/ros/marker_builder.hpp>
 
 #include <fmt/format.h>
 

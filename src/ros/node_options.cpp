@@ -1,7 +1,8 @@
+#include "ros/node_options.hpp"
+
+#include "model/numbers.hpp"
+#include "ros/color.hpp"
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/model/numbers.hpp>
-#include <spring_pendulum/ros/color.hpp>
-#include <spring_pendulum/ros/node_options.hpp>
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include <spring_pendulum/ros/pacer.hpp>
+#include "ros/pacer.hpp"
 
 namespace spring_pendulum {
 namespace {

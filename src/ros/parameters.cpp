@@ -1,5 +1,6 @@
+#include "ros/parameters.hpp"
+
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/ros/parameters.hpp>
 #include <spring_pendulum/simulation/parameters.hpp>
 
 #include <fmt/format.h>

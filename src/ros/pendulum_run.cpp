@@ -1,7 +1,8 @@
+#include "ros/pendulum_run.hpp"
+
+#include "simulation/sleep.hpp"
+#include "simulation/work.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/ros/pendulum_run.hpp>
-#include <spring_pendulum/simulation/sleep.hpp>
-#include <spring_pendulum/simulation/work.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
-#include <spring_pendulum/io/interruption.hpp>
-#include <spring_pendulum/ros/player.hpp>
+#include "ros/player.hpp"
+
+#include "io/interruption.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
-#include <spring_pendulum/io/interruption.hpp>
-#include <spring_pendulum/ros/publisher.hpp>
+#include "ros/publisher.hpp"
+
+#include "io/interruption.hpp"
 
 #include <fmt/format.h>
 

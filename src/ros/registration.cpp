@@ -1,4 +1,4 @@
-#include <spring_pendulum/ros/registration.hpp>
+#include "ros/registration.hpp"
 
 #include <ros/console.h>
 #include <ros/init.h>

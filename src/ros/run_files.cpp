@@ -1,4 +1,4 @@
-#include <spring_pendulum/ros/run_files.hpp>
+#include "ros/run_files.hpp"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include <spring_pendulum/ros/state_builder.hpp>
+#include "ros/state_builder.hpp"
 
 #include <cmath>
 #include <limits>

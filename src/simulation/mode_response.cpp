@@ -1,4 +1,4 @@
-#include <spring_pendulum/simulation/mode_response.hpp>
+#include "simulation/mode_response.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,6 @@
+#include "model/numbers.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/model/numbers.hpp>
 #include <spring_pendulum/simulation/parameters.hpp>
 
 #include <fmt/format.h>

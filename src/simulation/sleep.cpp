@@ -1,5 +1,6 @@
+#include "simulation/sleep.hpp"
+
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/simulation/sleep.hpp>
 
 namespace spring_pendulum {
 

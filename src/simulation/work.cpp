@@ -1,4 +1,4 @@
-#include <spring_pendulum/simulation/work.hpp>
+#include "simulation/work.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Nothing is allocated while stepping. Every allocation of this program is counted: those of `new`
 // and those of Eigen, which calls malloc. Sanitizers bring a malloc of their own, so there this
 // test is left out.
-#include <spring_pendulum/integration/explicit_runge_kutta.hpp>
+#include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>

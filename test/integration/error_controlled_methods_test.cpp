@@ -1,5 +1,5 @@
 // What every error-controlled method of the table promises, whatever it is made of.
-#include <spring_pendulum/integration/error_controlled.hpp>
+#include "integration/error_control/error_controlled.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/energy.hpp>
 

@@ -1,8 +1,8 @@
 // The three methods of the exercise against exact solutions.
 #include "support/reference.hpp"
 
+#include "integration/fixed_step/plain_runge_kutta.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/integration/plain_runge_kutta.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
-#include <spring_pendulum/io/background_frame_writer.hpp>
+#include "io/background_frame_writer.hpp"
+
+#include "io/frame_folder.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-#include <spring_pendulum/io/failure.hpp>
+#include "io/failure.hpp"
+
 #include <spring_pendulum/model/errors.hpp>
 
 #include <gmock/gmock.h>

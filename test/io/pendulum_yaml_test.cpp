@@ -1,7 +1,7 @@
 // config/pendulum.yaml shows every parameter with its default.
+#include "io/text_file.hpp"
+#include "model/numbers.hpp"
 #include <spring_pendulum/io/scenario_file.hpp>
-#include <spring_pendulum/io/text_file.hpp>
-#include <spring_pendulum/model/numbers.hpp>
 #include <spring_pendulum/simulation/parameters.hpp>
 
 #include <gmock/gmock.h>

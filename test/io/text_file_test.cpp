@@ -1,4 +1,4 @@
-#include <spring_pendulum/io/text_file.hpp>
+#include "io/text_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <spring_pendulum/model/chain_modes.hpp>
+#include "model/chain_modes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
+#include "model/jacobian.hpp"
+
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/model/jacobian.hpp>
 
 #include <gtest/gtest.h>
 

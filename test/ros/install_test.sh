@@ -27,7 +27,7 @@ for file in launch/pendulum.launch launch/compare.launch launch/record.launch la
   check [ -f "$share/$file" ]
 done
 check [ -f "$1/install/include/spring_pendulum/PendulumState.h" ]
-check [ -f "$1/install/include/spring_pendulum/ros/pendulum_run.hpp" ]
+check [ -f "$1/install/include/spring_pendulum/spring_pendulum.hpp" ]
 check rosrun spring_pendulum Exercise3 Runge-Kutta-4 --particles "$share/data/particle.txt" \
   --frames 5 --output expected > /dev/null
 check rosrun spring_pendulum record_bag Euler --particles "$share/data/particle.txt" \

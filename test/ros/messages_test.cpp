@@ -1,10 +1,10 @@
 // Markers and state of chosen scenes, bags through the rosbag library, parameters.
+#include "ros/bag_recorder.hpp"
+#include "ros/color.hpp"
+#include "ros/marker_builder.hpp"
+#include "ros/parameters.hpp"
+#include "ros/state_builder.hpp"
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/ros/bag_recorder.hpp>
-#include <spring_pendulum/ros/color.hpp>
-#include <spring_pendulum/ros/marker_builder.hpp>
-#include <spring_pendulum/ros/parameters.hpp>
-#include <spring_pendulum/ros/state_builder.hpp>
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,6 @@
+#include "ros/pendulum_run.hpp"
+
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/ros/pendulum_run.hpp>
 
 #include <gtest/gtest.h>
 

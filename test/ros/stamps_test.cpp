@@ -1,4 +1,4 @@
-#include <spring_pendulum/ros/stamps.hpp>
+#include "ros/stamps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
+#include "simulation/sleep.hpp"
+
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/simulation/sleep.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include <spring_pendulum/model/chain_modes.hpp>
-#include <spring_pendulum/simulation/mode_response.hpp>
+#include "model/chain_modes.hpp"
+#include "simulation/mode_response.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 

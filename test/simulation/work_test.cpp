@@ -1,4 +1,4 @@
-#include <spring_pendulum/simulation/work.hpp>
+#include "simulation/work.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // How exactly a stepper knows the motion inside a step.
 #pragma once
 
-#include <spring_pendulum/integration/adaptive_stepper.hpp>
+#include "integration/error_control/adaptive_stepper.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <cmath>

@@ -4,15 +4,17 @@
 // shortest text that reads back as the same double. Above 9999 the index grows wider.
 #pragma once
 
-#include <spring_pendulum/io/frame_folder.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace spring_pendulum {
+
+class FrameFolder;
 
 /// Writes the frames of one run into a folder. A frame is whole or absent, whenever the program is
 /// stopped. While a writer lives, its folder is locked against a second one.
@@ -23,6 +25,8 @@ class FrameWriter {
   /// \param frames how many frames are going to be written
   /// \throws FileError naming the folder or file
   FrameWriter(const std::string& folder, std::int64_t frames);
+  FrameWriter(FrameWriter&&) noexcept;
+  ~FrameWriter();
 
   /// Writes frame `index`, 0 <= index < frames.
   /// \param positions N×2, m
@@ -34,13 +38,13 @@ class FrameWriter {
   void finish();
 
   /// Absolute path of the folder.
-  std::string folder() const { return folder_.path(); }
+  const std::string& folder() const;
   /// Wall-clock time spent in this class, s.
   double seconds() const { return seconds_; }
 
  private:
   double seconds_ = 0.0;
-  FrameFolder folder_;
+  std::unique_ptr<FrameFolder> folder_;
   std::vector<char> text_;  ///< of some lines, reused
 };
 

@@ -1,13 +1,12 @@
 // The table of the kernels of the instruction set that the including file is compiled for.
 #pragma once
 
-#include <spring_pendulum/integration/chain_kernels.hpp>
+#include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/conveyor.hpp"
+#include "integration/kernels/stage_kernels.hpp"
+#include "integration/kernels/taylor_kernels.hpp"
 
 #include <string_view>
-
-#include "conveyor.hpp"
-#include "stage_kernels.hpp"
-#include "taylor_kernels.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -1,5 +1,5 @@
-#include "all_kernels.hpp"
-#include "instruction_sets.hpp"
+#include "integration/kernels/all_kernels.hpp"
+#include "integration/kernels/instruction_sets.hpp"
 
 namespace spring_pendulum {
 

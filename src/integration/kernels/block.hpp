@@ -1,12 +1,11 @@
 // A block: `kLanes` neighbouring particles, and their accelerations.
 #pragma once
 
-#include <spring_pendulum/integration/chain_kernels.hpp>
+#include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/pack.hpp"
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
-
-#include "pack.hpp"
 
 namespace spring_pendulum {
 namespace {

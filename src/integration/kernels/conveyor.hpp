@@ -10,13 +10,12 @@
 // hides the latency of the square root and the division.
 #pragma once
 
+#include "integration/kernels/block.hpp"
+#include "integration/kernels/chain_kernels.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
-#include <spring_pendulum/integration/chain_kernels.hpp>
 
 #include <cstddef>
 #include <utility>
-
-#include "block.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -2,7 +2,7 @@
 // compiled for it, and none of its code may run before the processor was asked whether it has it.
 #pragma once
 
-#include <spring_pendulum/integration/chain_kernels.hpp>
+#include "integration/kernels/chain_kernels.hpp"
 
 namespace spring_pendulum {
 

@@ -1,7 +1,7 @@
 // The maximum norm of many packs.
 #pragma once
 
-#include "pack.hpp"
+#include "integration/kernels/pack.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -1,12 +1,11 @@
 // Kernels that do one stage of any tableau over a whole chain.
 #pragma once
 
-#include <spring_pendulum/integration/chain_kernels.hpp>
+#include "integration/kernels/block.hpp"
+#include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/largest.hpp"
 
 #include <cstddef>
-
-#include "block.hpp"
-#include "largest.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -2,14 +2,13 @@
 // below are the quantities of that derivation.
 #pragma once
 
-#include <spring_pendulum/integration/taylor_workspace.hpp>
+#include "integration/kernels/block.hpp"
+#include "integration/kernels/largest.hpp"
+#include "integration/kernels/pack.hpp"
+#include "integration/kernels/taylor_workspace.hpp"
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
-
-#include "block.hpp"
-#include "largest.hpp"
-#include "pack.hpp"
 
 namespace spring_pendulum {
 namespace {

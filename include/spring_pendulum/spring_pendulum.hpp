@@ -1,0 +1,21 @@
+// Everything that another program may use.
+#pragma once
+
+#include <spring_pendulum/integration/butcher_tableau.hpp>
+#include <spring_pendulum/integration/integrator.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/io/frame_writer.hpp>
+#include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/io/scenario_file.hpp>
+#include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
+#include <spring_pendulum/model/energy.hpp>
+#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/model/spring_law.hpp>
+#include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/simulation/energy_ledger.hpp>
+#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/parameters.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
+#include <spring_pendulum/simulation/stability_advice.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>

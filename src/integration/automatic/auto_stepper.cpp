@@ -1,0 +1,185 @@
+#include "integration/automatic/auto_stepper.hpp"
+
+#include "integration/implicit/rosenbrock.hpp"
+#include "integration/taylor/stabilized_taylor.hpp"
+#include "integration/taylor/taylor_series.hpp"
+#include "model/chain_modes.hpp"
+
+#include <fmt/format.h>
+
+namespace spring_pendulum {
+namespace {
+
+/// Tolerances in m below which order 12 pays, and the rate in 1/s from which on the second counts:
+/// of steps that stability makes short anyway, those of order 8 cost less.
+constexpr double kTightTolerance = 1e-2;
+constexpr double kTightToleranceIfFast = 1e-5;
+constexpr double kFastRate = 100.0;
+
+/// Rate in 1/s from which on an implicit method may be better than the longest stabilised steps.
+constexpr double kRateForImplicit = 1e4;
+
+/// Part of its stability limit from which on an explicit method counts as held back by it.
+constexpr double kStiffFrom = 0.25;
+
+/// Steps of the active method before another takes its place, so that its pace is known.
+constexpr int kLeastSteps = 16;
+
+/// Steps of a challenger: those in which it finds its step length do not count.
+constexpr int kWarmingUp = 6;
+constexpr int kCounted = 6;
+
+/// Work between two races, in work of a race.
+constexpr double kWorkPerRace = 25.0;
+
+/// Work before the first race: about as much as the race itself.
+constexpr double kWorkBeforeFirstRace = 500.0;
+
+/// How much faster a challenger has to be.
+constexpr double kHysteresis = 1.2;
+
+/// Work of an evaluation, in those of Taylor-8: measured for chains of 10 to 1000 particles.
+constexpr double kTaylorWork = 1.0;
+constexpr double kStabilizedTaylor4Work = 1.1;
+constexpr double kStabilizedTaylor8Work = 1.4;
+constexpr double kRodas5PWork = 5.0;
+
+double fastestDampingRate(const Chain& chain) {
+  return chain.spring().damping * largestSpringMode(chain);
+}
+
+const Method& explicitMethod(const Chain& chain, double tolerance) {
+  const bool fast = fastestDampingRate(chain) > kFastRate;
+  const double tight = fast ? kTightToleranceIfFast : kTightTolerance;
+  return findMethod(tolerance < tight ? "Taylor-12" : "Taylor-8");
+}
+
+}  // namespace
+
+bool AutoStepper::Pace::isFasterThan(const Pace& other) const {
+  return time * other.work > kHysteresis * other.time * work;
+}
+
+AutoStepper::AutoStepper(const Chain& chain, const IntegratorOptions& options)
+    : fastest_rate_(fastestDampingRate(chain)), state_(chain.size()) {
+  const Method& method = explicitMethod(chain, options.tolerance);
+  explicit_limit_ = method.real_stability_limit;
+  successor_is_better_ = method.order == 8;
+  candidates_.push_back(
+      {method.name, kTaylorWork, std::make_unique<TaylorSeries>(chain, method.order, options)});
+  const auto add_stabilized = [&](std::string_view name, double work, int order) {
+    candidates_.push_back({name, work,
+                           std::make_unique<StabilizedTaylor>(
+                               chain, order, options, StabilizedTaylor::kShareOfToleranceIfStiff)});
+  };
+  add_stabilized("Stabilized-Taylor-8", kStabilizedTaylor8Work, 8);
+  add_stabilized("Stabilized-Taylor-4", kStabilizedTaylor4Work, 4);
+  if (fastest_rate_ < kRateForImplicit) return;
+  candidates_.push_back({"Rodas5P", kRodas5PWork,
+                         std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options)});
+}
+
+void AutoStepper::start(const State& state) {
+  active_ = 0;
+  recent_ = {};
+  recent_steps_ = 0;
+  work_before_race_ = kWorkBeforeFirstRace;
+  candidates_[0].stepper->start(state);
+}
+
+double AutoStepper::workOf(const Candidate& candidate) {
+  return candidate.work_per_evaluation *
+         static_cast<double>(candidate.stepper->statistics().force_evaluations);
+}
+
+bool AutoStepper::isStiff() const {
+  return active_ != 0 || last_step_ * fastest_rate_ > kStiffFrom * explicit_limit_;
+}
+
+double AutoStepper::step() {
+  if (recent_steps_ >= kLeastSteps && isStiff()) {
+    if (active_ == 0 && successor_is_better_) {
+      active().stepper->interpolate(1.0, state_);
+      change(1);
+    } else if (recent_.work >= work_before_race_) {
+      race();
+    }
+  }
+  Candidate& candidate = candidates_[active_];
+  const double before = workOf(candidate);
+  last_step_ = candidate.stepper->step();
+  recent_.work += workOf(candidate) - before;
+  recent_.time += last_step_;
+  ++recent_steps_;
+  ++steps_;
+  candidate.covered += last_step_;
+  return last_step_;
+}
+
+AutoStepper::Pace AutoStepper::paceOf(Candidate& candidate, const State& state) {
+  candidate.stepper->start(state);
+  for (int i = 0; i < kWarmingUp; ++i) {
+    if (!(candidate.stepper->step() > 0.0)) return {};
+  }
+  Pace pace;
+  const double before = workOf(candidate);
+  for (int i = 0; i < kCounted; ++i) {
+    const double covered = candidate.stepper->step();
+    if (!(covered > 0.0)) return {};
+    pace.time += covered;
+  }
+  pace.work = workOf(candidate) - before;
+  return pace;
+}
+
+void AutoStepper::race() {
+  active().stepper->interpolate(1.0, state_);
+  double work = 0.0;
+  std::size_t fastest = active_;
+  Pace best = recent_;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (i == active_) continue;
+    const double before = workOf(candidates_[i]);
+    const Pace pace = paceOf(candidates_[i], state_);
+    work += workOf(candidates_[i]) - before;
+    if (pace.isFasterThan(best)) {
+      fastest = i;
+      best = pace;
+    }
+  }
+  work_before_race_ = kWorkPerRace * work;
+  change(fastest);
+}
+
+void AutoStepper::change(std::size_t to) {
+  recent_ = {};
+  recent_steps_ = 0;
+  if (to == active_) return;
+  active_ = to;
+  ++switches_;
+  candidates_[active_].stepper->start(state_);
+}
+
+StepStatistics AutoStepper::statistics() const {
+  StepStatistics sum;
+  for (const Candidate& candidate : candidates_) {
+    const StepStatistics statistics = candidate.stepper->statistics();
+    sum.force_evaluations += statistics.force_evaluations;
+    sum.rejected += statistics.rejected;
+  }
+  sum.accepted = steps_;
+  sum.last_step = last_step_;
+  sum.fastest_rate = active().stepper->statistics().fastest_rate;
+  return sum;
+}
+
+std::string AutoStepper::report() const {
+  std::string text;
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.covered == 0.0) continue;
+    text += fmt::format("{} for {:.4g} s, ", candidate.name, candidate.covered);
+  }
+  return text + fmt::format("{} switch{}", switches_, switches_ == 1 ? "" : "es");
+}
+
+}  // namespace spring_pendulum

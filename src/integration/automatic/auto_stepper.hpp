@@ -1,0 +1,88 @@
+// Auto: takes the method that is cheapest for the chain, the tolerance and the motion at hand.
+//
+// It begins with a Taylor series method, of order 8 or 12 by tolerance, which nothing beats as long
+// as accuracy limits its steps. When they come near its stability limit (step * k_d μ, with the
+// chain's largest spring mode μ), the motion has turned stiff, and the stabilised series of order 8
+// takes over from the plain one of order 8, as it can only need less work. Then the methods race:
+// the plain series, the stabilised ones of order 4 and 8 and, for very light particles, Rodas5P.
+// Each takes a few steps from the same state, and what counts is the time it covers per work, in
+// force evaluations of Taylor-8. The work of a method's evaluation is a constant, no clock is read,
+// so every machine chooses alike and the bits stay the same.
+//
+// Races are held rarely enough to cost some percents of the work, and a challenger has to be
+// better by a fifth, so that two methods that are equally good do not take turns. Races go on while
+// a stiff method is at work, so it is left again when the motion stops being stiff.
+//
+// Reference for the idea: L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148,
+// doi:10.1137/0904010.
+#pragma once
+
+#include "integration/error_control/adaptive_stepper.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/chain.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spring_pendulum {
+
+class AutoStepper final : public AdaptiveStepper {
+ public:
+  AutoStepper(const Chain& chain, const IntegratorOptions& options);
+
+  void start(const State& state) override;
+  double step() override;
+  void interpolate(double fraction, State& state) const override {
+    active().stepper->interpolate(fraction, state);
+  }
+  double dissipated(double fraction) const override {
+    return active().stepper->dissipated(fraction);
+  }
+  StepStatistics statistics() const override;
+
+  /// "Taylor-8 for 0.4 s, Stabilized-Taylor-8 for 4.6 s, 1 switch"
+  std::string report() const override;
+
+  /// The method at work.
+  std::string_view method() const { return active().name; }
+
+ private:
+  struct Candidate {
+    std::string_view name;
+    double work_per_evaluation;  ///< in force evaluations of Taylor-8
+    std::unique_ptr<AdaptiveStepper> stepper;
+    double covered = 0.0;  ///< time integrated with it, s
+  };
+  /// Time covered and the work it took.
+  struct Pace {
+    double time = 0.0;
+    double work = 0.0;
+    bool isFasterThan(const Pace& other) const;
+  };
+
+  const Candidate& active() const { return candidates_[active_]; }
+  static double workOf(const Candidate& candidate);
+  static Pace paceOf(Candidate& candidate, const State& state);
+  bool isStiff() const;
+  void race();
+  /// Goes on from `state_` with another candidate, or with the same one.
+  void change(std::size_t to);
+
+  double fastest_rate_;               ///< of the damped modes, 1/s
+  bool successor_is_better_ = false;  ///< candidate 1 than the first, if the motion is stiff
+  double explicit_limit_ = 0.0;       ///< h|λ| up to which the first candidate is stable
+  std::vector<Candidate> candidates_;
+  std::size_t active_ = 0;
+  Pace recent_;  ///< of the active method since it began or since the last race
+  std::int64_t recent_steps_ = 0;
+  double work_before_race_ = 0.0;
+  std::int64_t steps_ = 0;
+  int switches_ = 0;
+  double last_step_ = 0.0;
+  State state_;
+};
+
+}  // namespace spring_pendulum

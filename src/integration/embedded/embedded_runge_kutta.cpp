@@ -1,0 +1,106 @@
+#include "integration/embedded/embedded_runge_kutta.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+/// Errors so small that their squares are 0, m.
+constexpr double kNoError = 1e-150;
+
+/// An error of a velocity counts for the position as if it lasted so long, s.
+constexpr double kVelocityTime = 0.1;
+
+}  // namespace
+
+class EmbeddedRungeKutta::Sum {
+ public:
+  Sum(double h, const EmbeddedPair::Weights& weights, const std::vector<StateBuffer>& slopes) {
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      if (weights[i] != 0.0) terms_[count_++] = {h * weights[i], slopes[i].data()};
+    }
+  }
+  operator SlopeSum() const {  // NOLINT(google-explicit-constructor): it is one
+    return {terms_.data(), static_cast<std::ptrdiff_t>(count_)};
+  }
+
+ private:
+  std::array<WeightedSlope, EmbeddedPair::kMaxSlopes> terms_{};
+  std::size_t count_ = 0;
+};
+
+EmbeddedRungeKutta::EmbeddedRungeKutta(const Chain& chain, const EmbeddedPair& pair,
+                                       const IntegratorOptions& options,
+                                       const ChainKernels& kernels)
+    : ControlledStepper(chain, options, pair.share_of_tolerance * options.tolerance,
+                        pair.error_order, kernels),
+      pair_(pair),
+      inside_(chain.size()) {
+  for (std::size_t i = 0; i < std::max(pair.dense_slopes, pair.tableau.stages + 1); ++i) {
+    slopes_.emplace_back(chain.size());
+  }
+}
+
+void EmbeddedRungeKutta::prepare(bool restarted) {
+  extra_slopes_known_ = false;
+  if (!restarted) {
+    std::swap(slopes_[0], slopes_[pair_.tableau.stages]);
+    return;
+  }
+  kernels().stageSlope(kernelChain(), begin().data(), {}, slopes_[0].data());
+  ++counters().force_evaluations;
+}
+
+double EmbeddedRungeKutta::attempt(double h) {
+  const ButcherTableau& tableau = pair_.tableau;
+  for (std::size_t i = 1; i < tableau.stages; ++i) {
+    kernels().stageSlope(kernelChain(), begin().data(), Sum(h, tableau.a[i], slopes_),
+                         slopes_[i].data());
+  }
+  setEnd(carry(), Sum(h, tableau.b, slopes_));
+  kernels().stageSlope(kernelChain(), end().data(), {}, slopes_[tableau.stages].data());
+  counters().force_evaluations += static_cast<std::int64_t>(tableau.stages);
+  const double error = errorOf(pair_.error, h);
+  if (!pair_.hasCoarseError() || error < kNoError) return error;
+  const double coarse = errorOf(pair_.coarse_error, h);
+  return error * (error / std::sqrt(error * error + 0.01 * coarse * coarse));
+}
+
+double EmbeddedRungeKutta::errorOf(const EmbeddedPair::Weights& weights, double h) const {
+  const LargestChange change =
+      kernels().largestChange(begin().size(), begin().pitch(), Sum(h, weights, slopes_));
+  // NaN in either must not be lost.
+  return std::max(change.position, kVelocityTime * change.velocity) +
+         0.0 * (change.position + change.velocity);
+}
+
+void EmbeddedRungeKutta::makeExtraSlopes() const {
+  if (extra_slopes_known_) return;
+  for (std::size_t i = pair_.tableau.stages + 1; i < pair_.dense_slopes; ++i) {
+    const Sum sum(statistics().last_step, pair_.tableau.a[i], slopes_);
+    kernels().stageSlope(kernelChain(), begin().data(), sum, slopes_[i].data());
+    ++extra_evaluations_;
+  }
+  extra_slopes_known_ = true;
+}
+
+void EmbeddedRungeKutta::interpolate(double fraction, State& state) const {
+  if (fraction == 1.0) {
+    state.values() = end().values();
+    return;
+  }
+  makeExtraSlopes();
+  const Sum sum(statistics().last_step, pair_.denseWeights(fraction), slopes_);
+  kernels().combine(begin().pitch(), begin().data(), sum, inside_.data());
+  state.values() = inside_.values();
+}
+
+StepStatistics EmbeddedRungeKutta::statistics() const {
+  StepStatistics statistics = ControlledStepper::statistics();
+  statistics.force_evaluations += extra_evaluations_;
+  return statistics;
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,78 @@
+// What one-step methods with an error estimate share: repeating a step until its error is small
+// enough, choosing the next length, and the heat of a step.
+//
+// Steps are added up so that nothing is lost to rounding: what a sum cuts off its last term is
+// carried into the next step. Otherwise the rounding of very many steps would show at the tightest
+// tolerances.
+//
+// Reference: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002,
+// section 4.3 (compensated summation).
+#pragma once
+
+#include "integration/error_control/adaptive_stepper.hpp"
+#include "integration/error_control/step_controller.hpp"
+#include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/kernel_constants.hpp"
+#include "integration/kernels/state_buffer.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/chain.hpp>
+
+namespace spring_pendulum {
+
+class ControlledStepper : public AdaptiveStepper {
+ public:
+  void start(const State& state) final;
+  double step() final;
+  /// By Gauss-Legendre quadrature of the dissipated power along the dense output.
+  double dissipated(double fraction) const final;
+  StepStatistics statistics() const override { return statistics_; }
+
+ protected:
+  /// \param allowed_error position error allowed in a step, m
+  /// \param error_order   power of h with which the estimated error grows
+  ControlledStepper(const Chain& chain, const IntegratorOptions& options, double allowed_error,
+                    int error_order, const ChainKernels& kernels);
+
+  /// Before the first attempt from the new state that `begin()` holds.
+  /// \param restarted whether it is not the `end()` of the last step
+  virtual void prepare(bool restarted) = 0;
+
+  /// Makes `end()` from `begin()`.
+  /// \returns the estimated position error, m; NaN if anything is not finite
+  virtual double attempt(double h) = 0;
+
+  /// The longest step the method may take, at most h, s.
+  virtual double admissible(double h) { return h; }
+
+  const Chain& chain() const { return chain_; }
+  const KernelChain& kernelChain() const { return constants_.chain(); }
+  const ChainKernels& kernels() const { return kernels_; }
+  StateBuffer& begin() { return begin_; }
+  StateBuffer& end() { return end_; }
+  const StateBuffer& begin() const { return begin_; }
+  const StateBuffer& end() const { return end_; }
+  /// What is missing to `begin()`, less than its last bits.
+  const StateBuffer& carry() const { return begin_carry_; }
+  /// end() = begin() + (change + sum), where change contains `carry()`.
+  void setEnd(const StateBuffer& change, SlopeSum sum);
+  StepStatistics& counters() { return statistics_; }
+
+ private:
+  Chain chain_;
+  bool track_dissipation_;
+  double allowed_error_;
+  int error_order_;
+  KernelConstants constants_;
+  const ChainKernels& kernels_;
+  StepController controller_;
+  StateBuffer begin_;
+  StateBuffer end_;
+  StateBuffer begin_carry_;
+  StateBuffer end_carry_;
+  bool restarted_ = true;
+  double next_step_ = 0.0;
+  StepStatistics statistics_;
+  mutable State sample_;  ///< workspace of `dissipated`
+};
+
+}  // namespace spring_pendulum

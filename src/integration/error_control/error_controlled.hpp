@@ -1,0 +1,51 @@
+// The integrator made of an error-controlled method: lets the method run ahead in steps of its own
+// and reads the states at the output times out of them (dense output). No step is ever shortened
+// for an output time, so how often a motion is sampled changes neither its cost nor its bits.
+//
+// Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
+// ed., Springer 1993, section II.6 (dense output).
+#pragma once
+
+#include "integration/error_control/adaptive_stepper.hpp"
+#include <spring_pendulum/integration/integrator.hpp>
+
+#include <memory>
+
+namespace spring_pendulum {
+
+class ErrorControlled final : public Integrator {
+ public:
+  explicit ErrorControlled(std::unique_ptr<AdaptiveStepper> stepper);
+
+  /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
+  /// as often with half the time_step gives the same bits at the common times. With another
+  /// time_step than in the last call the motion goes on from the last output time, and n counts
+  /// from there. Only the first call after a (re)start reads `state`.
+  /// If the motion diverges, all numbers of `state` but the first particle's position are NaN from
+  /// the first output time on that can't be reached.
+  void advance(State& state, double time_step, std::int64_t steps) override;
+  std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
+  double dissipatedEnergy() const override { return heat_before_step_ + heat_in_step_; }
+  void restart() override;
+  std::string report() const override { return stepper_->report(); }
+
+  StepStatistics statistics() const { return stepper_->statistics(); }
+
+ private:
+  void takeStep();
+
+  std::unique_ptr<AdaptiveStepper> stepper_;
+  bool started_ = false;
+  bool diverged_ = false;
+  double output_origin_ =
+      0.0;                    ///< s since the start; outputs lie at output_origin_ + n * time_step
+  double output_step_ = 0.0;  ///< time_step of the last call
+  std::int64_t outputs_ = 0;  ///< n
+  double step_begin_ = 0.0;   ///< s since the start
+  double step_length_ = 0.0;  ///< s
+  double step_end_ = 0.0;     ///< s since the start
+  double heat_before_step_ = 0.0;
+  double heat_in_step_ = 0.0;  ///< until the last output time
+};
+
+}  // namespace spring_pendulum

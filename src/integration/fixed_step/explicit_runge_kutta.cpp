@@ -1,0 +1,141 @@
+#include "integration/fixed_step/explicit_runge_kutta.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <thread>
+
+namespace spring_pendulum {
+namespace {
+
+Eigen::Index roundedUp(Eigen::Index count) {
+  return StateBuffer::paddedSize(count);
+}
+
+/// A border is computed in vain; this keeps it below a sixteenth of the work.
+Eigen::Index largestBorder(Eigen::Index block_size, std::size_t stages) {
+  return std::max(roundedUp(static_cast<Eigen::Index>(stages)), block_size / 32 / 8 * 8);
+}
+
+/// Blocks are no shorter than half their size, and borders no longer than a block.
+Eigen::Index usableBlockSize(Eigen::Index wanted, std::size_t stages) {
+  return std::max(roundedUp(wanted), 2 * roundedUp(static_cast<Eigen::Index>(stages)));
+}
+
+const ChainKernels& kernelsFor(const EngineOptions& options, Eigen::Index particles) {
+  return options.kernels != nullptr ? *options.kernels : fastestChainKernels(particles);
+}
+
+Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index particles) {
+  const auto available = static_cast<Eigen::Index>(std::thread::hardware_concurrency());
+  const Eigen::Index threads = options.threads > 0 ? options.threads : available;
+  return std::max<Eigen::Index>(1, std::min(threads, particles / options.block_size));
+}
+
+}  // namespace
+
+ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
+                                       const EngineOptions& options)
+    : options_(options),
+      constants_(chain, options.skip_masses),
+      stages_(tableau.stages),
+      tableau_(tableau),
+      kernel_(kernelsFor(options, chain.size())
+                  .advanceKernel(tableau, !skips().damping, !skips().gravity)) {
+  assert(kernel_ != nullptr);
+  options_.block_size = usableBlockSize(options.block_size, stages_);
+  const bool one_block = chain.size() <= options_.block_size;
+  if (!one_block) largest_border_ = largestBorder(options_.block_size, stages_);
+  const Eigen::Index longest_block = std::min(chain.size(), options_.block_size);
+  shares_.resize(static_cast<std::size_t>(greatestNumberOfShares(options_, chain.size())));
+  for (Share& share : shares_) {
+    share.left.resize(largest_border_, 4);
+    share.right.resize(largest_border_, 4);
+    share.block = StateBuffer(roundedUp(longest_block) + 2 * largest_border_);
+    share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
+  }
+  workers_ = std::make_unique<WorkerThreads>(static_cast<int>(shares_.size()), [this](int share) {
+    workOn(shares_[static_cast<std::size_t>(share)]);
+  });
+}
+
+Skips ExplicitRungeKutta::skips() const {
+  const KernelChain& chain = constants_.chain();
+  Skips skips;
+  skips.damping = options_.skip_damping && chain.spring.damping == 0.0;
+  skips.gravity = options_.skip_gravity && chain.gravity == 0.0;
+  skips.masses = chain.mass_stride == 0;
+  return skips;
+}
+
+void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
+  assert(state.size() == constants_.chain().size);
+  state.velocities().row(0).setZero();
+  for (std::size_t i = 0; i < stages_; ++i) {
+    const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
+    for (std::size_t j = 0; j <= i; ++j) weights_.after[i][j] = time_step * row[j];
+  }
+  const auto stages = static_cast<std::int64_t>(stages_);
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has a stage
+  const std::int64_t at_once = largest_border_ == 0 ? steps : largest_border_ / stages;
+  const int threads = threadsFor(std::min(steps, at_once));
+  force_evaluations_ += steps * stages;
+  for (; steps > 0; steps -= pass_.steps) {
+    pass_.state = &state;
+    pass_.steps = std::min(steps, at_once);
+    pass_.border = largest_border_ == 0 ? 0 : roundedUp(pass_.steps * stages);
+    divide(threads);
+    workers_->run(threads);
+  }
+}
+
+int ExplicitRungeKutta::threadsFor(std::int64_t steps) const {
+  const double work = static_cast<double>(constants_.chain().size) * static_cast<double>(stages_) *
+                      static_cast<double>(steps);
+  const double worth =
+      work / static_cast<double>(std::max<Eigen::Index>(1, options_.least_work_per_thread));
+  return static_cast<int>(std::max(1.0, std::min<double>(workers_->size(), worth)));
+}
+
+void ExplicitRungeKutta::divide(int threads) {
+  const Eigen::Index size = constants_.chain().size;
+  const Eigen::Index share_size = roundedUp((size + threads - 1) / threads);
+  for (int i = 0; i < threads; ++i) {
+    Share& share = shares_[static_cast<std::size_t>(i)];
+    share.begin = std::min(size, i * share_size);
+    share.end = std::min(size, share.begin + share_size);
+    const Eigen::Index left = std::min(pass_.border, share.begin);
+    const Eigen::Index right = std::min(pass_.border, size - share.end);
+    share.left.topRows(left) = pass_.state->values().middleRows(share.begin - left, left);
+    share.right.topRows(right) = pass_.state->values().middleRows(share.end, right);
+  }
+}
+
+void ExplicitRungeKutta::workOn(Share& share) {
+  const Eigen::Index size = share.end - share.begin;
+  if (size == 0) return;
+  const Eigen::Index blocks = (size + options_.block_size - 1) / options_.block_size;
+  const Eigen::Index block_size = roundedUp((size + blocks - 1) / blocks);
+  for (Eigen::Index begin = share.begin; begin < share.end; begin += block_size) {
+    stepBlock(share, begin, std::min(share.end, begin + block_size));
+  }
+}
+
+void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Index end) {
+  State::Matrix& state = pass_.state->values();
+  const Eigen::Index first = std::max<Eigen::Index>(0, begin - pass_.border);
+  const Eigen::Index last = std::min(state.rows(), end + pass_.border);
+  const Eigen::Index own_end = std::min(last, share.end);
+  auto block = share.block.values();
+  block.topRows(begin - first) = share.left.topRows(begin - first);
+  block.middleRows(begin - first, own_end - begin) = state.middleRows(begin, own_end - begin);
+  block.middleRows(own_end - first, last - own_end) = share.right.topRows(last - own_end);
+  if (end < share.end) {
+    share.left.topRows(pass_.border) = state.middleRows(end - pass_.border, pass_.border);
+  }
+  const KernelChain piece = constants_.piece(first, last, share.block.pitch());
+  kernel_(piece, weights_, pass_.steps, share.block.data(), share.workspace.data());
+  const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
+  state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,82 @@
+#include "integration/fixed_step/symplectic.hpp"
+
+#include <spring_pendulum/model/energy.hpp>
+
+#include <utility>
+
+namespace spring_pendulum {
+
+SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
+    : chain_(chain),
+      track_dissipation_(track_dissipation),
+      constants_(chain_),
+      kernels_(fastestChainKernels()),
+      current_(chain.size()),
+      sample_(chain.size()) {}
+
+void SymplecticMethod::restart() {
+  dissipated_energy_ = 0.0;
+  forget();
+}
+
+void SymplecticMethod::advance(State& state, double time_step, std::int64_t steps) {
+  current_.values() = state.values();
+  double power_before = track_dissipation_ ? dissipatedPower(chain_, state) : 0.0;
+  for (std::int64_t n = 0; n < steps; ++n) {
+    step(time_step);
+    if (!track_dissipation_) continue;
+    sample_.values() = current_.values();
+    const double power_after = dissipatedPower(chain_, sample_);
+    dissipated_energy_ += 0.5 * time_step * (power_before + power_after);
+    power_before = power_after;
+  }
+  state.values() = current_.values();
+}
+
+void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {
+  kernels_.stageSlope(constants_.chain(), state.data(), {}, slope.data());
+  ++force_evaluations_;
+}
+
+void SymplecticMethod::kick(StateBuffer& state, double weight, const StateBuffer& slope) {
+  state.values().rightCols<2>() += weight * slope.values().rightCols<2>();
+}
+
+void SymplecticMethod::drift(StateBuffer& state, double weight) {
+  const Eigen::Index moving = state.size() - 1;
+  state.values().leftCols<2>().bottomRows(moving) +=
+      weight * state.values().rightCols<2>().bottomRows(moving);
+}
+
+SemiImplicitEuler::SemiImplicitEuler(const Chain& chain, bool track_dissipation)
+    : SymplecticMethod(chain, track_dissipation), slope_(chain.size()) {}
+
+void SemiImplicitEuler::step(double time_step) {
+  evaluate(current(), slope_);
+  kick(current(), time_step, slope_);
+  drift(current(), time_step);
+}
+
+VelocityVerlet::VelocityVerlet(const Chain& chain, bool track_dissipation)
+    : SymplecticMethod(chain, track_dissipation),
+      begin_slope_(chain.size()),
+      end_slope_(chain.size()),
+      predicted_(chain.size()) {}
+
+void VelocityVerlet::step(double time_step) {
+  if (damped() || !begin_slope_known_) evaluate(current(), begin_slope_);
+  kick(current(), 0.5 * time_step, begin_slope_);
+  drift(current(), time_step);
+  if (damped()) {
+    predicted_.values() = current().values();
+    kick(predicted_, 0.5 * time_step, begin_slope_);
+    evaluate(predicted_, end_slope_);
+  } else {
+    evaluate(current(), end_slope_);
+  }
+  kick(current(), 0.5 * time_step, end_slope_);
+  std::swap(begin_slope_, end_slope_);
+  begin_slope_known_ = true;
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,102 @@
+#include "integration/taylor/stabilized_taylor.hpp"
+
+#include "model/chain_modes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+/// The last percents of a stability interval are left to the springs' own part of the rates.
+constexpr double kUsedStability = 0.97;
+
+double longestStep(const StabilizedPolynomial& polynomial, double rate) {
+  return kUsedStability * polynomial.real_stability_limit / rate;
+}
+
+/// Those of the plain sum, times `factor` of the term of the state that a number belongs to.
+template <typename Factor>
+TaylorWeights weighted(int terms, double time, const Factor& factor) {
+  TaylorWeights weights = taylorWeights(terms, time);
+  for (int n = 0; n < terms; ++n) {
+    weights.velocity[static_cast<std::size_t>(n)] *= factor(n + 1);
+    weights.position[static_cast<std::size_t>(n)] *= factor(n + 2);
+  }
+  return weights;
+}
+
+TaylorWeights sumOf(const StabilizedPolynomial& polynomial, double time) {
+  // Where even the shortest step is too long the coefficients are mostly rounding errors.
+  if (time <= kShortestStep) return taylorWeights(1, time);
+  return weighted(polynomial.terms, time,
+                  [&polynomial](int term) { return polynomial.weight(term); });
+}
+
+TaylorWeights errorOf(const StabilizedPolynomial& polynomial, double time) {
+  return weighted(polynomial.terms, time,
+                  [&polynomial](int term) { return polynomial.errorWeight(term); });
+}
+
+}  // namespace
+
+StabilizedTaylor::StabilizedTaylor(const Chain& chain, int order, const IntegratorOptions& options,
+                                   double share_of_tolerance, const ChainKernels& kernels)
+    : ControlledStepper(chain, options, share_of_tolerance * options.tolerance, order, kernels),
+      fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
+      polynomials_(stabilizedPolynomials(order)),
+      polynomial_(polynomials_.begin()),
+      expansion_(chain, (polynomials_.end() - 1)->terms),
+      change_(chain.size()),
+      inside_(chain.size()) {}
+
+void StabilizedTaylor::prepare(bool /*restarted*/) {
+  known_terms_ = 0;
+}
+
+double StabilizedTaylor::admissible(double h) {
+  polynomial_ = polynomials_.begin();
+  if (fastest_rate_ == 0.0) return h;
+  h = std::min(h, longestStep(*(polynomials_.end() - 1), fastest_rate_));
+  while (longestStep(*polynomial_, fastest_rate_) < h) ++polynomial_;
+  if (polynomial_ == polynomials_.begin()) return h;
+  // The longest step of fewer terms may go further per term.
+  const StabilizedPolynomial& fewer = *(polynomial_ - 1);
+  const double shorter = longestStep(fewer, fastest_rate_);
+  if (shorter * polynomial_->terms < h * fewer.terms) return h;
+  polynomial_ = &fewer;
+  return shorter;
+}
+
+double StabilizedTaylor::attempt(double h) {
+  TaylorWorkspace& work = expansion_.work();
+  // A step that is tried again is shorter, and needs no more terms.
+  if (known_terms_ < polynomial_->terms) {
+    known_terms_ = polynomial_->terms;
+    work.order = known_terms_;
+    kernels().taylorSeries(work, begin().data());
+    counters().force_evaluations += known_terms_;
+  }
+  kernels().taylorState(work, begin().data(), carry().data(), sumOf(*polynomial_, h),
+                        change_.data());
+  setEnd(change_, {});
+  // The series follows a spring whose ends meet to negative lengths; see TaylorSeries::step.
+  if (h > kShortestStep &&
+      kernels().springsChangeMuch(work.size, work.pitch, begin().data(), end().data())) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return kernels().taylorLargestSum(work, errorOf(*polynomial_, h)).position;
+}
+
+void StabilizedTaylor::interpolate(double fraction, State& state) const {
+  const StateBuffer* result = &end();
+  if (fraction < 1.0) {
+    const double time = fraction * statistics().last_step;
+    kernels().taylorState(expansion_.work(), begin().data(), begin().data(),
+                          sumOf(*polynomial_, time), inside_.data());
+    result = &inside_;
+  }
+  state.values() = result->values();
+}
+
+}  // namespace spring_pendulum

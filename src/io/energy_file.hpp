@@ -1,0 +1,41 @@
+// The energy ledger of a run as CSV: a row a frame, units in the header.
+#pragma once
+
+#include "io/file_descriptor.hpp"
+#include <spring_pendulum/simulation/energy_ledger.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace spring_pendulum {
+
+/// Writes under the name FILE.unfinished and renames at the end, so FILE is whole or absent; a FILE
+/// of an earlier run is replaced only then. Columns: frame, time in s, kinetic, gravity, spring,
+/// total, dissipated and residual energy in J, and the residual in parts of the energy scale. Every
+/// number is the shortest text that reads back as the same double.
+class EnergyFile {
+ public:
+  /// \throws FileError if the file can't be written, or another run is writing it
+  explicit EnergyFile(const std::string& path);
+  ~EnergyFile();
+  EnergyFile(const EnergyFile&) = delete;
+  EnergyFile& operator=(const EnergyFile&) = delete;
+
+  /// \param entry with residual, that is from a ledger that tracks the dissipation
+  /// \throws FileError naming the file
+  void write(std::int64_t frame, const LedgerEntry& entry);
+
+  /// \throws FileError naming the file
+  void finish();
+
+ private:
+  void flush();
+  [[noreturn]] void refuse() const;
+
+  std::string path_;
+  std::string unfinished_path_;
+  FileDescriptor file_;
+  std::string text_;  ///< not yet written
+};
+
+}  // namespace spring_pendulum

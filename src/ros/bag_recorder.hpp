@@ -1,0 +1,32 @@
+// A run as a bag of the messages that the node publishes, written without ROS running.
+#pragma once
+
+#include "ros/node_options.hpp"
+#include <spring_pendulum/simulation/scenario.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace spring_pendulum {
+
+struct BagOptions {
+  std::string path = "pendulum.bag";
+  std::string name_space;  ///< put before the topics
+  bool append = false;     ///< add to the bag instead of replacing it
+};
+
+struct BagSummary {
+  std::int64_t frames = 0;
+  std::int64_t messages = 0;
+  std::uintmax_t bytes = 0;  ///< of the file
+  std::string path;          ///< absolute
+  Verdict verdict;
+};
+
+/// Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same scenario and options
+/// give the same bytes. A new bag is written as FILE.active and renamed at the end, so FILE is
+/// whole or absent. \throws InputError for a bad scenario, FileError naming the bag
+BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to);
+
+}  // namespace spring_pendulum

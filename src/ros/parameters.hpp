@@ -1,0 +1,31 @@
+// The private parameters of the node: a thin adapter from the parameter server to the tables.
+#pragma once
+
+#include "ros/node_options.hpp"
+#include <spring_pendulum/simulation/scenario.hpp>
+
+#include <XmlRpcValue.h>
+#include <string>
+
+namespace spring_pendulum {
+
+struct NodeConfiguration {
+  Scenario scenario;
+  NodeOptions options;
+};
+
+/// The raw value as the text that a user meant: 4, "4" and 4.0 are the same, so are true and
+/// "true". \param where put before an error message \throws InputError for a list, a map or
+/// anything else that is no single value
+std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
+                          const std::string& where);
+
+/// \param parameters a map from key to value
+/// \param where      put before an error message: the name of the node
+/// \throws InputError for an unknown key, listing the known ones, or a wrong value
+NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where);
+
+/// The private parameters of this node.
+NodeConfiguration readPrivateParameters();
+
+}  // namespace spring_pendulum

@@ -1,0 +1,68 @@
+// Decides what a node does next: paces a run by the wall clock, or by another node's simulated
+// time, and lets the services ~pause, ~step and ~reset interrupt it.
+#pragma once
+
+#include "ros/node_options.hpp"
+#include "ros/pacer.hpp"
+#include "ros/pendulum_run.hpp"
+#include "ros/registration.hpp"
+#include <spring_pendulum/PendulumState.h>
+
+#include <ros/node_handle.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <string>
+
+namespace spring_pendulum {
+
+class Player {
+ public:
+  enum class Action {
+    kAdvance,       ///< on to the next state shown
+    kAdvanceFrame,  ///< on to the next frame
+    kReset,         ///< back to frame 0
+    kShowAgain,     ///< nothing moves; show the same once more to who came late
+    kQuit
+  };
+
+  /// \param run outlives the player
+  Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
+         const NodeOptions& options, Registration& registration);
+
+  /// Serves callbacks until something is due.
+  Action next();
+
+  bool isPaused() const { return paused_; }
+  /// How fast the run goes: "1.00 x real time"
+  std::string pace() const;
+
+ private:
+  using TriggerRequest = std_srvs::Trigger::Request;
+  using TriggerResponse = std_srvs::Trigger::Response;
+
+  bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool onStep(TriggerRequest& request, TriggerResponse& response);
+  bool onReset(TriggerRequest& request, TriggerResponse& response);
+  void onLeaderState(const PendulumState::ConstPtr& state);
+
+  Action reset();
+  bool isDue() const;
+  void serveUntilDue();
+
+  const PendulumRun& run_;
+  NodeOptions options_;
+  Pacer pacer_;
+  bool paused_ = false;
+  bool reset_wanted_ = false;
+  std::int64_t steps_wanted_ = 0;
+  double leader_time_ = -1.0;   ///< s, simulated time of the node that is followed
+  ros::WallTime stands_since_;  ///< zero while the run moves
+  ros::WallTime last_shown_;    ///< while the run stands
+  ros::ServiceServer pause_;
+  ros::ServiceServer step_;
+  ros::ServiceServer reset_;
+  ros::Subscriber leader_;
+};
+
+}  // namespace spring_pendulum

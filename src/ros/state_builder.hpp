@@ -1,0 +1,29 @@
+// One state of a run as the message of the topic `state`.
+#pragma once
+
+#include "ros/pendulum_run.hpp"
+#include <spring_pendulum/PendulumState.h>
+
+#include <std_msgs/Header.h>
+
+namespace spring_pendulum {
+
+class StateBuilder {
+ public:
+  /// \param y_offset m, where the plane of the motion lies
+  explicit StateBuilder(double y_offset) : y_offset_(y_offset) {}
+
+  /// \return valid until the next call
+  const PendulumState& build(const PendulumRun& run, const std_msgs::Header& header);
+
+ private:
+  void copyState(const State& state);
+
+  double y_offset_;
+  PendulumState message_;  ///< kept, so that its arrays are allocated once
+};
+
+/// Largest length of a spring in rest lengths, less 1; in m if the springs have no rest length.
+double largestStretch(const Chain& chain, const State& state);
+
+}  // namespace spring_pendulum

@@ -1,0 +1,107 @@
+#include "integration/automatic/auto_stepper.hpp"
+
+#include "integration/error_control/error_controlled.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+// The method that Auto works with after `seconds`.
+std::string methodAfter(const test::Scene& scene, double tolerance, double seconds) {
+  AutoStepper stepper(scene.chain, IntegratorOptions{tolerance, false, 1});
+  stepper.start(scene.start);
+  for (double time = 0.0; time < seconds;) {
+    const double h = stepper.step();
+    if (!(h > 0.0)) return "diverged";
+    time += h;
+  }
+  return std::string(stepper.method());
+}
+
+TEST(Auto, PicksByScene) {
+  EXPECT_EQ(methodAfter(test::referenceScene("horizontal_11"), 1e-3, 5.0), "Taylor-12");
+  EXPECT_EQ(methodAfter(test::referenceScene("lighter_100"), 1e-3, 1.0), "Stabilized-Taylor-4");
+  EXPECT_EQ(methodAfter(test::referenceScene("feather_50"), 1e-3, 1.0), "Rodas5P");
+}
+
+TEST(Auto, PicksByTolerance) {
+  EXPECT_EQ(methodAfter(test::referenceScene("horizontal_11"), 1.0, 5.0), "Taylor-8");
+  EXPECT_EQ(methodAfter(test::referenceScene("lighter_100"), 1e-10, 1.0), "Stabilized-Taylor-8");
+}
+
+// Springs make the light chain stiff; the error allowed makes long steps of low order cheaper.
+TEST(Auto, ChangesTheMethodWithTheMotion) {
+  const test::Scene scene = test::referenceScene("lighter_100");
+  AutoStepper stepper(scene.chain, IntegratorOptions{1e-3, false, 1});
+  stepper.start(scene.start);
+  std::vector<std::string> used;
+  for (double time = 0.0; time < 5.0; time += stepper.step()) {
+    const std::string method(stepper.method());
+    if (used.empty() || used.back() != method) used.push_back(method);
+  }
+  EXPECT_EQ(used,
+            (std::vector<std::string>{"Taylor-8", "Stabilized-Taylor-8", "Stabilized-Taylor-4"}));
+}
+
+// Work per evaluation differs less than the evaluations, which tell the choice.
+TEST(Auto, WorksLessThanTheWrongMethods) {
+  struct Case {
+    const char* scene;
+    double tolerance;
+    const char* good;
+    const char* bad;
+  };
+  for (const Case& c : {Case{"lighter_100", 1e-3, "Stabilized-Taylor-4", "Taylor-8"},
+                        Case{"feather_50", 1e-2, "Rodas5P", "Stabilized-Taylor-4"}}) {
+    const test::Scene scene = test::referenceScene(c.scene);
+    const auto evaluations = [&](const char* method) {
+      const auto integrator = makeIntegrator(method, scene.chain, {c.tolerance, false, 1});
+      State state = scene.start;
+      integrator->advance(state, 0.5, 1);
+      return integrator->forceEvaluations();
+    };
+    EXPECT_LT(evaluations("Auto"), evaluations(c.bad)) << c.scene;
+    EXPECT_LT(evaluations("Auto"), 3 * evaluations(c.good)) << c.scene;
+  }
+}
+
+TEST(Auto, ReportsWhatItUsed) {
+  const test::Scene scene = test::referenceScene("feather_50");
+  const auto integrator = makeIntegrator("Auto", scene.chain, {1e-2, false, 1});
+  EXPECT_EQ(integrator->report(), "0 switches");
+  State state = scene.start;
+  integrator->advance(state, 0.1, 10);
+  const std::string report = integrator->report();
+  EXPECT_NE(report.find("Taylor-8 for "), std::string::npos) << report;
+  EXPECT_NE(report.find("Rodas5P for 1"), std::string::npos) << report;
+  EXPECT_NE(report.find(", 2 switches"), std::string::npos) << report;
+}
+
+TEST(Auto, KeepsItsToleranceWhereOnlyImplicitMethodsArePractical) {
+  for (const char* method : {"Auto", "Rodas5P"}) {
+    for (const double tolerance : {1e-3, 1e-5}) {
+      test::Scene scene = test::referenceScene("feather_50");
+      const auto integrator = makeIntegrator(method, scene.chain, {tolerance, false, 1});
+      integrator->advance(scene.start, 1.0, 1);
+      EXPECT_LT(test::positionError(scene.start, test::referenceSolution("feather_50", 1)),
+                10.0 * tolerance)  // 0.14 and 0.74 tolerances
+          << method << " at " << tolerance;
+    }
+  }
+}
+
+TEST(Auto, OtherMethodsHaveNothingToReport) {
+  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
+  EXPECT_EQ(makeIntegrator("Rodas5P", chain)->report(), "");
+  EXPECT_EQ(makeIntegrator("Runge-Kutta-4", chain)->report(), "");
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,178 @@
+// The engine gives the same bits as the plain code and as a hash kept here, whatever the
+// instruction set, the threads, the blocks, the steps a call and the skips.
+#include "integration/fixed_step/explicit_runge_kutta.hpp"
+
+#include "integration/fixed_step/plain_runge_kutta.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kTimeStep = 0.005;
+
+/// A chain that hangs down, folded and bent, a little out of rest everywhere.
+State bentChain(Eigen::Index size) {
+  std::mt19937 random(5);
+  State state(size);
+  for (Eigen::Index i = 1; i < size; ++i) {
+    const auto number = [&] { return static_cast<double>(random() % 2001) / 1000.0 - 1.0; };
+    state.x()[i] = state.x()[i - 1] + 0.75 + 0.5 * number();
+    state.y()[i] = state.y()[i - 1] + number();
+    state.vx()[i] = 0.5 * number();
+    state.vy()[i] = 0.5 * number();
+  }
+  return state;
+}
+
+/// One scene that needs everything, and one that lets the engine skip all it can.
+struct Kind {
+  const char* name;
+  bool needs_all;
+};
+constexpr Kind kKinds[] = {{"that needs everything", true}, {"that needs little", false}};
+
+Chain chainOf(Eigen::Index size, const Kind& kind) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Ones(size);
+  for (Eigen::Index i = 0; kind.needs_all && i < size; ++i) {
+    masses[i] = 0.5 + static_cast<double>(i * 7919 % 1001) / 1000.0;
+  }
+  return Chain(masses, {50.0, kind.needs_all ? 1.0 : 0.0, 1.0}, kind.needs_all ? 9.81 : 0.0);
+}
+
+constexpr const char* kMethods[] = {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"};
+constexpr Eigen::Index kShortChains[] = {1, 2, 3, 7, 8, 9, 11, 64, 1000};
+constexpr Eigen::Index kLongChain = 100003;
+constexpr int kSteps = 12;
+constexpr int kStepsOfLongChain = 3;
+
+/// FNV-1a over the bytes of a state, going on from `hash`.
+std::uint64_t hashOf(const State& state, std::uint64_t hash = 0xcbf29ce484222325U) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(state.values().data());
+  const auto count = static_cast<std::size_t>(state.values().size()) * sizeof(double);
+  for (std::size_t i = 0; i < count; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3U;
+  return hash;
+}
+
+State stateAfter(Integrator& integrator, State state, int steps, int steps_a_call) {
+  for (int done = 0; done < steps; done += steps_a_call) {
+    integrator.advance(state, kTimeStep, std::min(steps_a_call, steps - done));
+  }
+  return state;
+}
+
+State plainStateAfter(const char* method, const Kind& kind, const State& start, int steps) {
+  PlainRungeKutta plain(chainOf(start.size(), kind), *findMethod(method).tableau, false);
+  return stateAfter(plain, start, steps, steps);
+}
+
+bool sameBits(const State& a, const State& b) {
+  const auto bytes = static_cast<std::size_t>(a.values().size()) * sizeof(double);
+  return a.size() == b.size() && std::memcmp(a.values().data(), b.values().data(), bytes) == 0;
+}
+
+/// Ways to run the engine, each with each.
+struct Ways {
+  std::vector<std::pair<int, Eigen::Index>> threads_and_block_sizes;
+  std::vector<int> steps_a_call;
+  std::vector<unsigned> skips;  ///< bits: damping, gravity, masses
+};
+
+/// Runs the engine all these ways with every instruction set and compares the bits.
+void expectSameBits(const char* method, const Kind& kind, const State& start, int steps,
+                    const Ways& ways) {
+  const State expected = plainStateAfter(method, kind, start, steps);
+  const Chain chain = chainOf(start.size(), kind);
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    for (const auto& [threads, block_size] : ways.threads_and_block_sizes) {
+      for (const unsigned skips : ways.skips) {
+        const EngineOptions options{threads,          block_size,      1, kernels, (skips & 1) != 0,
+                                    (skips & 2) != 0, (skips & 4) != 0};
+        ExplicitRungeKutta engine(chain, *findMethod(method).tableau, options);
+        for (const int at_once : ways.steps_a_call) {
+          EXPECT_TRUE(sameBits(stateAfter(engine, start, steps, at_once), expected))
+              << method << ", " << start.size() << " particles, scene " << kind.name << ", "
+              << kernels->name << ", " << threads << " threads, blocks of " << block_size << ", "
+              << at_once << " steps a call, skips " << skips;
+        }
+      }
+    }
+  }
+}
+
+TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeHoweverItIsRun) {
+  const Ways ways{{{1, 4096}, {1, 16}, {2, 16}, {3, 64}}, {kSteps, 5}, {7, 6, 5, 3, 0}};
+  for (const char* method : kMethods) {
+    for (const Kind& kind : kKinds) {
+      for (const Eigen::Index size : kShortChains) {
+        expectSameBits(method, kind, bentChain(size), kSteps, ways);
+      }
+    }
+  }
+}
+
+TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeOnALongChain) {
+  const State start = bentChain(kLongChain);
+  for (const char* method : kMethods) {
+    expectSameBits(method, kKinds[0], start, 2, {{{1, 4096}, {3, 20000}}, {2}, {7}});
+    expectSameBits(method, kKinds[1], start, 2, {{{2, 4096}}, {1}, {7, 0}});
+  }
+}
+
+// Written down once; whoever changes the arithmetic on purpose writes down the new ones.
+TEST(ExplicitRungeKutta, GivesTheBitsThatWereWrittenDown) {
+  const std::map<std::string, std::uint64_t> expected{{"Euler", 0xb6d40b76a5f2bb70U},
+                                                      {"Runge-Kutta-2", 0x47eb77bb6d0f2b89U},
+                                                      {"Runge-Kutta-4", 0x0295425e7df18f0bU}};
+  for (const char* method : kMethods) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const Kind& kind : kKinds) {
+      for (const Eigen::Index size : kShortChains) {
+        const auto engine = makeIntegrator(method, chainOf(size, kind));
+        hash = hashOf(stateAfter(*engine, bentChain(size), kSteps, kSteps), hash);
+      }
+    }
+    const auto engine = makeIntegrator(method, chainOf(kLongChain, kKinds[0]));
+    hash = hashOf(stateAfter(*engine, bentChain(kLongChain), kStepsOfLongChain, 2), hash);
+    EXPECT_EQ(hash, expected.at(method)) << method << ": 0x" << std::hex << hash;
+  }
+}
+
+TEST(ExplicitRungeKutta, TellsWhatItSkips) {
+  const auto skips = [](const Kind& kind) {
+    return makeIntegrator("Runge-Kutta-4", chainOf(5, kind))->skips();
+  };
+  EXPECT_TRUE(skips(kKinds[1]).damping && skips(kKinds[1]).gravity && skips(kKinds[1]).masses);
+  EXPECT_FALSE(skips(kKinds[0]).damping || skips(kKinds[0]).gravity || skips(kKinds[0]).masses);
+}
+
+TEST(ExplicitRungeKutta, LeavesTheFixedParticleWhereItIsThoughItsNeighbourIsLost) {
+  State state = bentChain(3);
+  state.x()[1] = std::nan("");
+  makeIntegrator("Runge-Kutta-4", chainOf(3, kKinds[0]))->advance(state, kTimeStep, 10);
+  EXPECT_EQ(state.values().row(0).norm(), 0.0);
+  EXPECT_TRUE(std::isnan(state.x()[2]));
+}
+
+TEST(ExplicitRungeKutta, EvaluatesEachStageOnce) {
+  for (const char* method : kMethods) {
+    const auto engine = makeIntegrator(method, chainOf(9000, kKinds[0]));
+    State state = bentChain(9000);
+    engine->advance(state, kTimeStep, 70);
+    EXPECT_EQ(engine->forceEvaluations(), 70 * findMethod(method).stages) << method;
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,176 @@
+#include "integration/fixed_step/symplectic.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/energy.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using test::positionError;
+using test::referenceScene;
+using test::referenceSolution;
+using test::Scene;
+
+constexpr const char* kNames[] = {"Semi-Implicit-Euler", "Velocity-Verlet"};
+
+double errorAfter(const char* method, const char* scene_name, int seconds, int steps_per_second) {
+  const Scene scene = referenceScene(scene_name);
+  State state = scene.start;
+  makeIntegrator(method, scene.chain)
+      ->advance(state, 1.0 / steps_per_second, std::int64_t{seconds} * steps_per_second);
+  return positionError(state, referenceSolution(scene_name, seconds));
+}
+
+// The references are damped: this is the order that damping leaves.
+TEST(Symplectic, OrderWithDampingIsTheSlopeOfTheErrorFromBothSides) {
+  for (const char* name : kNames) {
+    for (const char* scene : {"single_vertical", "two_masses_45deg", "horizontal_11"}) {
+      const double slope =
+          std::log2(errorAfter(name, scene, 2, 4096) / errorAfter(name, scene, 2, 8192));
+      EXPECT_NEAR(slope, findMethod(name).order, 0.05) << name << " on " << scene;  // within 0.001
+    }
+  }
+}
+
+// One undamped spring without gravity: its length oscillates with angular frequency sqrt(k_s/m).
+TEST(Symplectic, OrderWithoutDampingIsTheSlopeToo) {
+  const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{50.0, 0.0, 1.0}, 0.0);
+  State start(2);
+  start.x()[1] = 1.2;
+  const double exact = 1.0 + 0.2 * std::cos(std::sqrt(50.0) * 2.0);
+  for (const char* name : kNames) {
+    double errors[2] = {};
+    for (int halvings = 0; halvings < 2; ++halvings) {
+      const int steps = 4000 << halvings;
+      State state = start;
+      makeIntegrator(name, chain)->advance(state, 2.0 / steps, steps);
+      errors[halvings] = std::abs(state.x()[1] - exact);
+    }
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]), findMethod(name).order, 0.05) << name;
+  }
+}
+
+Scene undampedChain() {
+  return referenceScene("two_masses_45deg", SpringLaw{50.0, 0.0, 1.0});
+}
+
+// Largest energy error over a stretch of steps, J.
+double largestEnergyError(Integrator& integrator, const Scene& scene, State& state, int steps) {
+  const double start = computeEnergy(scene.chain, scene.start).total();
+  double largest = 0.0;
+  for (int n = 0; n < steps / 50; ++n) {
+    integrator.advance(state, 0.01, 50);
+    largest = std::max(largest, std::abs(computeEnergy(scene.chain, state).total() - start));
+  }
+  return largest;
+}
+
+TEST(Symplectic, EnergyStaysBoundedOverAMillionSteps) {
+  const Scene scene = undampedChain();
+  for (const char* name : kNames) {
+    const auto integrator = makeIntegrator(name, scene.chain);
+    State state = scene.start;
+    const double at_first = largestEnergyError(*integrator, scene, state, 20000);
+    integrator->advance(state, 0.01, 960000);
+    const double at_last = largestEnergyError(*integrator, scene, state, 20000);
+    // Measured: 0.51 and 0.53 J (Semi-Implicit-Euler), 0.015 and 0.019 J (Velocity-Verlet).
+    EXPECT_GT(at_first, 1e-3) << name;
+    EXPECT_LT(at_last, 1.5 * at_first) << name;
+  }
+  // Not so a method of order 2 that is not symplectic: 1.5 and 4.7 J.
+  const auto midpoint = makeIntegrator("Runge-Kutta-2", scene.chain);
+  State state = scene.start;
+  const double at_first = largestEnergyError(*midpoint, scene, state, 20000);
+  const double later = largestEnergyError(*midpoint, scene, state, 20000);
+  EXPECT_FALSE(later < 1.5 * at_first);
+}
+
+TEST(Symplectic, VelocityVerletRunsBackToItsStart) {
+  const Scene scene = referenceScene("horizontal_11", SpringLaw{50.0, 0.0, 1.0});
+  const auto integrator = makeIntegrator("Velocity-Verlet", scene.chain);
+  State state = scene.start;
+  integrator->advance(state, 0.01, 500);
+  EXPECT_GT(positionError(state, scene.start), 1.0);
+  state.velocities() *= -1.0;
+  integrator->restart();
+  integrator->advance(state, 0.01, 500);
+  EXPECT_LT(positionError(state, scene.start), 1e-10);  // measured: 1.1e-13
+}
+
+TEST(Symplectic, StepsOneByOneOrTogetherGiveTheSameBits) {
+  for (const double damping : {0.0, 1.0}) {
+    const Scene scene = referenceScene("horizontal_11", SpringLaw{50.0, damping, 1.0});
+    for (const char* name : kNames) {
+      const auto one_by_one = makeIntegrator(name, scene.chain);
+      State state = scene.start;
+      for (int n = 0; n < 20; ++n) one_by_one->advance(state, 0.01, 1);
+      State together = scene.start;
+      makeIntegrator(name, scene.chain)->advance(together, 0.01, 20);
+      EXPECT_EQ(state.values(), together.values()) << name << " " << damping;
+    }
+  }
+}
+
+TEST(Symplectic, EvaluatesTheForcesOnceOrWithDampingTwiceAStep) {
+  const Scene damped = referenceScene("two_masses_45deg");
+  const Scene undamped = undampedChain();
+  const auto evaluations = [](const char* name, const Scene& scene) {
+    const auto integrator = makeIntegrator(name, scene.chain);
+    State state = scene.start;
+    integrator->advance(state, 0.01, 100);
+    return integrator->forceEvaluations();
+  };
+  EXPECT_EQ(evaluations("Semi-Implicit-Euler", undamped), 100);
+  EXPECT_EQ(evaluations("Semi-Implicit-Euler", damped), 100);
+  EXPECT_EQ(evaluations("Velocity-Verlet", undamped), 101);  // and one for the first step
+  EXPECT_EQ(evaluations("Velocity-Verlet", damped), 200);
+}
+
+TEST(Symplectic, HeatClosesTheEnergyBalance) {
+  const Scene scene = referenceScene("horizontal_11");
+  for (const char* name : kNames) {
+    const auto integrator = makeIntegrator(name, scene.chain, {1e-6, true});
+    State state = scene.start;
+    integrator->advance(state, 1e-4, 20000);
+    const double lost =
+        computeEnergy(scene.chain, scene.start).total() - computeEnergy(scene.chain, state).total();
+    EXPECT_GT(lost, 1.0);
+    // Measured: 1.7e-4 J (Semi-Implicit-Euler), 4.1e-6 J (Velocity-Verlet), of 18 J.
+    EXPECT_NEAR(integrator->dissipatedEnergy(), lost, findMethod(name).order == 1 ? 2e-3 : 2e-5)
+        << name;
+  }
+}
+
+// Growth of the separation of one spring over many steps, started with a small stretch; no gravity.
+double growth(const char* method, const SpringLaw& spring, double time_step) {
+  const Chain chain(Eigen::VectorXd::Ones(2), spring, 0.0);
+  State state(2);
+  state.x()[1] = 1.0 + 1e-9;
+  state.vx()[1] = 1e-9;
+  makeIntegrator(method, chain)->advance(state, time_step, 400);
+  return std::max(std::abs(state.x()[1] - 1.0), time_step * std::abs(state.vx()[1])) / 1e-9;
+}
+
+TEST(Symplectic, StabilityLimitsAreThoseOfTheTable) {
+  for (const char* name : kNames) {
+    const Method& method = findMethod(name);
+    const SpringLaw swinging{100.0, 0.0, 1.0};  // ω = 10/s
+    EXPECT_LT(growth(name, swinging, 0.99 * method.imaginary_stability_limit / 10.0), 100.0)
+        << name;
+    EXPECT_GT(growth(name, swinging, 1.01 * method.imaginary_stability_limit / 10.0), 1e4) << name;
+    const SpringLaw creeping{0.0, 10.0, 1.0};  // γ = 10/s
+    EXPECT_LT(growth(name, creeping, 0.99 * method.real_stability_limit / 10.0), 100.0) << name;
+    EXPECT_GT(growth(name, creeping, 1.05 * method.real_stability_limit / 10.0), 1e4) << name;
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,142 @@
+#include "integration/kernels/chain_kernels.hpp"
+
+#include "integration/kernels/kernel_constants.hpp"
+#include "integration/kernels/state_buffer.hpp"
+#include <spring_pendulum/model/dynamics.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr Eigen::Index kSizes[] = {1, 2, 3, 7, 8, 9, 11, 16, 17, 64, 1000};
+
+State randomState(Eigen::Index size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  State state(size);
+  for (Eigen::Index i = 0; i < state.values().size(); ++i)
+    state.values().data()[i] = number(random);
+  state.x() += Eigen::VectorXd::LinSpaced(size, 0.0, static_cast<double>(size - 1));
+  state.velocities().row(0).setZero();
+  return state;
+}
+
+Chain randomChain(Eigen::Index size, const SpringLaw& spring, bool equal_masses, double gravity) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Constant(size, 0.7);
+  if (!equal_masses) {
+    masses += 0.5 * Eigen::VectorXd::LinSpaced(size, 0.0, 1.0).array().sin().matrix();
+  }
+  return {masses, spring, gravity};
+}
+
+bool sameBits(const State::Matrix& a, const State::Matrix& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+State::Matrix plainSlope(const Chain& chain, const State& state) {
+  PlaneVectors accelerations;
+  computeAccelerations(chain, state, accelerations);
+  State::Matrix slope(state.size(), 4);
+  slope << state.velocities(), accelerations;
+  return slope;
+}
+
+TEST(ChainKernels, BaselineIsAlwaysThere) {
+  ASSERT_FALSE(supportedChainKernels().empty());
+  EXPECT_EQ(supportedChainKernels().back()->name, "baseline");
+}
+
+TEST(ChainKernels, StageSlopeHasTheBitsOfThePlainCode) {
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    for (const Eigen::Index size : kSizes) {
+      for (const SpringLaw& spring :
+           {SpringLaw{}, SpringLaw{200.0, 0.0, 0.3}, SpringLaw{7, 2, 0}}) {
+        for (const bool equal_masses : {false, true}) {
+          const Chain chain = randomChain(size, spring, equal_masses, equal_masses ? 0.0 : 9.81);
+          const KernelConstants constants(chain);
+          State state = randomState(size, 1);
+          StateBuffer z(size), k1(size), k2(size), slope(size);
+          z.values() = state.values();
+          k1.values() = randomState(size, 2).values();
+          k2.values() = randomState(size, 3).values();
+          const WeightedSlope terms[] = {{0.1, k1.data()}, {-0.03, k2.data()}};
+          kernels->stageSlope(constants.chain(), z.data(), {terms, 2}, slope.data());
+          state.values() += 0.1 * k1.values();
+          state.values() += -0.03 * k2.values();
+          const State::Matrix expected = plainSlope(chain, state);
+          EXPECT_TRUE(sameBits(slope.values(), expected))
+              << kernels->name << ", " << size << " particles, damping " << spring.damping;
+        }
+      }
+    }
+  }
+}
+
+TEST(ChainKernels, CombinationHasTheBitsOfThePlainCode) {
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    for (const Eigen::Index size : kSizes) {
+      StateBuffer z(size), k(size), out(size);
+      z.values() = randomState(size, 1).values();
+      k.values() = randomState(size, 2).values();
+      const WeightedSlope term{0.3, k.data()};
+      kernels->combine(z.pitch(), z.data(), {&term, 1}, out.data());
+      const State::Matrix expected = z.values() + 0.3 * k.values();
+      EXPECT_TRUE(sameBits(out.values(), expected)) << kernels->name << ", " << size;
+    }
+  }
+}
+
+TEST(ChainKernels, CompensatedSumKeepsWhatRoundingTakes) {
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    for (const Eigen::Index size : kSizes) {
+      StateBuffer z(size), change(size), k(size), out(size), lost(size);
+      z.values() = randomState(size, 1).values();
+      change.values() = 1e-20 * randomState(size, 2).values();
+      k.values() = randomState(size, 3).values();
+      const WeightedSlope term{1e-9, k.data()};
+      kernels->compensatedSum(z.pitch(), z.data(), change.data(), {&term, 1}, out.data(),
+                              lost.data());
+      const State::Matrix step = change.values() + 1e-9 * k.values();
+      const State::Matrix sum = z.values() + step;
+      const State::Matrix difference = sum - z.values();
+      const State::Matrix rest = step - difference;
+      EXPECT_TRUE(sameBits(out.values(), sum)) << kernels->name << ", " << size;
+      EXPECT_TRUE(sameBits(lost.values(), rest)) << kernels->name << ", " << size;
+      EXPECT_GT(rest.cwiseAbs().maxCoeff(), 1e-19) << size;
+    }
+  }
+}
+
+TEST(ChainKernels, LargestChangeFindsEveryPlaceAndRemembersWhatIsNotFinite) {
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    for (Eigen::Index place = 0; place < 4 * 11; ++place) {
+      StateBuffer k(11);
+      const auto set = [&](double value) { k.values()(place % 11, place / 11) = value; };
+      const auto result = [&] {
+        const WeightedSlope term{2.0, k.data()};
+        const LargestChange change = kernels->largestChange(11, k.pitch(), {&term, 1});
+        EXPECT_EQ(place < 22 ? change.velocity : change.position, 0.0);
+        return place < 22 ? change.position : change.velocity;
+      };
+      set(-1.5);
+      EXPECT_EQ(result(), 3.0) << kernels->name;
+      set(inf);
+      EXPECT_FALSE(std::isfinite(result())) << kernels->name;
+      set(std::nan(""));
+      EXPECT_FALSE(std::isfinite(result())) << kernels->name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

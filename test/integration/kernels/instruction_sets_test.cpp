@@ -1,0 +1,90 @@
+// The error-controlled methods have the same bits whatever instruction set their kernels are for.
+#include "integration/embedded/embedded_runge_kutta.hpp"
+#include "integration/implicit/rosenbrock.hpp"
+#include "integration/taylor/stabilized_taylor.hpp"
+#include "integration/taylor/taylor_series.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+struct Maker {
+  const char* name;
+  std::unique_ptr<AdaptiveStepper> (*make)(const Chain&, const IntegratorOptions&,
+                                           const ChainKernels&);
+};
+
+template <int order>
+std::unique_ptr<AdaptiveStepper> makeTaylor(const Chain& chain, const IntegratorOptions& options,
+                                            const ChainKernels& kernels) {
+  return std::make_unique<TaylorSeries>(chain, order, options, kernels);
+}
+
+template <int order>
+std::unique_ptr<AdaptiveStepper> makeStabilized(const Chain& chain,
+                                                const IntegratorOptions& options,
+                                                const ChainKernels& kernels) {
+  return std::make_unique<StabilizedTaylor>(chain, order, options,
+                                            StabilizedTaylor::kShareOfTolerance, kernels);
+}
+
+template <const EmbeddedPair& kPair>
+std::unique_ptr<AdaptiveStepper> makePair(const Chain& chain, const IntegratorOptions& options,
+                                          const ChainKernels& kernels) {
+  return std::make_unique<EmbeddedRungeKutta>(chain, kPair, options, kernels);
+}
+
+std::unique_ptr<AdaptiveStepper> makeRodas5P(const Chain& chain, const IntegratorOptions& options,
+                                             const ChainKernels& kernels) {
+  return std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options, kernels);
+}
+
+constexpr Maker kMakers[] = {{"Taylor-7", makeTaylor<7>},
+                             {"Taylor-12", makeTaylor<12>},
+                             {"Stabilized-Taylor-4", makeStabilized<4>},
+                             {"Stabilized-Taylor-8", makeStabilized<8>},
+                             {"Dormand-Prince-5", makePair<kDormandPrince5>},
+                             {"Dormand-Prince-8", makePair<kDormandPrince8>},
+                             {"Rodas5P", makeRodas5P}};
+
+State stateAfterSteps(const test::Scene& scene, const Maker& maker, const ChainKernels& kernels) {
+  const auto stepper = maker.make(scene.chain, {1e-5, false, 1}, kernels);
+  stepper->start(scene.start);
+  for (int n = 0; n < 100; ++n) EXPECT_GT(stepper->step(), 0.0);
+  State state(scene.start.size());
+  stepper->interpolate(0.3, state);
+  return state;
+}
+
+class OnEveryInstructionSet : public testing::TestWithParam<Maker> {};
+
+TEST_P(OnEveryInstructionSet, HasTheSameBits) {
+  for (const char* name : {"two_masses_45deg", "horizontal_11", "lighter_100"}) {
+    const test::Scene scene = test::referenceScene(name);
+    const State wanted = stateAfterSteps(scene, GetParam(), *supportedChainKernels().back());
+    for (const ChainKernels* kernels : supportedChainKernels()) {
+      const State state = stateAfterSteps(scene, GetParam(), *kernels);
+      EXPECT_EQ(std::memcmp(state.values().data(), wanted.values().data(),
+                            sizeof(double) * static_cast<std::size_t>(wanted.values().size())),
+                0)
+          << name << " " << kernels->name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, OnEveryInstructionSet, testing::ValuesIn(kMakers),
+                         [](const testing::TestParamInfo<Maker>& method) {
+                           std::string name = method.param.name;
+                           for (char& c : name) c = c == '-' ? '_' : c;
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,181 @@
+#include "integration/taylor/stabilized_taylor.hpp"
+
+#include "integration/error_control/error_controlled.hpp"
+#include <spring_pendulum/model/energy.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <string>
+
+#include <support/dense_output.hpp>
+#include <support/reference.hpp>
+
+namespace spring_pendulum {
+namespace {
+
+template <typename Weight>
+std::complex<double> polynomial(int terms, const Weight& weight, std::complex<double> z) {
+  std::complex<double> sum = 0.0;
+  std::complex<double> power = 1.0;
+  for (int j = 0; j <= terms; ++j) {
+    sum += weight(j) * power;
+    power *= z / (j + 1.0);
+  }
+  return sum;
+}
+
+double growth(const StabilizedPolynomial& p, std::complex<double> z) {
+  return std::abs(polynomial(
+      p.terms, [&p](int term) { return p.weight(term); }, z));
+}
+
+double estimatedError(const StabilizedPolynomial& p, std::complex<double> z) {
+  return std::abs(polynomial(
+      p.terms, [&p](int term) { return p.errorWeight(term); }, z));
+}
+
+const Method& rowOf(int order) {
+  return findMethod("Stabilized-Taylor-" + std::to_string(order));
+}
+
+TEST(StabilizedPolynomials, AreStableAsFarAsTheTableSaysAndNotMuchFurther) {
+  for (const int order : {4, 8}) {
+    for (const StabilizedPolynomial& p : stabilizedPolynomials(order)) {
+      const double limit = p.real_stability_limit;
+      for (double x = 0.01; x < limit; x += 0.01) {
+        ASSERT_LT(growth(p, -x), x < 0.3 || p.terms == order ? 1.0 : 0.951) << p.terms << " " << x;
+      }
+      EXPECT_GT(growth(p, -1.01 * limit), p.terms == order ? 1.0 : 0.95) << p.terms;
+      for (double y = 0.05; y < rowOf(order).imaginary_stability_limit; y += 0.05) {
+        ASSERT_LT(growth(p, {0.0, y}), 1.0 + 1e-14) << p.terms << " " << y;
+      }
+    }
+  }
+}
+
+TEST(StabilizedPolynomials, AgreeWithTheExponentialToTheirOrderOnly) {
+  for (const int order : {4, 8}) {
+    for (const StabilizedPolynomial& p : stabilizedPolynomials(order)) {
+      EXPECT_EQ(p.order, order);
+      for (int j = 0; j <= order; ++j) EXPECT_EQ(p.weight(j), 1.0) << p.terms;
+      EXPECT_LT(p.weight(order + 1), 0.96) << p.terms;
+      EXPECT_EQ(p.weight(p.terms + 1), 0.0) << p.terms;
+    }
+  }
+}
+
+// The estimate is of order p - 1, the same for all of an order, and no fast mode of amplitude 1
+// shows in it as more than that.
+TEST(StabilizedPolynomials, ErrorEstimatesKeepClearOfFastModes) {
+  for (const int order : {4, 8}) {
+    const double first = stabilizedPolynomials(order).begin()->errorWeight(order);
+    for (const StabilizedPolynomial& p : stabilizedPolynomials(order)) {
+      EXPECT_EQ(p.errorWeight(order - 1), 0.0);
+      EXPECT_EQ(p.errorWeight(order), first) << p.terms;
+      for (double x = 0.0; x < p.real_stability_limit; x += 0.01) {
+        ASSERT_LT(estimatedError(p, -x), 1.2) << p.terms << " " << x;  // 1.10
+      }
+    }
+  }
+}
+
+TEST(StabilizedTaylor, TableOfMethodsStatesTheLargestLimitAndTheLeastTerms) {
+  for (const int order : {4, 8}) {
+    const StabilizedPolynomials all = stabilizedPolynomials(order);
+    EXPECT_EQ(rowOf(order).real_stability_limit, (all.end() - 1)->real_stability_limit);
+    EXPECT_EQ(rowOf(order).stages, all.begin()->terms);
+  }
+}
+
+ErrorControlled stabilized(const Chain& chain, int order, double tolerance) {
+  return ErrorControlled(
+      std::make_unique<StabilizedTaylor>(chain, order, IntegratorOptions{tolerance, false, 1}));
+}
+
+struct Measured {
+  double error;
+  double steps;
+  double terms;  ///< of a step, on average
+};
+
+Measured measured(const char* name, int order, double tolerance) {
+  test::Scene scene = test::referenceScene(name);
+  ErrorControlled integrator = stabilized(scene.chain, order, tolerance);
+  integrator.advance(scene.start, 1.0, 1);
+  const auto steps = static_cast<double>(integrator.statistics().accepted);
+  return {test::positionError(scene.start, test::referenceSolution(name, 1)), steps,
+          static_cast<double>(integrator.forceEvaluations()) / steps};
+}
+
+double measuredOrder(const Measured& a, const Measured& b) {
+  return std::log(a.error / b.error) / std::log(b.steps / a.steps);
+}
+
+TEST(StabilizedTaylor, ErrorsFallWithTheOrder) {
+  const auto order_of = [](int order) {
+    const Measured coarse = measured("horizontal_11", order, 1e-4);
+    const Measured fine = measured("horizontal_11", order, 1e-8);
+    EXPECT_EQ(fine.terms, order);
+    return measuredOrder(coarse, fine);
+  };
+  EXPECT_NEAR(order_of(4), 4.0, 0.2);  // 3.98
+  EXPECT_GT(order_of(8), 7.8);         // 9.1: the leading term cancels within 1 s
+  EXPECT_LT(order_of(8), 9.5);
+}
+
+// The weights make the order, not the number of terms.
+TEST(StabilizedTaylor, ErrorsFallWithTheOrderWhereTermsAreAdded) {
+  const Measured coarse4 = measured("lighter_100", 4, 1e-2);
+  const Measured fine4 = measured("lighter_100", 4, 1e-4);
+  EXPECT_GT(fine4.terms, 6.0);                           // 9.7 and 6.4
+  EXPECT_NEAR(measuredOrder(coarse4, fine4), 4.0, 0.4);  // 4.04
+  const Measured coarse8 = measured("light_100", 8, 1e-1);
+  const Measured fine8 = measured("light_100", 8, 1e-4);
+  EXPECT_GT(fine8.terms, 10.0);                   // 13.1 and 10.5
+  EXPECT_GT(measuredOrder(coarse8, fine8), 7.5);  // 9.2
+  EXPECT_LT(measuredOrder(coarse8, fine8), 10.0);
+}
+
+TEST(StabilizedTaylor, DenseOutputHasTheOrderOfTheMethod) {
+  const test::Scene scene = test::referenceScene("horizontal_11");
+  for (const int order : {4, 8}) {
+    const double found = test::denseOutputOrder(scene, 1.0, 1e-3, [&](double tolerance) {
+      return std::make_unique<StabilizedTaylor>(scene.chain, order,
+                                                IntegratorOptions{tolerance, false, 1});
+    });
+    EXPECT_NEAR(found, order, 0.1 * order);  // 3.97, 7.76
+  }
+}
+
+TEST(StabilizedTaylor, NeedsAFractionOfTheEvaluationsThatStabilityAsksOfOthers) {
+  for (const char* method : {"Stabilized-Taylor-8", "Taylor-8"}) {
+    test::Scene scene = test::referenceScene("lighter_100");
+    const auto integrator = makeIntegrator(method, scene.chain, {1e-8, false, 1});
+    integrator->advance(scene.start, 1.0, 1);
+    EXPECT_LT(test::positionError(scene.start, test::referenceSolution("lighter_100", 1)), 1e-8);
+    if (std::string(method) == "Taylor-8") {
+      EXPECT_GT(integrator->forceEvaluations(), 7000);
+    } else {
+      EXPECT_LT(integrator->forceEvaluations(), 3000);
+    }
+  }
+}
+
+TEST(StabilizedTaylor, HeatClosesTheEnergyBalance) {
+  for (const int order : {4, 8}) {
+    test::Scene scene = test::referenceScene("light_100");
+    const double before = computeEnergy(scene.chain, scene.start).total();
+    const auto integrator =
+        makeIntegrator(rowOf(order).name, scene.chain, IntegratorOptions{1e-8, true, 1});
+    integrator->advance(scene.start, 0.1, 20);
+    const double after = computeEnergy(scene.chain, scene.start).total();
+    EXPECT_GT(integrator->dissipatedEnergy(), 0.4);
+    EXPECT_NEAR(before - after, integrator->dissipatedEnergy(), 1e-8) << order;
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum
