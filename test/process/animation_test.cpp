@@ -1,8 +1,10 @@
 // The moving picture: animate_pendulum.plt makes it of any folder of frames, at the true speed.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "process/exercise3.hpp"
 
@@ -81,6 +83,27 @@ TEST_F(Animation, TakesAnyScene) {
     EXPECT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(delays().size(), 2U) << particles;
   }
+}
+
+/// Width and height in pixels: bytes 6 to 9 of the header.
+std::pair<int, int> sizeOf(const std::string& gif) {
+  const auto number = [&gif](std::size_t at) {
+    return static_cast<unsigned char>(gif[at]) + 256 * static_cast<unsigned char>(gif[at + 1]);
+  };
+  return {number(6), number(8)};
+}
+
+TEST_F(Animation, ShowsTheMotionBeforeADivergence) {
+  // A chain that swings in a box of 1 m by 0.5 m and then explodes: cropped to the box.
+  for (int n = 0; n < 8; ++n) {
+    const std::string far = n < 6 ? "0.5" : "1e9";
+    folder_.write(fmt::format("frame_{:04}.txt", n), "0 0\n1 " + far + "\n");
+  }
+  const Result result = gnuplot(std::string("load \"") + kData + "/animate_pendulum.plt\"");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  const auto [width, height] = sizeOf(readFile(folder_.path("pendulum.gif")));
+  EXPECT_EQ(width, 480 + 70);
+  EXPECT_EQ(height, 240 + 75);
 }
 
 TEST_F(Animation, TellsWhenThereAreNoFrames) {
