@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the benchmarks, runs them and draws their plots; see benchmark/README.md.
+# Builds the benchmarks, runs them and draws their plots; see docs/benchmarks.md.
 # Usage: scripts/benchmark.sh [PART] [options], PART one of throughput, end-to-end, skips, accuracy,
 #        tolerance, stability, all, smoke
 #   all (default)  everything, into benchmark/results

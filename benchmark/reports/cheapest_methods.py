@@ -76,7 +76,7 @@ def main(path):
              for scene in result_csv.names(rows, "scene")}
     print(INTRODUCTION)
     print("## In short\n")
-    print("The README shows this table, and a test asks for its rows there.\n")
+    print("docs/benchmarks.md shows this table, and a test asks for its rows there.\n")
     print("| scene | to 1e-3 m | to 1e-6 m | to 1e-9 m |")
     print("|---|---|---|---|")
     for scene, best in bests.items():

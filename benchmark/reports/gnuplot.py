@@ -1,6 +1,5 @@
-"""Line plots through gnuplot, as PNG and SVG, in the one style of all benchmark plots: this package
-in strong solid lines, peers in thin dashed ones, what failed as a cross at the top edge, the legend
-outside."""
+"""Line plots through gnuplot, in the one style of all benchmark plots: this package in strong solid
+lines, peers in thin dashed ones, what failed as a cross at the top edge, the legend outside."""
 import subprocess
 
 OWN_COLORS = ("#d00000", "#ff7b00", "#e0a000", "#2d7d2d", "#00a37a", "#0077b6", "#4b2ca0", "#b5179e",
@@ -51,15 +50,11 @@ class Plot:
         self.lines.append(f"{name} using 1:2 with points pt 2 ps 1.6 lw 2.2 {color} {shown}")
 
     def write(self, path):
-        """PATH.png and PATH.svg"""
+        """PATH.png"""
         script = "\n".join(self.data + self.settings)
-        plot = "plot " + ", ".join(self.lines)
-        for terminal, ending in (("pngcairo size 1500,900 font 'DejaVu Sans,12'", "png"),
-                                 ("svg size 1500,900 font 'DejaVu Sans,14' background '#ffffff'",
-                                  "svg")):
-            text = f"set terminal {terminal}\nset output '{path}.{ending}'\n{script}\n" \
-                   f"set clip one\n{plot}\n"
-            subprocess.run(["gnuplot"], input=text, text=True, check=True)
+        text = f"set terminal pngcairo size 1500,900 font 'DejaVu Sans,12'\nset output '{path}.png'\n" \
+               f"{script}\nset clip one\nplot {', '.join(self.lines)}\n"
+        subprocess.run(["gnuplot"], input=text, text=True, check=True)
 
     def _block(self, points):
         name = f"$data{len(self.data)}"

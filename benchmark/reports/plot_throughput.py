@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """usage: plot_throughput.py throughput.csv FOLDER
 
-Draws FOLDER/throughput.png and .svg, nanoseconds per spring force against the chain's length, and
+Draws FOLDER/throughput.png, nanoseconds per spring force against the chain's length, and
 prints a table of how many times faster this package is.
 """
 import sys

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """usage: plot_work_precision.py work_precision.csv FOLDER
 
-Draws FOLDER/work_precision_SCENE.png and .svg: the true error against the time. What diverged,
+Draws FOLDER/work_precision_SCENE.png: the true error against the time. What diverged,
 took too long or lies above the plot is a cross at the top edge (at the right one too if it has no
 time), and counted in the legend.
 """

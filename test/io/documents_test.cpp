@@ -1,4 +1,4 @@
-// Tables of the README that other things state too.
+// Tables in the documents that repeat facts of the code or of measurements.
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
@@ -24,15 +24,15 @@ std::vector<std::string> tableRows(const std::string& path, const std::string& h
   return rows;
 }
 
-TEST(Readme, ShowsTheCheapestMethodsThatWereMeasured) {
+TEST(Documents, ShowTheCheapestMethodsThatWereMeasured) {
   const std::string header = "| scene | to 1e-3 m | to 1e-6 m | to 1e-9 m |";
   const auto measured = tableRows("benchmark/results/cheapest_methods.md", header);
   ASSERT_FALSE(measured.empty());
-  EXPECT_EQ(tableRows("README.md", header), measured) << "copy the rows from there to the README";
+  EXPECT_EQ(tableRows("docs/benchmarks.md", header), measured) << "copy the rows from there to docs/benchmarks.md";
 }
 
-TEST(Readme, ListsTheMethodsOfTheTable) {
-  const auto rows = tableRows("README.md", "| name | order | steps | use |");
+TEST(Documents, ListTheMethodsOfTheTable) {
+  const auto rows = tableRows("docs/methods.md", "| name | order | steps | use |");
   ASSERT_EQ(rows.size(), methodTable().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Method& method = methodTable()[i];
@@ -42,6 +42,14 @@ TEST(Readme, ListsTheMethodsOfTheTable) {
                              fmt::format("| `{}` |{} | {} | ", method.name, order,
                                          method.control == StepControl::kFixed ? "fixed" : "own")));
   }
+}
+
+TEST(Documents, ReadmeIsShort) {
+  std::ifstream file(PROJECT_DIR "/README.md");
+  int lines = 0;
+  for (std::string line; std::getline(file, line);) ++lines;
+  EXPECT_GT(lines, 50);
+  EXPECT_LE(lines, 150);  // 103 when written
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Makes the pictures of the README: docs/pendulum.gif, docs/compare.gif and docs/run_time_error.png.
+# docs/rviz.gif and docs/rviz_window.png need a virtual display: scripts/pictures.sh rviz
+# The plots of results are drawn from benchmark/results, so run scripts/benchmark.sh for new ones.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+"$project/scripts/setup.sh" core ros
+configure "$build"
+compile "$build" Exercise3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+docs=$project/docs
+
+pendulum() {
+  "$(program Exercise3)" Auto --particles "$project/data/horizontal_11.txt" --stiffness 400 \
+    --frame-interval 0.04 --frames 250 --output "$work/pendulum"
+  (cd "$work/pendulum" &&
+    gnuplot -e "frame_interval = 0.04; load '$project/data/animate_pendulum.plt'" 2> /dev/null)
+  mv "$work/pendulum/pendulum.gif" "$docs/pendulum.gif"
+}
+
+# Two of the three methods leave the energy's bounds: Exercise3 ends with an error there.
+compare() {
+  for method in Euler Runge-Kutta-2 Runge-Kutta-4; do
+    "$(program Exercise3)" "$method" --particles "$project/data/particle.txt" --damping 0 \
+      --time-step 0.05 --steps-per-frame 1 --frames 161 --output "$work/$method" \
+      --energy "$work/$method.csv" || [ $? = 3 ]
+  done
+  (cd "$work" && gnuplot "$docs/plots/compare.plt" 2> /dev/null)
+  mv "$work/compare.gif" "$docs/compare.gif"
+}
+
+plots() {
+  "$project/benchmark/reports/plot_run_time_error.py" "$project/benchmark/results/work_precision.csv" \
+    horizontal_11 "$docs/run_time_error"
+}
+
+pendulum
+compare
+plots
+say "pictures: $docs"
