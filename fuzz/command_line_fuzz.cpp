@@ -1,5 +1,6 @@
 // Any arguments, a line each, are either a scenario that can be run, an answer, or an error.
 #include "io/command_line.hpp"
+#include "simulation/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -37,10 +38,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   pointers.reserve(arguments.size());
   for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
   try {
-    const CommandLine line = parseCommandLine(static_cast<int>(pointers.size()), pointers.data());
-    if (!line.answer.empty()) return 0;
-    findMethod(line.scenario.method);
-    require(line.scenario.frames >= 1 && line.scenario.time_step > 0.0, "values in range");
+    Scenario scenario;
+    OptionSet options(scenarioOptions(scenario));
+    const Switches switches = parseCommandLine(static_cast<int>(pointers.size()), pointers.data(),
+                                               {"Exercise3", "", ""}, options, scenario);
+    if (!switches.answer.empty()) return 0;
+    findMethod(scenario.method);
+    require(scenario.frames >= 1 && scenario.time_step > 0.0, "values in range");
   } catch (const InputError& error) {
     require(*error.what() != '\0', "a message");
   } catch (const FileError& error) {  // --config

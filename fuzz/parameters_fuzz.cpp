@@ -1,8 +1,8 @@
 // Any keys and texts, lines `key text`, through the validator that the command line, YAML and the
 // ROS parameters share: values within their ranges, or an error that tells where.
+#include "simulation/scenario_options.hpp"
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
-#include <spring_pendulum/simulation/parameters.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,22 +15,21 @@ namespace {
 
 using namespace spring_pendulum;
 
-/// Hands all lines to a builder that goes on after an error, as a node does that lists them all.
-Scenario scenarioFrom(const std::string& text) {
-  ScenarioBuilder builder;
+/// Sets the options of all lines and continues after an error.
+void setOptions(const std::string& text, OptionSet& options) {
   std::istringstream lines(text);
   std::string line;
   while (std::getline(lines, line)) {
     const std::size_t space = line.find(' ');
     const std::string key = line.substr(0, space);
     try {
-      builder.set(key, space == std::string::npos ? "" : line.substr(space + 1), "~" + key);
+      const std::string value = space == std::string::npos ? "" : line.substr(space + 1);
+      options.set(options.find(key, "~" + key), value, "~" + key);
     } catch (const InputError& error) {
       require(std::string(error.what()).rfind("~" + key + ":", 0) == 0,
               "a message that says where");
     }
   }
-  return builder.build();
 }
 
 bool isAtLeastZero(double value) {
@@ -43,16 +42,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     std::string text(data, data + size);
     text.erase(std::remove(text.begin(), text.end(), '\0'), text.end());  // would end a message
-    const Scenario scenario = scenarioFrom(text);
+    Scenario scenario;
+    OptionSet options(scenarioOptions(scenario));
+    setOptions(text, options);
+    checkScenario(scenario, options);
     require(scenario.frames >= 1 && scenario.steps_per_frame >= 1, "counts from 1 on");
     require(isAtLeastZero(scenario.stiffness) && isAtLeastZero(scenario.damping) &&
                 isAtLeastZero(scenario.rest_length) && std::isfinite(scenario.gravity),
             "constants in range");
     require(frameSteps(scenario).timeOfFrame(scenario.frames - 1) >= 0.0, "times that do not wrap");
-    for (const Parameter& parameter : parameterTable()) {
-      ScenarioBuilder again;
-      again.set(parameter.key, formatValue(parameter, scenario), "");
-    }
+    for (const Option& option : options.options()) option.assign(option.text());
   } catch (const InputError& error) {
     require(*error.what() != '\0', "a message");
   }

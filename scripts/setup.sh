@@ -15,8 +15,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 packages_of() {
   case $1 in
     core)
-      echo g++ cmake make ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev \
-           libfast-float-dev libgtest-dev libgmock-dev gnuplot-nox ;;
+      echo g++ cmake make ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev \
+           libboost-program-options-dev libgtest-dev libgmock-dev gnuplot-nox ;;
     ros)
       echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
            libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev ros-visualization-msgs \

@@ -5,6 +5,7 @@
 #include "io/failure.hpp"
 #include "io/interruption.hpp"
 #include "io/progress.hpp"
+#include "simulation/scenario_options.hpp"
 #include "simulation/sleep.hpp"
 #include "simulation/work.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
@@ -51,7 +52,7 @@ Summary simulate(const Scenario& scenario, State& state, Integrator& integrator,
                  const Outputs& outputs) {
   const auto start = std::chrono::steady_clock::now();
   const FrameSteps step = frameSteps(scenario);
-  const bool continues = scenario.on_divergence == "continue";
+  const bool continues = scenario.on_divergence == OnDivergence::kContinue;
   Progress progress(scenario.frames);
   Summary summary;
   while (summary.frames < scenario.frames && interruption() == 0) {
@@ -111,17 +112,16 @@ void reportSkips(const Scenario& scenario, const Integrator& integrator) {
   }
 }
 
-int run(const CommandLine& command_line) {
-  const Scenario& scenario = command_line.scenario;
+int run(const Scenario& scenario, const Switches& switches) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   const bool wants_ledger = !scenario.energy.empty();
   SleepingIntegrator integrator(
       makeIntegrator(scenario.method, chain, integratorOptions(scenario, wants_ledger)), chain,
       scenario.sleep);
-  if (command_line.report_skips) reportSkips(scenario, integrator);
+  if (switches.report_skips) reportSkips(scenario, integrator);
   Judge judge(chain, particles.state, wants_ledger);
-  if (command_line.check) {
+  if (switches.check) {
     fmt::print("{}", describeStability(chain, particles.state, scenario));
     return kDone;
   }
@@ -142,9 +142,15 @@ int run(const CommandLine& command_line) {
 }
 
 int runCommandLine(int argc, const char* const* argv) {
-  const CommandLine command_line = parseCommandLine(argc, argv);
-  if (command_line.answer.empty()) return run(command_line);
-  fmt::print("{}", command_line.answer);
+  const ProgramText program{
+      "Exercise3",
+      "Integrates the motion of a chain of particles and damped springs and writes its frames.",
+      "Runge-Kutta-4 --particles particle.txt --output frames"};
+  Scenario scenario;
+  OptionSet options(scenarioOptions(scenario));
+  const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
+  if (switches.answer.empty()) return run(scenario, switches);
+  fmt::print("{}", switches.answer);
   return kDone;
 }
 

@@ -79,6 +79,11 @@ int runNode() {
                       << std::filesystem::absolute(scenario.particles).lexically_normal().string()
                       << ", " << files.description());
 
+  if (!configuration.unused.empty()) {
+    ROS_INFO_STREAM(scenario.method << " does not use "
+                                    << fmt::format("{}", fmt::join(configuration.unused, ", ")));
+  }
+
   ros::NodeHandle node, private_node("~");
   Registration registration;
   Publisher publisher(node, run, options, registration);

@@ -15,7 +15,6 @@
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/energy_ledger.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
-#include <spring_pendulum/simulation/parameters.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>

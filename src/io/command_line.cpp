@@ -1,170 +1,186 @@
 #include "io/command_line.hpp"
 
+#include "io/option_file.hpp"
+#include "simulation/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/scenario_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/simulation/parameters.hpp>
 
-#include <CLI/CLI.hpp>
+#include <boost/program_options/errors.hpp>
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/parsers.hpp>
+#include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <sstream>
 #include <string_view>
-#include <variant>
+#include <vector>
 
 namespace spring_pendulum {
 namespace {
 
-constexpr std::string_view kMethodKey = "method";
-constexpr const char* kConfigOption = "--config";
-constexpr const char* kListMethodsOption = "--list-methods";
-constexpr const char* kCheckOption = "--check";
-constexpr const char* kReportSkipsOption = "--report-skips";
+namespace po = boost::program_options;
 
-std::string optionFor(const Parameter& parameter) {
-  std::string name = fmt::format("--{}", parameter.key);
+constexpr std::string_view kMethodKey = "method";
+constexpr unsigned kLineLength = 90;
+
+/// `time-step` for `time_step`
+std::string optionName(std::string_view key) {
+  std::string name(key);
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
 }
 
-bool isFlag(const Parameter& parameter) {
-  return std::holds_alternative<bool Scenario::*>(parameter.member);
+std::string helpFor(const Option& option) {
+  std::string help(option.meaning);
+  if (option.applies_to == AppliesTo::kFixedStep) help += "; fixed-step methods";
+  if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
+  if (option.isFlag()) return help;
+  const std::string value = option.text();
+  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,
+                     option.unit.empty() ? "" : " ", option.unit);
 }
 
-std::string placeholderFor(const Parameter& parameter) {
-  if (std::holds_alternative<double Scenario::*>(parameter.member)) return "X";
-  if (std::holds_alternative<std::int64_t Scenario::*>(parameter.member)) return "N";
-  return parameter.key == "output" ? "DIR" : "FILE";
+void addWithValue(po::options_description& description, const std::string& name,
+                  const std::string& placeholder, const std::string& help) {
+  description.add_options()(name.c_str(), po::value<std::string>()->value_name(placeholder),
+                            help.c_str());
 }
 
-std::string helpFor(const Parameter& parameter) {
-  if (parameter.key == kMethodKey) {
-    return fmt::format("{}: {}", parameter.meaning, knownMethodNames());
+/// All options but METHOD, for the parser and for the help text.
+po::options_description describe(const OptionSet& options) {
+  po::options_description description("Options", kLineLength, kLineLength / 2);
+  addWithValue(description, "config", "FILE",
+               "YAML file with these options, underscores for dashes; the command line wins");
+  for (const Option& option : options.options()) {
+    const std::string name = optionName(option.key);
+    if (option.key == kMethodKey) continue;
+    if (option.isFlag()) {
+      description.add_options()(name.c_str(), helpFor(option).c_str());
+    } else {
+      addWithValue(description, name, option.placeholder(), helpFor(option));
+    }
   }
-  std::string help(parameter.meaning);
-  if (parameter.applies_to == AppliesTo::kFixedStep) help += "; fixed-step methods";
-  if (parameter.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
-  if (isFlag(parameter)) return help;
-  return fmt::format("{} [{}{}{}]", help, formatValue(parameter, Scenario{}),
-                     parameter.unit.empty() ? "" : " ", parameter.unit);
+  description.add_options()("check",
+                            "validate the input, print the stability advice, write nothing")(
+      "report-skips", "print what the run leaves out because the scene does not need it")(
+      "list-methods", "describe the methods")("version", "show the version")("help,h",
+                                                                             "show this help");
+  return description;
+}
+
+std::string helpText(const ProgramText& program, const po::options_description& description) {
+  std::ostringstream options;
+  options << description;
+  return fmt::format(
+      "{}\n\nUsage: {} METHOD [options]\nExample: {} {}\n\nMethods: {}\n\n{}\n"
+      "Exit status: 0 done, 1 could not read or write, 2 wrong use or bad input,\n"
+      "3 the motion diverged, 128 + n stopped by signal n.\n",
+      program.purpose, program.name, program.name, program.example, knownMethodNames(),
+      options.str());
 }
 
 std::string listOfMethods() {
-  std::string list;
+  std::string lists[2] = {"Methods with a fixed step (--time-step, --steps-per-frame):\n",
+                          "\nError-controlled methods (--tolerance, --frame-interval):\n"};
   for (const Method& method : methodTable()) {
-    list += fmt::format("{:<20} order {}, {} stage{}, {}\n{:<20} {}\n", method.name, method.order,
-                        method.stages, method.stages == 1 ? "" : "s",
-                        method.control == StepControl::kFixed ? "fixed step" : "error-controlled",
-                        "", method.use);
+    lists[method.control == StepControl::kFixed ? 0 : 1] +=
+        fmt::format("  {:<20} order {}\n      {}\n", method.name, method.order, method.use);
   }
-  return list;
+  return lists[0] + lists[1];
 }
 
-/// A CLI11 application with an option for each parameter, and what was given to them.
-class Parser {
- public:
-  Parser() {
-    app_.allow_extras();
-    app_.option_defaults()->take_last();  // so that a script can be given options to overrule
-    app_.get_formatter()->column_width(30);
-    app_.set_help_flag("--help,-h", "show this help");
-    app_.set_version_flag("--version", "spring_pendulum " SPRING_PENDULUM_VERSION,
-                          "show the version");
-    app_.add_flag(kListMethodsOption, list_methods_, "list the methods");
-    app_.add_flag(kCheckOption, check_,
-                  "validate the input, print the stability advice, integrate nothing");
-    app_.add_flag(kReportSkipsOption, report_skips_, "print what the run leaves out as not needed");
-    app_.add_option(kConfigOption, config_, "YAML file with the same names; the command line wins")
-        ->type_name("FILE");
-    for (const Parameter& parameter : parameterTable()) addOption(parameter);
-  }
-
-  CommandLine parse(int argc, const char* const* argv) {
-    try {
-      app_.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-      return {{}, false, app_.help()};
-    } catch (const CLI::CallForVersion& version) {
-      return {{}, false, fmt::format("{}\n", version.what())};
-    } catch (const CLI::ParseError& error) {
-      throw InputError(fmt::format("{}, see --help", error.what()));
+/// \param arguments without the name of the program
+std::vector<po::option> split(const std::vector<std::string>& arguments,
+                              const po::options_description& description) {
+  namespace style = po::command_line_style;
+  try {
+    return po::command_line_parser(arguments)
+        .options(description)
+        .style(style::unix_style & ~style::allow_guessing)
+        .run()
+        .options;
+  } catch (const po::unknown_option& error) {
+    std::string known;
+    for (const auto& option : description.options()) {
+      known += fmt::format("{}--{}", known.empty() ? "" : ", ", option->long_name());
     }
-    if (list_methods_) return {{}, false, listOfMethods()};
-    refuseExtras();
-    return {scenario(), check_, "", report_skips_};
+    throw InputError(
+        fmt::format("unknown option '{}': known are {}", error.get_option_name(), known));
+  } catch (const po::error& error) {
+    throw InputError(fmt::format("{}, see --help", error.what()));
   }
+}
 
- private:
-  struct Given {
-    CLI::Option* option = nullptr;
-    std::string text;
-  };
+bool has(const std::vector<po::option>& given, std::string_view name) {
+  return std::any_of(given.begin(), given.end(),
+                     [&](const po::option& option) { return option.string_key == name; });
+}
 
-  void addOption(const Parameter& parameter) {
-    Given& given = given_[parameter.key];
-    const std::string name = optionFor(parameter);
-    const std::string help = helpFor(parameter);
-    if (parameter.key == kMethodKey) {
-      given.option = app_.add_option("METHOD", given.text, help)->type_name("");
-    } else if (isFlag(parameter)) {
-      given.option = app_.add_flag(name, given.text, help);
-    } else {
-      given.option = app_.add_option(name, given.text, help)->type_name(placeholderFor(parameter));
+/// \return the keys that were set
+std::vector<std::string_view> setOptions(const std::vector<po::option>& given, OptionSet& options) {
+  std::vector<std::string_view> keys;
+  bool has_method = false;
+  for (const po::option& argument : given) {
+    if (argument.string_key.empty()) {  // it stands for itself
+      const std::string& method = argument.value.front();
+      if (has_method) throw InputError(fmt::format("'{}': give only one METHOD", method));
+      has_method = true;
+      options.set(options.find(kMethodKey, ""), method, "METHOD");
+      continue;
+    }
+    for (const Option& option : options.options()) {
+      if (optionName(option.key) != argument.string_key) continue;
+      options.set(option, option.isFlag() ? "true" : argument.value.front(),
+                  "--" + argument.string_key);
+      keys.push_back(option.key);
     }
   }
+  return keys;
+}
 
-  void refuseExtras() const {
-    std::vector<std::string> extras = app_.remaining();
-    extras.erase(std::remove(extras.begin(), extras.end(), "--"), extras.end());
-    if (extras.empty()) return;
-    if (extras.front().substr(0, 1) != "-") {
-      throw InputError(
-          fmt::format("unexpected argument '{}': a METHOD and options are known, see "
-                      "--help",
-                      extras.front()));
-    }
-    std::string known = fmt::format("{}, {}, {}, {}, --help, --version", kConfigOption,
-                                    kListMethodsOption, kCheckOption, kReportSkipsOption);
-    for (const Parameter& parameter : parameterTable()) {
-      if (parameter.key != kMethodKey) known += ", " + optionFor(parameter);
-    }
-    throw InputError(fmt::format("unknown option '{}': known are {}", extras.front(), known));
+/// On the command line, unlike in a file, an option that has no effect is a mistake.
+void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& options,
+                  const Scenario& scenario) {
+  const std::vector<std::string_view> unused = unusedKeys(scenario, options);
+  for (const std::string_view key : keys) {
+    if (std::find(unused.begin(), unused.end(), key) == unused.end()) continue;
+    const bool fixed = findMethod(scenario.method).control == StepControl::kFixed;
+    throw InputError(fmt::format("--{}: {} {}", optionName(key), scenario.method,
+                                 fixed ? "takes fixed steps; use --time-step and --steps-per-frame"
+                                       : "chooses its own steps; use --tolerance and "
+                                         "--frame-interval"));
   }
+}
 
-  Scenario scenario() const {
-    ScenarioBuilder builder;
-    if (app_.count(kConfigOption) > 0) {
-      if (config_.empty()) throw InputError("--config: config is '': must be a file");
-      readScenarioFile(config_, builder);
-    }
-    for (const Parameter& parameter : parameterTable()) {
-      const Given& given = given_.at(parameter.key);
-      if (given.option->count() == 0) continue;
-      builder.set(parameter.key, given.text, given.option->get_name());
-    }
-    if (!builder.isGiven(kMethodKey)) {
-      throw InputError(fmt::format("METHOD is missing: known are {}", knownMethodNames()));
-    }
-    return builder.build();
+void readConfig(const std::vector<po::option>& given, OptionSet& options) {
+  std::string path;
+  for (const po::option& option : given) {
+    if (option.string_key == "config") path = option.value.front();
   }
-
-  CLI::App app_{
-      "Integrates the motion of a chain of particles and damped springs and writes its "
-      "frames.\nExit status: 0 done, 1 could not read or write, 2 wrong use or bad "
-      "input, 3 the motion diverged.",
-      "Exercise3"};
-  std::string config_;
-  bool list_methods_ = false;
-  bool check_ = false;
-  bool report_skips_ = false;
-  std::map<std::string_view, Given> given_;  ///< by key
-};
+  if (!path.empty()) return readOptionFile(path, options);
+  if (has(given, "config")) throw InputError("--config: must be a file, got ''");
+}
 
 }  // namespace
 
-CommandLine parseCommandLine(int argc, const char* const* argv) {
-  return Parser().parse(argc, argv);
+Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
+                          OptionSet& options, const Scenario& scenario) {
+  const po::options_description description = describe(options);
+  const std::vector<po::option> given =
+      split(std::vector<std::string>(argv + std::min(argc, 1), argv + argc), description);
+  if (has(given, "help")) return {false, false, helpText(program, description)};
+  if (has(given, "version")) return {false, false, "spring_pendulum " SPRING_PENDULUM_VERSION "\n"};
+  if (has(given, "list-methods")) return {false, false, listOfMethods()};
+  readConfig(given, options);
+  const std::vector<std::string_view> keys = setOptions(given, options);
+  if (!options.isGiven(kMethodKey)) {
+    throw InputError(fmt::format("METHOD is missing; try: {} {} (--help lists the options)",
+                                 program.name, program.example));
+  }
+  checkScenario(scenario, options);
+  refuseUnused(keys, options, scenario);
+  return {has(given, "check"), has(given, "report-skips"), ""};
 }
 
 }  // namespace spring_pendulum

@@ -1,9 +1,11 @@
 #include "model/numbers.hpp"
 
-#include <fast_float/fast_float.h>
-
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <locale.h>
+#include <string>
 #include <system_error>
 
 namespace spring_pendulum {
@@ -14,15 +16,54 @@ std::string_view withoutPlus(std::string_view text) {
   return sign_then_digit ? text.substr(1) : text;
 }
 
+/// Removes leading digits and returns how many there were.
+std::size_t skipDigits(std::string_view& text) {
+  const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
+  text.remove_prefix(end);
+  return end;
+}
+
+bool skipAny(std::string_view& text, std::string_view characters) {
+  if (text.empty() || characters.find(text.front()) == std::string_view::npos) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// Whether the text has the form that std::from_chars accepts for a finite number.
+bool isDecimal(std::string_view text) {
+  skipAny(text, "-");
+  std::size_t digits = skipDigits(text);
+  if (skipAny(text, ".")) digits += skipDigits(text);
+  if (digits == 0) return false;
+  if (!skipAny(text, "eE")) return text.empty();
+  skipAny(text, "+-");
+  return skipDigits(text) > 0 && text.empty();
+}
+
+std::optional<double> finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
-std::optional<double> parseNumber(std::string_view text) {
+std::optional<double> parseNumberPortably(std::string_view text) {
+  static const locale_t kClassic = newlocale(LC_ALL_MASK, "C", nullptr);
   text = withoutPlus(text);
+  if (!isDecimal(text)) return std::nullopt;
+  return finite(strtod_l(std::string(text).c_str(), nullptr, kClassic));
+}
+
+std::optional<double> parseNumber(std::string_view text) {
+#ifdef __cpp_lib_to_chars  // libstdc++ has std::from_chars for double since GCC 11
+  const std::string_view number = withoutPlus(text);
+  const char* end = number.data() + number.size();
   double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = fast_float::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto [rest, error] = std::from_chars(number.data(), end, value);
+  if (rest != end || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc()) return finite(value);
+    // Out of range does not tell whether the number is too large or rounds to 0.
+#endif
+  return parseNumberPortably(text);
 }
 
 std::optional<std::int64_t> parseInteger(std::string_view text) {

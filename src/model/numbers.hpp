@@ -7,11 +7,14 @@
 
 namespace spring_pendulum {
 
-/// The double nearest to a decimal text ("1", "-2.5e-3", "+4"); nothing if any of the text is left
-/// over, if it is no finite number, or if it is out of the range of a double.
+/// Returns the double nearest to a decimal text ("1", "-2.5e-3", "+4"), which is ±0 for "1e-400".
+/// Returns nothing if characters are left over, or the value is not finite.
 std::optional<double> parseNumber(std::string_view text);
 
-/// A decimal whole number; nothing if any of the text is left over or it does not fit.
+/// The same without std::from_chars, slower: for standard libraries that lack it.
+std::optional<double> parseNumberPortably(std::string_view text);
+
+/// Returns a decimal whole number, or nothing if characters are left over or it does not fit.
 std::optional<std::int64_t> parseInteger(std::string_view text);
 
 }  // namespace spring_pendulum

@@ -2,6 +2,7 @@
 
 #include "ros/marker_builder.hpp"
 #include "ros/publisher.hpp"
+#include "ros/run_files.hpp"
 #include "ros/stamps.hpp"
 #include "ros/state_builder.hpp"
 #include <spring_pendulum/model/errors.hpp>
@@ -89,9 +90,20 @@ std::string topicPrefix(const std::string& name_space) {
 
 }  // namespace
 
+std::vector<Option> bagOptions(BagOptions& o) {
+  return {
+      {"bag", Text{&o.path, "FILE", "a file"}, "", "the bag to write"},
+      {"namespace", Text{&o.name_space, "NAME", "a name", anyText}, "",
+       "put before the topics markers, state and status"},
+      {"append", Flag{&o.append}, "", "add to an existing bag, for example another method's run"},
+  };
+}
+
 BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to) {
-  PendulumRun run(scenario, readParticleFile(scenario.particles), options.track_energy,
+  PendulumRun run(scenario, readParticleFile(scenario.particles),
+                  options.track_energy || !scenario.energy.empty(),
                   options.display_rate > 0.0 ? 1.0 / options.display_rate : 0.0);
+  RunFiles files(scenario);
   BagSummary summary;
   try {
     summary.path = std::filesystem::absolute(to.path).lexically_normal().string();
@@ -99,10 +111,13 @@ BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const
     rosbag::Bag bag(written, to.append ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     BagRecorder recorder(bag, run, options, topicPrefix(to.name_space));
     recorder.write(run);
+    files.write(run);
     while (!run.isOver()) {
       run.advance(true);
       recorder.write(run);
+      files.write(run);
     }
+    files.finish();
     bag.close();
     if (!to.append) std::filesystem::rename(written, summary.path);
     summary.messages = recorder.messages();

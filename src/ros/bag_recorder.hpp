@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace spring_pendulum {
 
@@ -15,6 +16,9 @@ struct BagOptions {
   std::string name_space;  ///< put before the topics
   bool append = false;     ///< add to the bag instead of replacing it
 };
+
+/// Bound to `options`.
+std::vector<Option> bagOptions(BagOptions& options);
 
 struct BagSummary {
   std::int64_t frames = 0;

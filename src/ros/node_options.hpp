@@ -1,20 +1,22 @@
-// What the ROS side can be told besides the scenario: how the chain is shown, paced and published.
+// The options of the ROS side besides the scenario: how the chain is shown, paced and published.
 #pragma once
+
+#include "simulation/option.hpp"
 
 #include <cstdint>
 #include <string>
-#include <string_view>
-#include <variant>
 #include <vector>
 
 namespace spring_pendulum {
 
+enum class AtEnd { kHold, kExit, kLoop };
+
 /// The initialisers are the defaults; there is no second place for them.
 struct NodeOptions {
   std::string frame_id = "world";
-  double real_time_factor = 1.0;  ///< simulated seconds a second; 0: as fast as possible
-  double display_rate = 30.0;     ///< Hz, states shown a second; 0: frames only
-  std::string at_end = "hold";
+  double real_time_factor = 1.0;  ///< simulated seconds per second; 0: as fast as possible
+  double display_rate = 30.0;     ///< Hz, states shown per second; 0: frames only
+  AtEnd at_end = AtEnd::kHold;
   std::int64_t wait_for_subscribers = 0;
   double wait_timeout = 30.0;  ///< s; 0: for ever
   bool publish_clock = false;
@@ -27,29 +29,10 @@ struct NodeOptions {
   std::int64_t text_row = 0;           ///< the text stands so many rows above the first one
 };
 
-/// One option: `_display_rate` in ROS, `--display-rate` for record_bag.
-struct NodeOption {
-  using Member = std::variant<double NodeOptions::*, std::int64_t NodeOptions::*,
-                              bool NodeOptions::*, std::string NodeOptions::*>;
-  std::string_view key;
-  Member member;
-  std::string_view unit;                ///< empty if it has none
-  std::string_view range;               ///< in words
-  std::string_view meaning;             ///< one line
-  bool (*accepts)(const NodeOptions&);  ///< whether the value is in its range
-  bool for_bags = true;                 ///< whether it has a meaning for record_bag
-};
+/// How a chain is shown: options of the node and of record_bag. Bound to `options`.
+std::vector<Option> displayOptions(NodeOptions& options);
 
-/// All options, in the order in which they are listed to a user.
-const std::vector<NodeOption>& nodeOptionTable();
-
-/// The value of an option as text that `setNodeOption` reads back.
-std::string formatValue(const NodeOption& option, const NodeOptions& options);
-
-/// \param where put before an error message: "/pendulum_node"
-/// \return false if there is no option of this name
-/// \throws InputError naming key, value and allowed range
-bool setNodeOption(NodeOptions& options, std::string_view key, std::string_view text,
-                   std::string_view where);
+/// What has a meaning only while the node runs. Bound to `options`.
+std::vector<Option> playOptions(NodeOptions& options);
 
 }  // namespace spring_pendulum

@@ -1,33 +1,14 @@
 #include "ros/parameters.hpp"
 
+#include "simulation/scenario_options.hpp"
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/simulation/parameters.hpp>
 
 #include <fmt/format.h>
 
 #include <ros/param.h>
 #include <ros/this_node.h>
 
-#include <algorithm>
-
 namespace spring_pendulum {
-namespace {
-
-bool isScenarioKey(const std::string& key) {
-  const auto& table = parameterTable();
-  return std::any_of(table.begin(), table.end(),
-                     [&](const Parameter& parameter) { return parameter.key == key; });
-}
-
-std::string knownKeys() {
-  std::string keys;
-  for (const Parameter& parameter : parameterTable()) keys += fmt::format("{}, ", parameter.key);
-  for (const NodeOption& option : nodeOptionTable()) keys += fmt::format("{}, ", option.key);
-  return keys.substr(0, keys.size() - 2);
-}
-
-}  // namespace
-
 std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
                           const std::string& where) {
   using XmlRpc::XmlRpcValue;
@@ -41,30 +22,31 @@ std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
     case XmlRpcValue::TypeString:
       return static_cast<std::string>(value);
     default:
-      throw InputError(fmt::format("{}: {} is a list, a map or binary data: must be a single value",
-                                   where, key));
+      throw InputError(fmt::format(
+          "{}: {}: must be a single value, got a list, a map or binary data", where, key));
   }
 }
 
 NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where) {
   NodeConfiguration configuration;
-  ScenarioBuilder builder;
-  if (parameters.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    configuration.scenario = builder.build();
-    return configuration;
-  }
-  for (auto& [key, value] : parameters) {
-    const std::string text = parameterText(value, key, where);
-    if (key == "output" && text.empty()) {
-      builder.set("no_frames", "true", where);  // a launch file can't leave a parameter out
-    } else if (isScenarioKey(key)) {
-      builder.set(key, text, where);
-    } else if (!setNodeOption(configuration.options, key, text, where)) {
-      throw InputError(
-          fmt::format("{}: unknown parameter '{}': known are {}", where, key, knownKeys()));
+  OptionSet options(scenarioOptions(configuration.scenario));
+  options.add(displayOptions(configuration.options));
+  options.add(playOptions(configuration.options));
+  if (parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
+    for (auto& [key, value] : parameters) {
+      const std::string text = parameterText(value, key, where);
+      const std::string place = fmt::format("{}: {}", where, key);
+      if (key == "output" && text.empty()) {  // a launch file can't leave a parameter out
+        options.set(options.find("no_frames", where), "true", place);
+      } else {
+        options.set(options.find(key, where), text, place);
+      }
     }
   }
-  configuration.scenario = builder.build();
+  checkScenario(configuration.scenario, options);
+  for (const std::string_view key : unusedKeys(configuration.scenario, options)) {
+    configuration.unused.emplace_back(key);
+  }
   return configuration;
 }
 

@@ -6,17 +6,19 @@
 
 #include <XmlRpcValue.h>
 #include <string>
+#include <vector>
 
 namespace spring_pendulum {
 
 struct NodeConfiguration {
   Scenario scenario;
   NodeOptions options;
+  std::vector<std::string> unused;  ///< given keys that the method does not use
 };
 
-/// The raw value as the text that a user meant: 4, "4" and 4.0 are the same, so are true and
-/// "true". \param where put before an error message \throws InputError for a list, a map or
-/// anything else that is no single value
+/// Returns the raw value as text: 4, "4" and 4.0 are the same, and so are true and "true".
+/// \param where put before an error message
+/// \throws InputError for a list, a map or anything else that is not a single value
 std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
                           const std::string& where);
 

@@ -70,7 +70,8 @@ void PendulumRun::reset() {
 
 bool PendulumRun::isShown() const {
   if (judge_.latest().kind != VerdictKind::kDiverged) return true;
-  return scenario_.on_divergence == "continue" && std::isfinite(judge_.entry().energy.total());
+  return scenario_.on_divergence == OnDivergence::kContinue &&
+         std::isfinite(judge_.entry().energy.total());
 }
 
 void PendulumRun::judgeFrame() {

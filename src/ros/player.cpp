@@ -58,13 +58,14 @@ Player::Action Player::next() {
           paused_ || (options_.follow.empty() && pacer_.isLate(run_.nextTime(), now));
       return hurry ? Action::kAdvanceFrame : Action::kAdvance;
     }
-    if (run_.isOver() && options_.at_end == "exit") return Action::kQuit;
+    if (run_.isOver() && options_.at_end == AtEnd::kExit) return Action::kQuit;
     if (!run_.isOver() && !paused_) continue;
     if (stands_since_.isZero()) {
       stands_since_ = last_shown_ = now;
       return Action::kShowAgain;
     }
-    if (run_.isOver() && options_.at_end == "loop" && (now - stands_since_).toSec() >= kLoopPause) {
+    if (run_.isOver() && options_.at_end == AtEnd::kLoop &&
+        (now - stands_since_).toSec() >= kLoopPause) {
       return reset();
     }
     if ((now - last_shown_).toSec() < kShowAgainInterval) continue;
@@ -92,7 +93,7 @@ bool Player::isDue() const {
 void Player::serveUntilDue() {
   auto* callbacks = ros::getGlobalCallbackQueue();
   callbacks->callAvailable();
-  if (reset_wanted_ || isDue() || (run_.isOver() && options_.at_end == "exit")) return;
+  if (reset_wanted_ || isDue() || (run_.isOver() && options_.at_end == AtEnd::kExit)) return;
   double wait = kLongestWait;
   if (!run_.isOver() && !paused_ && options_.follow.empty()) {
     wait = std::min(wait, (pacer_.dueTime(run_.nextTime()) - ros::WallTime::now()).toSec());

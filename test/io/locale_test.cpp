@@ -1,4 +1,5 @@
 // Numbers have a point in files, also in a program that has switched to a decimal comma.
+#include "simulation/scenario_options.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
@@ -34,11 +35,11 @@ TEST_F(DecimalComma, DoesNotChangeWhatIsReadAndWritten) {
 }
 
 TEST_F(DecimalComma, DoesNotChangeParameters) {
-  ScenarioBuilder builder;
-  parseScenario("time_step: 0.125\nframes: 1000\n", "run.yaml", builder);
-  EXPECT_EQ(builder.build().time_step, 0.125);
-  EXPECT_EQ(formatValue(findParameter("time_step"), builder.build()), "0.125");
-  EXPECT_EQ(formatValue(findParameter("frames"), builder.build()), "1000");
+  Scenario scenario = parseScenario("time_step: 0.125\nframes: 1000\n", "run.yaml");
+  EXPECT_EQ(scenario.time_step, 0.125);
+  const OptionSet options(scenarioOptions(scenario));
+  EXPECT_EQ(options.find("time_step", "").text(), "0.125");
+  EXPECT_EQ(options.find("frames", "").text(), "1000");
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // config/pendulum.yaml shows every parameter with its default.
 #include "io/text_file.hpp"
 #include "model/numbers.hpp"
+#include "simulation/scenario_options.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
-#include <spring_pendulum/simulation/parameters.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +14,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace spring_pendulum {
 namespace {
@@ -20,7 +23,6 @@ constexpr const char* kFile = PROJECT_DIR "/config/pendulum.yaml";
 
 struct Entry {
   std::string text;
-  bool is_commented_out = false;
   std::string comment;  ///< the lines above it
 };
 
@@ -29,19 +31,17 @@ std::string unquoted(const std::string& text) {
   return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// By key, also those that stand commented out: `#tolerance: 1.0e-6`.
+/// By key.
 std::map<std::string, Entry> readEntries() {
   std::istringstream lines(readTextFile(kFile));
   std::map<std::string, Entry> entries;
   std::string comment;
   std::string line;
   std::smatch match;
-  const std::regex entry("(#?)([a-z_]+): (.*)");
+  const std::regex entry("([a-z_]+): (.*)");
   while (std::getline(lines, line)) {
     if (std::regex_match(line, match, entry)) {
-      const bool is_new =
-          entries.insert({match[2], {unquoted(match[3]), match[1] == "#", comment}}).second;
-      EXPECT_TRUE(is_new) << line;
+      EXPECT_TRUE(entries.insert({match[1], {unquoted(match[2]), comment}}).second) << line;
     }
     if (line.rfind("# ", 0) == 0) {
       comment += line;
@@ -52,40 +52,42 @@ std::map<std::string, Entry> readEntries() {
   return entries;
 }
 
-TEST(PendulumYaml, GivesEveryParameterItsDefault) {
+TEST(PendulumYaml, GivesEveryOptionItsDefault) {
   const std::map<std::string, Entry> entries = readEntries();
-  EXPECT_EQ(entries.size(), parameterTable().size());
-  for (const Parameter& parameter : parameterTable()) {
-    ASSERT_EQ(entries.count(std::string(parameter.key)), 1U) << parameter.key;
-    const Entry& entry = entries.at(std::string(parameter.key));
-    const std::string default_text = formatValue(parameter, Scenario{});
+  Scenario scenario;
+  const std::vector<Option> options = scenarioOptions(scenario);
+  EXPECT_EQ(entries.size(), options.size());
+  for (const Option& option : options) {
+    ASSERT_EQ(entries.count(std::string(option.key)), 1U) << option.key;
+    const Entry& entry = entries.at(std::string(option.key));
     // A number is read, for 1.0e-6 and 1e-06 are the same.
-    const std::optional<double> number = parseNumber(default_text);
-    EXPECT_EQ(parseNumber(entry.text), number) << parameter.key;
-    EXPECT_TRUE(number || entry.text == default_text) << parameter.key;
+    const std::optional<double> number = parseNumber(option.text());
+    EXPECT_EQ(parseNumber(entry.text), number) << option.key;
+    EXPECT_TRUE(number || entry.text == option.text()) << option.key;
   }
 }
 
-TEST(PendulumYaml, TellsTheUnitOfEveryParameter) {
+TEST(PendulumYaml, TellsTheUnitOfEveryOption) {
+  Scenario scenario;
+  const OptionSet options(scenarioOptions(scenario));
   for (const auto& [key, entry] : readEntries()) {
-    const std::string unit(findParameter(key).unit);
+    const std::string unit(options.find(key, kFile).unit);
     EXPECT_THAT(entry.comment, testing::HasSubstr(unit.empty() ? "." : ", " + unit)) << key;
   }
 }
 
-TEST(PendulumYaml, CommentsOutWhatTheDefaultMethodHasNoUseFor) {
-  for (const auto& [key, entry] : readEntries()) {
-    const bool is_of_no_use = findParameter(key).applies_to == AppliesTo::kErrorControlled;
-    EXPECT_EQ(entry.is_commented_out, is_of_no_use) << key;
-  }
-}
-
-TEST(PendulumYaml, IsAValidScenario) {
-  ScenarioBuilder builder;
-  readScenarioFile(kFile, builder);
-  const Scenario scenario = builder.build();
-  for (const Parameter& parameter : parameterTable()) {
-    EXPECT_EQ(formatValue(parameter, scenario), formatValue(parameter, Scenario{}));
+TEST(PendulumYaml, WorksWithEveryMethod) {
+  const std::string text = readTextFile(kFile);
+  for (const Method& method : methodTable()) {
+    const std::string line = fmt::format("\nmethod: {}\n", method.name);
+    const std::string with_method = std::regex_replace(text, std::regex("\nmethod: .*\n"), line);
+    Scenario scenario = parseScenario(with_method, kFile), expected;
+    expected.method = method.name;
+    const std::vector<Option> options = scenarioOptions(scenario);
+    const std::vector<Option> defaults = scenarioOptions(expected);
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      EXPECT_EQ(options[i].text(), defaults[i].text()) << options[i].key;
+    }
   }
 }
 

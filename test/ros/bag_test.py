@@ -102,8 +102,8 @@ class Bag(unittest.TestCase):
             self.assertEqual(contents(path, '/status')[-1][0].code, PendulumStatus.DIVERGED)
 
     def test_bad_use_leaves_no_file(self):
-        cases = [(('--color', 'red'), 2, "--color: color is 'red'"), (('--frames', '0'), 2, 'frames'),
-                 (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, '--trail needs a value'),
+        cases = [(('--color', 'red'), 2, "--color: must be #rrggbb"), (('--frames', '0'), 2, 'frames'),
+                 (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, "option '--trail' is missing"),
                  (('--bag', '/nowhere/x.bag'), 1, '/nowhere/x.bag')]
         for arguments, status, message in cases:
             with self.subTest(arguments=arguments), Folder() as folder:

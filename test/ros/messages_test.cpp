@@ -4,6 +4,7 @@
 #include "ros/marker_builder.hpp"
 #include "ros/parameters.hpp"
 #include "ros/state_builder.hpp"
+#include "simulation/option_set.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <gmock/gmock.h>
@@ -150,14 +151,14 @@ TEST(Parameters, RawValuesBecomeTheTextThatWasMeant) {
 }
 
 TEST(Parameters, EveryOptionReadsItsOwnDefault) {
-  const NodeOptions defaults;
-  for (const NodeOption& option : nodeOptionTable()) {
-    NodeOptions options;
-    EXPECT_TRUE(setNodeOption(options, option.key, formatValue(option, defaults), "test"));
-    EXPECT_EQ(formatValue(option, options), formatValue(option, defaults)) << option.key;
+  NodeOptions defaults;
+  OptionSet options(displayOptions(defaults));
+  options.add(playOptions(defaults));
+  for (const Option& option : options.options()) {
+    const std::string text = option.text();
+    option.assign(text);
+    EXPECT_EQ(option.text(), text) << option.key;
   }
-  NodeOptions options;
-  EXPECT_FALSE(setNodeOption(options, "nothing", "1", "test"));
 }
 
 TEST(Colors, OnlyHexIsRead) {

@@ -96,7 +96,7 @@ TEST(PendulumRun, EndsWhereTheMotionDiverges) {
   while (!run.isOver()) run.advance(false);
   EXPECT_FALSE(run.isShown());
   EXPECT_LT(run.frame(), 499);
-  scenario.on_divergence = "continue";
+  scenario.on_divergence = OnDivergence::kContinue;
   PendulumRun continued(scenario, particles, false, 0.0);
   while (!continued.isOver()) continued.advance(false);
   EXPECT_GT(continued.frame(), run.frame());

@@ -1,20 +1,21 @@
-// Parameters of a run from a YAML file: lines `key: value` with the keys of the parameter table.
+// A scenario from a YAML file: lines `key: value`, see config/pendulum.yaml.
 #pragma once
 
-#include <spring_pendulum/simulation/parameters.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
 #include <string_view>
 
 namespace spring_pendulum {
 
-/// Hands every key of the file to `builder`; keys that are absent leave it as it is.
+/// Keys that the file does not name keep their defaults. Keys that the method does not use, like
+/// `time_step` for an error-controlled method, are checked but have no effect.
 /// \throws FileError if the file can't be read
-/// \throws InputError naming file and line for what is no YAML, an unknown key or a wrong value
-void readScenarioFile(const std::string& path, ScenarioBuilder& builder);
+/// \throws InputError with file and line for invalid YAML, an unknown key or a wrong value
+Scenario readScenarioFile(const std::string& path);
 
 /// The same for text in memory.
 /// \param name what messages call the text
-void parseScenario(std::string_view text, std::string_view name, ScenarioBuilder& builder);
+Scenario parseScenario(std::string_view text, std::string_view name);
 
 }  // namespace spring_pendulum

@@ -8,13 +8,16 @@
 
 namespace spring_pendulum {
 
+/// What happens to a run that diverged. It never continues with numbers that are not finite.
+enum class OnDivergence { kStop, kContinue };
+
 struct Scenario {
   std::string method = "Runge-Kutta-4";
   std::string particles = "particle.txt";  ///< the particle file
   std::string output = ".";                ///< where frame files go
   bool no_frames = false;                  ///< write no frame files
   std::string energy;                      ///< where the energy ledger goes; empty: nowhere
-  std::string on_divergence = "stop";      ///< or "continue", as long as every number is finite
+  OnDivergence on_divergence = OnDivergence::kStop;
 
   std::int64_t frames = 500;
   std::int64_t steps_per_frame = 10;  ///< fixed-step methods

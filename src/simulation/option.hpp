@@ -1,0 +1,131 @@
+// One setting of a program. The same row serves the command line, YAML, ROS parameters, launch
+// arguments and the help text.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// The numbers that an option accepts. Checks a value and describes itself.
+class Range {
+ public:
+  /// Any finite number.
+  static Range any() { return {-kInfinity, false, kInfinity}; }
+  static Range above(double least) { return {least, false, kInfinity}; }
+  static Range atLeast(double least) { return {least, true, kInfinity}; }
+  static Range between(double least, double most) { return {least, true, most}; }
+
+  bool contains(double value) const;
+  /// "above 0", "of at least 1", "from 2 to 100", or "" for any number.
+  std::string text() const;
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Range(double least, bool least_allowed, double most)
+      : least_(least), least_allowed_(least_allowed), most_(most) {}
+
+  double least_;
+  bool least_allowed_;
+  double most_;
+};
+
+/// A variable that holds the value of an option, by its kind. Each kind offers
+///   assign(text)   stores the value; false, and nothing stored, if the text is out of range
+///   text()         the value as text that `assign` accepts
+///   range()        the accepted values in words
+///   placeholder()  what stands for the value in the help text; empty for a flag
+struct Number {
+  double* value;
+  Range accepted;
+
+  bool assign(std::string_view text) const;
+  std::string text() const;
+  std::string range() const;
+  std::string placeholder() const { return "X"; }
+};
+
+struct Count {
+  std::int64_t* value;
+  Range accepted;
+
+  bool assign(std::string_view text) const;
+  std::string text() const;
+  std::string range() const;
+  std::string placeholder() const { return "N"; }
+};
+
+struct Flag {
+  bool* value;
+
+  bool assign(std::string_view text) const;
+  std::string text() const { return *value ? "true" : "false"; }
+  std::string range() const { return "true or false"; }
+  std::string placeholder() const { return ""; }
+};
+
+struct Text {
+  std::string* value;
+  std::string_view name;      ///< of the value: "FILE"
+  std::string_view accepted;  ///< in words
+  bool (*accepts)(std::string_view) = [](std::string_view text) { return !text.empty(); };
+
+  bool assign(std::string_view text) const;
+  std::string text() const { return *value; }
+  std::string range() const { return std::string(accepted); }
+  std::string placeholder() const { return std::string(name); }
+};
+
+/// One of several words, which stand for the values 0, 1, ... of an enum.
+class Choice {
+ public:
+  template <typename Enum>
+  Choice(Enum* value, std::vector<std::string_view> words)
+      : words_(std::move(words)),
+        read_([value] { return static_cast<std::size_t>(*value); }),
+        store_([value](std::size_t index) { *value = static_cast<Enum>(index); }) {}
+
+  bool assign(std::string_view text) const;
+  std::string text() const { return std::string(words_.at(read_())); }
+  std::string range() const;
+  std::string placeholder() const;
+
+ private:
+  std::vector<std::string_view> words_;
+  std::function<std::size_t()> read_;
+  std::function<void(std::size_t)> store_;
+};
+
+/// Text that may be empty.
+inline bool anyText(std::string_view) {
+  return true;
+}
+
+/// The methods for which an option has a meaning.
+enum class AppliesTo { kAllMethods, kFixedStep, kErrorControlled };
+
+/// One option: `time_step` in YAML, `--time-step` on the command line, `_time_step` in ROS.
+struct Option {
+  std::string_view key;
+  std::variant<Number, Count, Flag, Text, Choice> value;
+  std::string_view unit;  ///< empty if it has none
+  std::string meaning;    ///< one line
+  AppliesTo applies_to = AppliesTo::kAllMethods;
+
+  /// \throws InputError without a place: "must be a number above 0 s, got '-1'"
+  void assign(std::string_view text) const;
+  std::string text() const;
+  /// The accepted values and their unit in words: "a number above 0 s".
+  std::string range() const;
+  std::string placeholder() const;
+  bool isFlag() const { return std::holds_alternative<Flag>(value); }
+  /// Whether YAML may put the value in quotes.
+  bool isText() const;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,73 @@
+// Numbers from text: both parsers give the same bits, and refuse the same texts.
+#include "model/numbers.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace spring_pendulum {
+namespace {
+
+bool sameBits(double a, double b) {
+  return std::memcmp(&a, &b, sizeof(double)) == 0;
+}
+
+TEST(Numbers, AreRoundedToTheNearestDouble) {
+  const std::pair<const char*, double> rows[] = {
+      {"1", 1.0},
+      {"+4", 4.0},
+      {"-2.5e-3", -2.5e-3},
+      {".5", 0.5},
+      {"5.", 5.0},
+      {"1E+2", 100.0},
+      {"-0", -0.0},
+      {"1e-400", 0.0},
+      {"-1e-400", -0.0},
+      {"4.9406564584124654e-324", std::numeric_limits<double>::denorm_min()},
+      {"1.7976931348623157e308", std::numeric_limits<double>::max()},
+      {"9007199254740993", 9007199254740992.0},  // halfway: to even
+      {"9007199254740993.00000000000000000000000000000000000000000000001", 9007199254740994.0}};
+  for (const auto& [text, value] : rows) {
+    ASSERT_TRUE(parseNumber(text)) << text;
+    EXPECT_TRUE(sameBits(*parseNumber(text), value)) << text;
+    ASSERT_TRUE(parseNumberPortably(text)) << text;
+    EXPECT_TRUE(sameBits(*parseNumberPortably(text), value)) << text;
+  }
+}
+
+TEST(Numbers, AreNothingElse) {
+  for (const char* text :
+       {"",    " ",    "1 ",       " 1",    "+",      "-",     "+-1", "-+1",   "++1",
+        ".",   "e5",   "1e",       "1e+",   "1x",     "0x10",  "0,5", "1e5.0", "nan",
+        "inf", "-inf", "infinity", "1e999", "-1e999", "1_000", "--1", "1e--5"}) {
+    EXPECT_FALSE(parseNumber(text)) << text;
+    EXPECT_FALSE(parseNumberPortably(text)) << text;
+  }
+}
+
+TEST(Numbers, AreTheSameWithBothParsers) {
+  std::mt19937_64 random(1);
+  int numbers = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const std::uint64_t bits = random();
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof(double));
+    std::string text = fmt::format("{}", value);
+    if (i % 2 == 1) text[random() % text.size()] = "0123456789.e+-"[random() % 14];  // may be wrong
+    const auto one = parseNumber(text), other = parseNumberPortably(text);
+    ASSERT_EQ(one.has_value(), other.has_value()) << text;
+    if (!one) continue;
+    ++numbers;
+    ASSERT_TRUE(sameBits(*one, *other)) << text;
+    EXPECT_TRUE(i % 2 == 1 || sameBits(*one, value)) << text;
+  }
+  EXPECT_GT(numbers, 80000);  // 94,000 or so
+}
+
+}  // namespace
+}  // namespace spring_pendulum
