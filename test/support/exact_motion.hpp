@@ -1,0 +1,43 @@
+// An oracle: the motion of any chain in extended precision, and how sensitive it is.
+//
+// Shares no code with the library. Two methods: Gragg-Bulirsch-Stoer extrapolation of order 20, and
+// where light particles make that too slow Radau IIA of order 9 with the tension of every spring as
+// an unknown, full Newton iterations and dense algebra. Work is bounded by counting, not by a
+// clock, so the same scenes are solved on every machine.
+//
+// Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
+// ed., Springer 1993, section II.9; E. Hairer, G. Wanner, Solving ODEs II, 1996, section IV.8.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "support/scene.hpp"
+
+namespace spring_pendulum::test {
+
+enum class OracleMethod { kExtrapolation, kRadau };
+
+struct ExactMotion {
+  std::vector<State> states;  ///< at the multiples of the interval, from the first on
+  /// Largest factor by which small random changes of the start positions grew.
+  double growth = 0.0;
+};
+
+/// Which method suits the scene.
+OracleMethod oracleMethodFor(const Scene& scene);
+
+/// States at `interval`, ..., `outputs` x `interval` s, each position within about 1e-12 m times
+/// the growth.
+/// \param budget roughly the processor time in s it may take
+/// \param perturbation m, by which every coordinate but those of P_1 is moved at random
+/// \returns nothing if the budget does not suffice
+std::optional<std::vector<State>> solveExactly(const Scene& scene, double interval, int outputs,
+                                               double budget, OracleMethod method,
+                                               double perturbation = 0.0);
+
+/// Solves the scene and a slightly changed one, with half the budget each.
+std::optional<ExactMotion> exactMotion(const Scene& scene, double interval, int outputs,
+                                       double budget);
+
+}  // namespace spring_pendulum::test

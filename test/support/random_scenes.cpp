@@ -1,0 +1,311 @@
+#include "support/random_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "support/scenes.hpp"
+
+namespace spring_pendulum::test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// The standard distributions differ from library to library; these do not.
+class Random {
+ public:
+  explicit Random(unsigned seed) : generator_(seed) {}
+
+  double uniform(double least, double most) {
+    return least + (most - least) * static_cast<double>(generator_()) / 4294967296.0;
+  }
+  double decades(double least, double most) { return std::pow(10.0, uniform(least, most)); }
+  Eigen::Index whole(Eigen::Index least, Eigen::Index most) {
+    return least + static_cast<Eigen::Index>(generator_() % (most - least + 1));
+  }
+  double pick(const std::vector<double>& values) { return values[generator_() % values.size()]; }
+
+ private:
+  std::mt19937 generator_;
+};
+
+/// What a family draws; the default is a chain of the exercise's kind.
+struct Draft {
+  Eigen::Index size() const { return masses.size(); }
+
+  State start;
+  Eigen::VectorXd masses;
+  SpringLaw spring;
+  double gravity = 9.81;
+};
+
+/// Springs of `least` to `most` m, each turned by up to `turn` rad against the one before.
+State walk(Random& random, Eigen::Index size, double least, double most, double turn) {
+  State state(size);
+  double angle = random.uniform(-kPi, kPi);
+  for (Eigen::Index i = 1; i < size; ++i) {
+    angle += random.uniform(-turn, turn);
+    const double length = random.uniform(least, most);
+    state.x()[i] = state.x()[i - 1] + length * std::cos(angle);
+    state.y()[i] = state.y()[i - 1] + length * std::sin(angle);
+  }
+  return state;
+}
+
+Draft chainOf(Random& random, Eigen::Index size, double turn = 1.2) {
+  Draft draft;
+  draft.start = walk(random, size, 0.9, 1.1, turn);
+  draft.masses = Eigen::VectorXd::Constant(size, random.pick({0.3, 1.0, 2.0}));
+  return draft;
+}
+
+Draft shortChain(Random& random, double turn = 1.2) {
+  return chainOf(random, random.whole(2, 12), turn);
+}
+
+struct Family {
+  std::string name;
+  std::function<Draft(Random&)> draw;
+};
+
+std::vector<Family> shapes() {
+  return {
+      {"equal", [](Random& r) { return shortChain(r); }},
+      {"two particles", [](Random& r) { return chainOf(r, 2); }},
+      {"long", [](Random& r) { return chainOf(r, r.whole(13, 60), 0.3); }},
+      {"folded",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         for (Eigen::Index i = 1; i < d.size(); ++i) {
+           d.start.x()[i] = (i % 2 == 0 ? 0.0 : 1.0) + r.uniform(-0.1, 0.1);
+           d.start.y()[i] = r.uniform(-0.1, 0.1);
+         }
+         return d;
+       }},
+      {"curled",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         const double radius = 1.0 / r.uniform(0.3, 1.5);
+         for (Eigen::Index i = 1; i < d.size(); ++i) {
+           const double angle = static_cast<double>(i) / radius;
+           d.start.x()[i] = radius * std::sin(angle) + r.uniform(-0.01, 0.01);
+           d.start.y()[i] = radius * (1.0 - std::cos(angle)) + r.uniform(-0.01, 0.01);
+         }
+         return d;
+       }},
+      {"compressed",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         const double length = r.uniform(0.2, 0.6);
+         d.start = walk(r, d.size(), 0.9 * length, 1.1 * length, 1.2);
+         return d;
+       }},
+      {"stretched",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         const double length = r.uniform(1.5, 3.0);
+         d.start = walk(r, d.size(), 0.9 * length, 1.1 * length, 1.2);
+         return d;
+       }},
+      {"mixed lengths",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         d.start = walk(r, d.size(), 0.1, 3.0, 1.2);
+         return d;
+       }},
+      {"vertical",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         for (Eigen::Index i = 1; i < d.size(); ++i) {
+           d.start.x()[i] = 0.0;
+           d.start.y()[i] = d.start.y()[i - 1] - r.uniform(0.5, 2.0);
+         }
+         return d;
+       }},
+      {"at rest",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         d.start = hangingAtRest(Chain(d.masses, d.spring, d.gravity));
+         for (Eigen::Index i = 1; i < d.size(); ++i) {
+           d.start.x()[i] += d.masses[0] > 1.0 ? 0.0 : r.uniform(-0.05, 0.05);
+         }
+         return d;
+       }},
+      {"standing",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         for (Eigen::Index i = 1; i < d.size(); ++i) {
+           d.start.x()[i] = d.start.x()[i - 1] + r.uniform(-0.2, 0.2);
+           d.start.y()[i] = d.start.y()[i - 1] + r.uniform(0.8, 1.1);
+         }
+         return d;
+       }},
+  };
+}
+
+std::vector<Family> springs() {
+  const auto with = [](const auto& change) {
+    return [change](Random& r) {
+      Draft d = shortChain(r);
+      change(r, d);
+      return d;
+    };
+  };
+  return {
+      {"undamped",
+       [](Random& r) {
+         Draft d = shortChain(r, 0.5);
+         d.spring.damping = 0.0;
+         return d;
+       }},
+      {"weakly damped", with([](Random& r, Draft& d) { d.spring.damping = r.decades(-4, -1); })},
+      {"overdamped", with([](Random& r, Draft& d) {
+         d.spring.damping = r.pick({20.0, 200.0});
+         d.masses.setConstant(0.1);
+       })},
+      {"stiff", with([](Random& r, Draft& d) {
+         d.spring.stiffness = r.decades(3, 6);
+         d.spring.damping = r.pick({1.0, 10.0, 100.0});
+       })},
+      {"very stiff",
+       [](Random& r) {
+         Draft d = chainOf(r, r.whole(2, 5));
+         d.start = walk(r, d.size(), 0.99999, 1.00001, 1.2);
+         d.spring.stiffness = r.decades(6, 9);
+         d.spring.damping = r.decades(2, 5);
+         return d;
+       }},
+      {"soft", with([](Random& r, Draft& d) { d.spring.stiffness = r.decades(-1, 1); })},
+      {"no rest length", with([](Random&, Draft& d) { d.spring.rest_length = 0.0; })},
+      {"weightless",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         d.gravity = 0.0;
+         d.start = walk(r, d.size(), 0.8, 1.4, 1.2);
+         return d;
+       }},
+      {"small springs",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         d.spring.rest_length = 0.02;
+         d.start = walk(r, d.size(), 0.018, 0.022, 1.2);
+         d.masses.setConstant(0.1);
+         return d;
+       }},
+      {"strong gravity", with([](Random& r, Draft& d) { d.gravity = r.decades(1.5, 3); })},
+  };
+}
+
+std::vector<Family> masses() {
+  return {
+      {"mixed masses",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         const double decades = r.pick({1.0, 2.0, 3.0});
+         for (double& mass : d.masses) mass = r.decades(-decades, 0);
+         return d;
+       }},
+      {"light tail",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         d.masses[d.size() - 1] = r.decades(-5, -2);
+         return d;
+       }},
+      {"very light tail",
+       [](Random& r) {
+         Draft d = chainOf(r, r.whole(2, 6));
+         d.masses[d.size() - 1] = r.decades(-9, -5);
+         return d;
+       }},
+      {"light middle",
+       [](Random& r) {
+         Draft d = chainOf(r, r.whole(3, 12));
+         d.masses[r.whole(1, d.size() - 2)] = r.decades(-5, -2);
+         return d;
+       }},
+      {"very light middle",
+       [](Random& r) {
+         Draft d = chainOf(r, r.whole(3, 6));
+         d.masses[r.whole(1, d.size() - 2)] = r.decades(-9, -5);
+         return d;
+       }},
+      {"one light",
+       [](Random& r) {
+         Draft d = chainOf(r, 2);
+         d.masses[1] = r.decades(-9, -3);
+         return d;
+       }},
+      {"all light",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         d.masses.setConstant(r.decades(-4, -1));
+         return d;
+       }},
+      {"heavy end",
+       [](Random& r) {
+         Draft d = shortChain(r);
+         d.spring.stiffness = 500.0;
+         d.masses[d.size() - 1] = r.pick({20.0, 50.0});
+         return d;
+       }},
+      {"undamped, light tail",
+       [](Random& r) {
+         Draft d = chainOf(r, r.whole(2, 6), 0.5);
+         d.spring.damping = 0.0;
+         d.masses[d.size() - 1] = r.decades(-5, -2);
+         return d;
+       }},
+  };
+}
+
+std::vector<Family> allFamilies() {
+  std::vector<Family> families = shapes();
+  for (const auto& more : {springs(), masses()}) {
+    families.insert(families.end(), more.begin(), more.end());
+  }
+  return families;
+}
+
+const std::vector<Family>& families() {
+  static const std::vector<Family> kFamilies = allFamilies();
+  return kFamilies;
+}
+
+}  // namespace
+
+const std::vector<std::string>& sceneFamilies() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const Family& family : families()) names.push_back(family.name);
+    return names;
+  }();
+  return kNames;
+}
+
+Scene randomScene(unsigned seed) {
+  const Family& family = families()[seed % families().size()];
+  Random random(seed);
+  const Draft draft = family.draw(random);
+  return {fmt::format("{} {}", family.name, seed), Chain(draft.masses, draft.spring, draft.gravity),
+          draft.start};
+}
+
+std::string particleText(const Scene& scene) {
+  std::string text;
+  for (Eigen::Index i = 0; i < scene.start.size(); ++i) {
+    text +=
+        fmt::format("{} {} {}\n", scene.start.x()[i], scene.start.y()[i], scene.chain.masses()[i]);
+  }
+  return text;
+}
+
+std::string sceneOptions(const Scene& scene) {
+  const SpringLaw& spring = scene.chain.spring();
+  return fmt::format("--stiffness {} --damping {} --rest-length {} --gravity {}", spring.stiffness,
+                     spring.damping, spring.rest_length, scene.chain.gravity());
+}
+
+}  // namespace spring_pendulum::test

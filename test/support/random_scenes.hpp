@@ -1,0 +1,24 @@
+// Random scenes by number: scene n is the same everywhere, and neighbours are of different
+// families.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "support/scene.hpp"
+
+namespace spring_pendulum::test {
+
+/// "equal", "light tail", ...
+const std::vector<std::string>& sceneFamilies();
+
+/// Scene `seed` belongs to family `seed` modulo their number; its name is "light tail 17".
+/// Particles: 2 to 12, in long families 13 to 60; light particles down to 1e-9 kg, stiffness up to
+/// 1e9 N/m.
+Scene randomScene(unsigned seed);
+
+/// The scene as a particle file, and the options of Exercise3 that complete it.
+std::string particleText(const Scene& scene);
+std::string sceneOptions(const Scene& scene);
+
+}  // namespace spring_pendulum::test
