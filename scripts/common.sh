@@ -3,6 +3,9 @@
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${SPRING_PENDULUM_BUILD:-$project/build}
 
+# devel_of FOLDER: the devel space of a build folder. rosrun does not look below PACKAGE/build.
+devel_of() { [ "$1" = "$project/build" ] && echo "$project/devel" || echo "$1/devel"; }
+
 # ROS's Python modules belong to the system's python3: another one before it on the PATH (pyenv,
 # conda) knows neither catkin_pkg nor rospy.
 export PATH=/usr/bin:$PATH
@@ -10,19 +13,39 @@ export PATH=/usr/bin:$PATH
 say() { printf '%s\n' "-- $*"; }
 die() { printf '%s\n' "$*" >&2; exit 1; }
 
-# configure FOLDER [CMake options]; says nothing unless it fails
+# configure FOLDER [CMake options]; prints nothing unless it fails
 configure() {
-  local folder=$1; shift
-  mkdir -p "$folder"
-  cmake -S "$project" -B "$folder" -G Ninja -DCATKIN_DEVEL_PREFIX="$folder/devel" "$@" \
+  mkdir -p "$1"
+  local folder devel
+  folder=$(cd "$1" && pwd); shift
+  devel=$(devel_of "$folder")
+  [ "$devel" = "$folder/devel" ] || rm -rf "$folder/devel"  # of an older layout
+  cmake -S "$project" -B "$folder" -G Ninja -DCATKIN_DEVEL_PREFIX="$devel" \
+    -DSPRING_PENDULUM_TESTS=ON "$@" \
     > "$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; return 1; }
 }
 
-# compile FOLDER [targets]
+# compile FOLDER [targets]; shows progress, the compiler's output only if it fails
 compile() {
   local folder=$1; shift
-  ninja -C "$folder" "$@" > "$folder/compile.log" 2>&1 ||
+  NINJA_STATUS='[%p] ' ninja -C "$folder" "$@" 2>&1 | tee "$folder/compile.log" | show_progress ||
     { grep -v '^\[' "$folder/compile.log" >&2; return 1; }
+}
+
+# Shows the percentages of ninja's output: on a terminal all of them in one line, else every tenth.
+show_progress() {
+  local line percent shown=0
+  while IFS= read -r line; do
+    [[ $line =~ ^\[\ *([0-9]+)%\] ]] || continue
+    percent=${BASH_REMATCH[1]}
+    if [ -t 1 ]; then
+      printf '\r-- built %s %%' "$percent"
+    elif [ "$percent" -ge $((shown + 10)) ]; then
+      shown=$((percent / 10 * 10))
+      say "built $shown %"
+    fi
+  done
+  if [ -t 1 ]; then printf '\r\033[K'; fi
 }
 
 have_ros() { [ -x /usr/bin/catkin_make ] && [ -x /usr/bin/roslaunch ]; }
@@ -30,7 +53,7 @@ have_ros() { [ -x /usr/bin/catkin_make ] && [ -x /usr/bin/roslaunch ]; }
 # program NAME: where the build put it (catkin has its own folder for executables).
 program() {
   local folder
-  for folder in "$build/devel/lib/spring_pendulum" "$build"; do
+  for folder in "$(devel_of "$build")/lib/spring_pendulum" "$build"; do
     [ -x "$folder/$1" ] && { echo "$folder/$1"; return; }
   done
   die "the build made no $1"

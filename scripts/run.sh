@@ -1,24 +1,46 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and lets the pendulum swing: frames, a moving picture and, with
-# ROS, a bag; with a display, rviz on the running node.
+# Installs what is missing, builds, and runs a pendulum: frame files, a moving picture and, with ROS,
+# a bag. With a display, opens rviz on the running node.
 # Usage: scripts/run.sh [METHOD] [options of Exercise3]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-output=$project/output
-particles=$project/data/particle.txt
 method=Runge-Kutta-4
 if [ $# -gt 0 ] && [[ $1 != -* ]]; then method=$1; shift; fi
+
+# Options given here override these, also for the bag and the node.
+particles=$project/data/particle.txt
+output=$project/output
+options=()
+answers=false
+while [ $# -gt 0 ]; do
+  option=$1; shift
+  case $option in
+    --check | --help | -h | --version | --list-methods | --no-frames) answers=true ;;
+    --report-skips) ;;
+    --*=*) set -- "${option%%=*}" "${option#*=}" "$@"; continue ;;
+    --*)
+      [ $# -gt 0 ] || die "$option needs a value, see --help"
+      value=$1; shift
+      case $option in
+        --output) output=$(realpath -m "$value"); continue ;;
+        --particles) particles=$(realpath -m "$value"); continue ;;
+        --config | --energy) value=$(realpath -m "$value") ;;
+      esac
+      options+=("$option" "$value")
+      continue ;;
+    *) die "unexpected '$option': scripts/run.sh [METHOD] [options of Exercise3]" ;;
+  esac
+  options+=("$option")
+done
 
 "$project/scripts/setup.sh" core ros
 say "building into $build"
 configure "$build"
 compile "$build" Exercise3 $(have_ros && echo pendulum_node record_bag)
 
-simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "$@")
-for option in "$@"; do
-  case $option in --check | --help | --version | --list-methods | --no-frames) exec "${simulate[@]}" ;; esac
-done
+simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "${options[@]}")
+if $answers; then exec "${simulate[@]}"; fi
 "${simulate[@]}"
 say "frames: $output/frame_0000.txt and so on"
 
@@ -26,15 +48,27 @@ say "frames: $output/frame_0000.txt and so on"
 say "moving picture: $output/pendulum.gif"
 have_ros || { say "this machine has no ROS 1: no bag, no rviz"; exit 0; }
 
-"$(program record_bag)" "$method" --particles "$particles" --bag "$output/pendulum.bag" "$@"
+"$(program record_bag)" "$method" --particles "$particles" --bag "$output/pendulum.bag" "${options[@]}"
 say "bag: $output/pendulum.bag"
 
-launch="roslaunch spring_pendulum pendulum.launch method:=$method"
+# The same run for the node: `--time-step 0.01` is `time_step:=0.01` there.
+arguments=("method:=$method" "particles:=$particles" "output:=$output/node")
+for ((i = 0; i < ${#options[@]}; i++)); do
+  [ "${options[i]}" = --report-skips ] && continue
+  key=${options[i]#--}
+  i=$((i + 1))
+  arguments+=("${key//-/_}:=${options[i]}")
+done
+setup=$(devel_of "$build")/setup.bash
 if [ -n "${DISPLAY:-}" ]; then
   "$project/scripts/setup.sh" rviz
   set +u
-  source "$build/devel/setup.bash"
-  exec $launch output:="$output/node"
+  source "$setup"
+  exec roslaunch spring_pendulum pendulum.launch "${arguments[@]}"
 fi
 say "to see it move in rviz, on a machine with a display:"
-say "  source $build/devel/setup.bash && $launch"
+printf '  source %q\n' "$setup"
+printf '  roslaunch spring_pendulum pendulum.launch'; printf ' %q' "${arguments[@]}"; printf '\n'
+say "the node alone (needs a running roscore):"
+printf '  source %q\n' "$setup"
+printf '  rosrun spring_pendulum pendulum_node'; printf ' %q' "${arguments[@]/#/_}"; printf '\n'
