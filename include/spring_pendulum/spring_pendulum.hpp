@@ -15,6 +15,7 @@
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/energy_ledger.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>

@@ -30,6 +30,11 @@ void ErrorControlled::takeStep() {
 }
 
 void ErrorControlled::advance(State& state, double time_step, std::int64_t steps) {
+  advanceWithin(state, time_step, steps, std::numeric_limits<std::int64_t>::max());
+}
+
+bool ErrorControlled::advanceWithin(State& state, double time_step, std::int64_t steps,
+                                    std::int64_t most_evaluations) {
   if (!started_) {
     stepper_->start(state);
     started_ = true;
@@ -42,19 +47,23 @@ void ErrorControlled::advance(State& state, double time_step, std::int64_t steps
     outputs_ = 0;
   }
   output_step_ = time_step;
-  if (steps == 0) return;
+  if (steps == 0) return true;
   outputs_ += steps;
   const double output_time = output_origin_ + static_cast<double>(outputs_) * time_step;
-  while (!diverged_ && step_end_ < output_time) takeStep();
+  while (!diverged_ && step_end_ < output_time) {
+    if (forceEvaluations() >= most_evaluations) return false;
+    takeStep();
+  }
   if (diverged_) {
     state.values()
         .bottomRows(state.size() - 1)
         .setConstant(std::numeric_limits<double>::quiet_NaN());
-    return;
+    return true;
   }
   const double fraction = std::min((output_time - step_begin_) / step_length_, 1.0);
   stepper_->interpolate(fraction, state);
   heat_in_step_ = stepper_->dissipated(fraction);
+  return true;
 }
 
 }  // namespace spring_pendulum

@@ -24,6 +24,12 @@ class ErrorControlled final : public Integrator {
   /// If the motion diverges, all numbers of `state` but the first particle's position are NaN from
   /// the first output time on that can't be reached.
   void advance(State& state, double time_step, std::int64_t steps) override;
+
+  /// As `advance`, but gives up before a step once `most_evaluations` of F have been spent since the
+  /// integrator was made. \returns whether the output time was reached; if not, `state` is as it was
+  /// and only `restart` may be called.
+  bool advanceWithin(State& state, double time_step, std::int64_t steps,
+                     std::int64_t most_evaluations);
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
   double dissipatedEnergy() const override { return heat_before_step_ + heat_in_step_; }
   void restart() override;

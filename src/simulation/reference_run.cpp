@@ -1,0 +1,179 @@
+#include "integration/error_control/error_controlled.hpp"
+#include "model/chain_modes.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+/// Tolerances of the reference: m, and in parts of the chain's length for very short chains.
+constexpr double kTolerance = 1e-10;
+constexpr double kRelativeTolerance = 1e-9;
+/// Tolerance of the reference in parts of the run's.
+constexpr double kToleranceShare = 0.01;
+/// Tolerance of the other runs, and the change of the third one's start, in tolerances of the first.
+constexpr double kOtherTolerance = 100.0;
+constexpr double kChange = 1000.0;
+/// Rounding limits what can be resolved, in parts of the largest coordinate.
+constexpr double kRounding = 1e-14;
+
+/// Work in force evaluations per particle that is always allowed: some 0.2 s. A chain costs as if
+/// it had `kOverhead` more particles.
+constexpr double kFreeWork = 2.5e7;
+constexpr double kOverhead = 4.0;
+/// Longer chains would take too much memory to be measured unasked.
+constexpr Eigen::Index kMostParticles = 100'000;
+
+/// Damping rates in 1/s from which on stability may limit the steps, and from which on only the
+/// stabilised series are trusted.
+constexpr double kFastRate = 100.0;
+constexpr double kStiffRate = 1e4;
+
+double largestDistance(const State& a, const State& b) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    const double dx = a.x()[i] - b.x()[i];
+    const double dy = a.y()[i] - b.y()[i];
+    const double square = dx * dx + dy * dy;
+    largest = std::max(largest, square);
+    if (std::isnan(square)) return square;
+  }
+  return std::sqrt(largest);
+}
+
+/// Two methods: where stability limits the steps, one method at two tolerances takes the same ones.
+std::pair<std::string_view, std::string_view> referenceMethods(const Chain& chain) {
+  const double rate = chain.spring().damping * largestSpringMode(chain);
+  if (rate < kFastRate) return {"Auto", "Auto"};
+  if (rate < kStiffRate) return {"Auto", "Stabilized-Taylor-8"};
+  return {"Stabilized-Taylor-8", "Stabilized-Taylor-4"};
+}
+
+/// The state with all distances from the first particle scaled so that none changes by more than
+/// `change` m.
+State stretched(const State& state, double change) {
+  State changed = state;
+  const auto anchor = state.positions().row(0);
+  const double reach = (state.positions().rowwise() - anchor).rowwise().norm().maxCoeff();
+  changed.positions() += (change / reach) * (state.positions().rowwise() - anchor);
+  return changed;
+}
+
+}  // namespace
+
+double chainLength(const Chain& chain, const State& start) {
+  double length = 0.0;
+  for (Eigen::Index i = 1; i < start.size(); ++i) {
+    const double dx = start.x()[i] - start.x()[i - 1];
+    const double dy = start.y()[i] - start.y()[i - 1];
+    length += std::sqrt(dx * dx + dy * dy);
+  }
+  const auto springs = static_cast<double>(std::max<Eigen::Index>(start.size() - 1, 0));
+  return std::max(springs * chain.spring().rest_length, 0.1 * length);
+}
+
+struct ReferenceRun::Trajectory {
+  Trajectory(std::string_view method, const Chain& chain, const State& start, double tolerance)
+      : integrator(makeIntegrator(method, chain, {tolerance, false, 1})), state(start) {}
+
+  ErrorControlled& controlled() { return dynamic_cast<ErrorControlled&>(*integrator); }
+
+  std::unique_ptr<Integrator> integrator;
+  State state;
+};
+
+ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
+    : chain_(chain),
+      start_(start),
+      always_(options.always),
+      measures_growth_(std::isfinite(options.run_tolerance)),
+      believed_(kBelieved * chainLength(chain, start)) {
+  const double extent = start.size() > 0 ? start.positions().cwiseAbs().maxCoeff() : 0.0;
+  const double length = chainLength(chain, start);
+  rounding_ = kRounding * std::max(extent, length);
+  tolerance_ =
+      std::min({kTolerance, kRelativeTolerance * length, kToleranceShare * options.run_tolerance});
+  tolerance_ = std::max(tolerance_, rounding_);
+  restart();
+}
+
+ReferenceRun::~ReferenceRun() = default;
+ReferenceRun::ReferenceRun(ReferenceRun&&) noexcept = default;
+ReferenceRun& ReferenceRun::operator=(ReferenceRun&&) noexcept = default;
+
+void ReferenceRun::restart() {
+  trajectories_.clear();
+  state_ = start_;
+  uncertainty_ = rounding_;
+  growth_ = measures_growth_ ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+  status_ = Status::kMeasuring;
+  if (start_.size() > kMostParticles && !always_) stop(Status::kCostTooMuch);
+}
+
+void ReferenceRun::makeTrajectories() {
+  const auto [first, second] = referenceMethods(chain_);
+  const double other_tolerance = kOtherTolerance * tolerance_;
+  trajectories_.emplace_back(first, chain_, start_, tolerance_);
+  trajectories_.emplace_back(second, chain_, start_, other_tolerance);
+  if (!measures_growth_) return;
+  trajectories_.emplace_back(second, chain_, stretched(start_, kChange * tolerance_),
+                             other_tolerance);
+}
+
+void ReferenceRun::advance(double time_step, std::int64_t steps, std::int64_t run_evaluations) {
+  if (!isMeasuring() || start_.size() < 2) return;
+  if (trajectories_.empty()) makeTrajectories();
+  std::int64_t left = allowedEvaluations(run_evaluations);
+  for (const Trajectory& trajectory : trajectories_) {
+    left -= trajectory.integrator->forceEvaluations();
+  }
+  for (Trajectory& trajectory : trajectories_) {
+    const std::int64_t before = trajectory.integrator->forceEvaluations();
+    if (!trajectory.controlled().advanceWithin(trajectory.state, time_step, steps, before + left)) {
+      stop(Status::kCostTooMuch);
+      return;
+    }
+    left -= trajectory.integrator->forceEvaluations() - before;
+  }
+  compare();
+}
+
+void ReferenceRun::compare() {
+  const State& reference = trajectories_.front().state;
+  uncertainty_ = largestDistance(reference, trajectories_[1].state) + rounding_;
+  if (measures_growth_) {
+    const double change = largestDistance(reference, trajectories_[2].state);
+    growth_ = std::max(growth_, change / (kChange * tolerance_));
+  }
+  if (uncertainty_ <= believed_) {
+    state_ = reference;
+  } else {
+    stop(std::isfinite(uncertainty_) ? Status::kSensitive : Status::kFailed);
+  }
+}
+
+double ReferenceRun::errorOf(const State& state) const {
+  if (!isMeasuring()) return std::numeric_limits<double>::quiet_NaN();
+  return largestDistance(state, state_);
+}
+
+void ReferenceRun::stop(Status status) {
+  status_ = status;
+  uncertainty_ = std::numeric_limits<double>::quiet_NaN();
+  trajectories_.clear();
+}
+
+std::int64_t ReferenceRun::allowedEvaluations(std::int64_t run_evaluations) const {
+  if (always_) return std::numeric_limits<std::int64_t>::max() / 2;
+  const double free = kFreeWork / (static_cast<double>(chain_.size()) + kOverhead);
+  return std::max(static_cast<std::int64_t>(free), run_evaluations);
+}
+
+}  // namespace spring_pendulum

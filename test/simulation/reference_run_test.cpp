@@ -1,0 +1,142 @@
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/reference.hpp"
+#include "support/scenes.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+struct KnownMotion {
+  std::string scene;
+  std::vector<int> times;  ///< s, with a solution in test/data/reference
+};
+
+const std::vector<KnownMotion> kKnownMotions{
+    {"single_vertical", {1, 2, 5, 10, 20, 50}},
+    {"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
+    {"horizontal_11", {1, 2, 5, 10, 20, 50}},
+    {"horizontal_1000", {1, 2}},
+    {"light_100", {1, 5}},
+    {"lighter_100", {1, 5}},
+    {"alternating_50", {1, 5}},
+    {"feather_50", {1, 5}},
+};
+
+double largestDistance(const State& a, const State& b) {
+  return (a.positions() - b.positions()).rowwise().norm().maxCoeff();
+}
+
+class ReferenceRunOn : public testing::TestWithParam<KnownMotion> {};
+
+std::string sceneName(const testing::TestParamInfo<KnownMotion>& motion) {
+  return motion.param.scene;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceRunOn, testing::ValuesIn(kKnownMotions), sceneName);
+
+// Measured: the true error is 0.007 (two_masses_45deg, 2 s) to 0.12 (feather_50, 5 s) of the bound,
+// which is 1e-8 m at most (feather_50, 5 s).
+TEST_P(ReferenceRunOn, StaysWithinItsUncertainty) {
+  const test::Scene scene = test::referenceScene(GetParam().scene);
+  ReferenceRun reference(scene.chain, scene.start, {1e-6, true});
+  int reached = 0;
+  for (const int time : GetParam().times) {
+    reference.advance(0.1, 10L * (time - reached), 0);
+    reached = time;
+    const State exact = test::referenceSolution(GetParam().scene, time);
+    EXPECT_LE(largestDistance(reference.state(), exact), reference.uncertainty()) << time << " s";
+    EXPECT_LE(reference.uncertainty(), 5e-8) << time << " s";
+  }
+}
+
+TEST(ReferenceRun, MeasuresTheLargestDistanceOfAParticle) {
+  const test::Scene scene = test::horizontalChain("3 particles", 3, 1.0);
+  ReferenceRun reference(scene.chain, scene.start);
+  reference.advance(0.1, 5, 0);
+  State state = reference.state();
+  EXPECT_EQ(reference.errorOf(state), 0.0);
+  state.x()[1] += 3e-3;
+  state.y()[1] += 4e-3;
+  EXPECT_NEAR(reference.errorOf(state), 5e-3, 1e-15);
+  state.y()[2] = std::nan("");
+  EXPECT_TRUE(std::isnan(reference.errorOf(state)));
+}
+
+TEST(ReferenceRun, HasTheSameBitsHoweverItIsSampledAndAfterARestart) {
+  const test::Scene scene = test::horizontalChain("11 particles", 11, 1.0);
+  ReferenceRun seldom(scene.chain, scene.start), often(scene.chain, scene.start);
+  seldom.advance(0.1, 20, 0);
+  for (int n = 0; n < 20; ++n) often.advance(0.1, 1, 0);
+  EXPECT_EQ(seldom.state().values(), often.state().values());
+  often.restart();
+  EXPECT_EQ(often.state().values(), scene.start.values());
+  often.advance(0.1, 20, 0);
+  EXPECT_EQ(seldom.state().values(), often.state().values());
+}
+
+// A chain of 50 particles of 1e-6 kg takes 780 ms for 5 s.
+TEST(ReferenceRun, StopsWhereItWouldCostTooMuch) {
+  const test::Scene scene = test::horizontalChain("feather", 50, 1e-6);
+  ReferenceRun reference(scene.chain, scene.start);
+  while (reference.isMeasuring()) reference.advance(0.01, 1, 0);
+  EXPECT_EQ(reference.status(), ReferenceRun::Status::kCostTooMuch);
+  EXPECT_TRUE(std::isnan(reference.errorOf(scene.start)));
+  EXPECT_TRUE(std::isnan(reference.uncertainty()));
+}
+
+TEST(ReferenceRun, MayCostAsMuchAsTheRun) {
+  const test::Scene scene = test::horizontalChain("feather", 50, 1e-6);
+  ReferenceRun beside_long(scene.chain, scene.start), beside_short(scene.chain, scene.start);
+  while (beside_short.isMeasuring()) {
+    beside_short.advance(0.01, 1, 0);
+    beside_long.advance(0.01, 1, 10'000'000);
+  }
+  EXPECT_TRUE(beside_long.isMeasuring());
+}
+
+// Measured: 1941 times in 50 s, weakly chaotic.
+TEST(ReferenceRun, TellsHowMuchSmallChangesGrow) {
+  const test::Scene scene = test::referenceScene("horizontal_11");
+  ReferenceRun reference(scene.chain, scene.start, {1e-6, true});
+  EXPECT_EQ(reference.growth(), 1.0);
+  reference.advance(0.1, 500, 0);
+  EXPECT_NEAR(reference.growth(), 1941.0, 50.0);
+  EXPECT_TRUE(std::isnan(ReferenceRun(scene.chain, scene.start).growth()));
+}
+
+TEST(ReferenceRun, LeavesOutVeryLongChainsUnlessItIsAskedFor) {
+  const test::Scene scene = test::horizontalChain("long", 100'001, 1.0);
+  EXPECT_EQ(ReferenceRun(scene.chain, scene.start).status(), ReferenceRun::Status::kCostTooMuch);
+  ReferenceOptions always;
+  always.always = true;
+  EXPECT_TRUE(ReferenceRun(scene.chain, scene.start, always).isMeasuring());
+}
+
+// An undamped chain of 10 links let go from the horizontal: chaotic, the two part at 11.7 s.
+TEST(ReferenceRun, TellsFromWhenOnAMotionIsTooSensitive) {
+  const test::Scene scene = test::horizontalChain("undamped", 11, 1.0, {500.0, 0.0, 1.0});
+  ReferenceRun reference(scene.chain, scene.start);
+  int frames = 0;
+  for (; reference.isMeasuring() && frames < 500; ++frames) reference.advance(0.1, 1, 0);
+  EXPECT_NEAR(frames, 117, 5);
+  EXPECT_EQ(reference.status(), ReferenceRun::Status::kSensitive);
+}
+
+TEST(ChainLength, IsTheSumOfRestLengthsOrATenthOfTheStart) {
+  const test::Scene line = test::horizontalChain("line", 11, 1.0);
+  EXPECT_DOUBLE_EQ(chainLength(line.chain, line.start), 10.0);
+  const test::Scene loose = test::horizontalChain("loose", 11, 1.0, {50.0, 1.0, 0.0});
+  EXPECT_DOUBLE_EQ(chainLength(loose.chain, loose.start), 1.0);
+  const test::Scene anchor{"anchor", Chain(Eigen::VectorXd::Ones(1), {}, 9.81), State(1)};
+  EXPECT_EQ(chainLength(anchor.chain, anchor.start), 0.0);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
