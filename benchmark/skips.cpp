@@ -99,7 +99,7 @@ Pair timeEngineSkip(const std::string& name, const Chain& chain, bool EngineOpti
   return {name, timings[0], timings[1], forcesOf(with)};
 }
 
-/// No energy wanted: no dissipated power integrated along, no ledger balanced.
+/// No energy wanted: no dissipated power integrated along, no balance computed.
 Pair timeEnergySkip(Eigen::Index size, int rounds) {
   const Chain chain = uniformChain(size, 1.0, 9.81);
   const auto integrator = [&](bool track) {
@@ -122,7 +122,7 @@ Pair timeEnergySkip(Eigen::Index size, int rounds) {
       timeInTurns({{"with", [&] { with.reset(); }, [&] { run(with, plain); }},
                    {"without", [&] { without.reset(); }, [&] { run(without, balanced); }}},
                   rounds, Time::kAlone);
-  return {"no energy ledger", timings[0], timings[1], forcesOf(with)};
+  return {"no energy balance", timings[0], timings[1], forcesOf(with)};
 }
 
 /// No frame files wanted.

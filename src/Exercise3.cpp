@@ -115,18 +115,18 @@ void reportSkips(const Scenario& scenario, const Integrator& integrator) {
 int run(const Scenario& scenario, const Switches& switches) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
-  const bool wants_ledger = !scenario.energy.empty();
+  const bool wants_energy = !scenario.energy.empty();
   SleepingIntegrator integrator(
-      makeIntegrator(scenario.method, chain, integratorOptions(scenario, wants_ledger)), chain,
+      makeIntegrator(scenario.method, chain, integratorOptions(scenario, wants_energy)), chain,
       scenario.sleep);
   if (switches.report_skips) reportSkips(scenario, integrator);
-  Judge judge(chain, particles.state, wants_ledger);
+  Judge judge(chain, particles.state, wants_energy);
   if (switches.check) {
     fmt::print("{}", describeStability(chain, particles.state, scenario));
     return kDone;
   }
   std::optional<EnergyFile> energy;
-  if (wants_ledger) energy.emplace(scenario.energy);
+  if (wants_energy) energy.emplace(scenario.energy);
   std::optional<BackgroundFrameWriter> writer;
   if (!scenario.no_frames) writer.emplace(scenario.output, scenario.frames);
 

@@ -48,7 +48,7 @@ Totals play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& fi
 
 std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                         const Publisher& publisher) {
-  const LedgerEntry entry = run.ledgerEntry();
+  const EnergyEntry entry = run.energyEntry();
   const bool fixed_step = findMethod(run.scenario().method).control == StepControl::kFixed;
   return fmt::format(
       "{}: {} particles, {} frames, {}{} force evaluations, {:.3f} s integrating, {:.3f} s "

@@ -13,7 +13,7 @@
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>
-#include <spring_pendulum/simulation/energy_ledger.hpp>
+#include <spring_pendulum/simulation/energy_balance.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>

@@ -42,7 +42,7 @@ EnergyFile::~EnergyFile() {
   if (file_.isOpen()) ::unlink(unfinished_path_.c_str());
 }
 
-void EnergyFile::write(std::int64_t frame, const LedgerEntry& entry) {
+void EnergyFile::write(std::int64_t frame, const EnergyEntry& entry) {
   fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{},{},{},{},{},{},{},{},{}\n"), frame,
                  entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
                  entry.energy.total(), entry.dissipated.value(), entry.residual.value(),

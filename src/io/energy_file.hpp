@@ -1,8 +1,8 @@
-// The energy ledger of a run as CSV: a row a frame, units in the header.
+// The energy balance of a run as CSV: a row a frame, units in the header.
 #pragma once
 
 #include "io/file_descriptor.hpp"
-#include <spring_pendulum/simulation/energy_ledger.hpp>
+#include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <cstdint>
 #include <string>
@@ -21,9 +21,9 @@ class EnergyFile {
   EnergyFile(const EnergyFile&) = delete;
   EnergyFile& operator=(const EnergyFile&) = delete;
 
-  /// \param entry with residual, that is from a ledger that tracks the dissipation
+  /// \param entry with residual, that is from an energy balance that tracks the dissipation
   /// \throws FileError naming the file
-  void write(std::int64_t frame, const LedgerEntry& entry);
+  void write(std::int64_t frame, const EnergyEntry& entry);
 
   /// \throws FileError naming the file
   void finish();

@@ -218,7 +218,7 @@ void MarkerBuilder::drawTrail() {
 void MarkerBuilder::label(const PendulumRun& run, const std::string& pace) {
   const Scenario& scenario = run.scenario();
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
-  const LedgerEntry entry = run.ledgerEntry();
+  const EnergyEntry entry = run.energyEntry();
   std::string text =
       fixed_step ? fmt::format("{}, step {:.3g} s", scenario.method, scenario.time_step)
                  : fmt::format("{}, tolerance {:.3g} m", scenario.method, scenario.tolerance);

@@ -39,7 +39,7 @@ PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, b
       integrator_(std::make_unique<SleepingIntegrator>(
           makeIntegrator(scenario.method, chain_, integratorOptions(scenario, track_energy)),
           chain_, scenario.sleep)),
-      ledger_(chain_, start_, track_energy),
+      energy_balance_(chain_, start_, track_energy),
       judge_(chain_, start_, track_energy) {
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
   // Whether a chain falls asleep is asked once a call: with more calls the frames could differ.
@@ -78,9 +78,9 @@ void PendulumRun::judgeFrame() {
   judge_.judge(time(), state_, integrator_->dissipatedEnergy());
 }
 
-LedgerEntry PendulumRun::ledgerEntry() const {
+EnergyEntry PendulumRun::energyEntry() const {
   return atFrame() ? judge_.entry()
-                   : ledger_.entry(time(), state_, integrator_->dissipatedEnergy());
+                   : energy_balance_.entry(time(), state_, integrator_->dissipatedEnergy());
 }
 
 std::int64_t PendulumRun::steps() const {

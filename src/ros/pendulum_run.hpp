@@ -43,8 +43,8 @@ class PendulumRun {
   const State& start() const { return start_; }
   /// The verdict on the run so far.
   const Verdict& verdict() const { return judge_.worst(); }
-  /// The ledger's row of the current state.
-  LedgerEntry ledgerEntry() const;
+  /// The energy balance's row of the current state.
+  EnergyEntry energyEntry() const;
 
   std::int64_t frame() const { return frame_; }
   /// Steps taken since frame 0; frames for an error-controlled method.
@@ -67,7 +67,7 @@ class PendulumRun {
   FrameSteps frame_steps_;  ///< refined for an error-controlled method
   std::int64_t parts_ = 1;  ///< of a frame
   std::unique_ptr<Integrator> integrator_;
-  EnergyLedger ledger_;
+  EnergyBalance energy_balance_;
   Judge judge_;
   std::int64_t frame_ = 0;  ///< last frame reached
   std::int64_t part_ = 0;   ///< parts of the next frame that are done

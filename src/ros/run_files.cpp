@@ -18,7 +18,7 @@ void RunFiles::write(const PendulumRun& run) {
   if (finished_ || !run.atFrame() || run.frame() < next_frame_) return;
   if (run.isShown()) {
     if (frames_) frames_->write(run.frame(), run.state());
-    if (energy_) energy_->write(run.frame(), run.ledgerEntry());
+    if (energy_) energy_->write(run.frame(), run.energyEntry());
     next_frame_ = run.frame() + 1;
   }
   if (run.isOver()) finish();
@@ -33,7 +33,7 @@ void RunFiles::finish() {
 
 std::string RunFiles::description() const {
   std::string text = frames_ ? "frames go to " + frames_->folder() : "no frame files";
-  if (energy_) text += ", the energy ledger to " + energy_path_;
+  if (energy_) text += ", the energy balance to " + energy_path_;
   return text;
 }
 

@@ -1,4 +1,4 @@
-// The files of a run: frames and energy ledger, as Exercise3 writes them.
+// The files of a run: frames and energy balance, as Exercise3 writes them.
 #pragma once
 
 #include "io/background_frame_writer.hpp"
@@ -12,7 +12,7 @@ namespace spring_pendulum {
 /// Writes every frame once: after a reset the same frames come again, bit for bit.
 class RunFiles {
  public:
-  /// With `no_frames` or an empty `output` there are no frames, with an empty `energy` no ledger.
+  /// With `no_frames` or an empty `output` there are no frames, with an empty `energy` no energy balance.
   /// \throws FileError naming the folder or file
   explicit RunFiles(const Scenario& scenario);
 
@@ -24,7 +24,7 @@ class RunFiles {
   /// Closes the files; nothing is written after this.
   void finish();
 
-  /// "frames go to /home/me/frames, the energy ledger to ..."
+  /// "frames go to /home/me/frames, the energy balance to ..."
   std::string description() const;
   std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
   /// Wall-clock time spent writing frames, s. Only after `finish`.

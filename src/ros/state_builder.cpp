@@ -19,7 +19,7 @@ double largestStretch(const Chain& chain, const State& state) {
 
 const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs::Header& header) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  const LedgerEntry entry = run.ledgerEntry();
+  const EnergyEntry entry = run.energyEntry();
   message_.header = header;
   message_.method = run.scenario().method;
   message_.frame = run.frame();

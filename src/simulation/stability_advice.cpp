@@ -1,7 +1,7 @@
 #include "model/chain_modes.hpp"
 #include "simulation/mode_response.hpp"
 #include <spring_pendulum/model/energy.hpp>
-#include <spring_pendulum/simulation/energy_ledger.hpp>
+#include <spring_pendulum/simulation/energy_balance.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>

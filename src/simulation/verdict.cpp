@@ -28,7 +28,7 @@ Eigen::Index mostEnergetic(const Chain& chain, const State& state) {
   return most + 1;
 }
 
-Verdict diverged(const Chain& chain, const State& state, const LedgerEntry& entry) {
+Verdict diverged(const Chain& chain, const State& state, const EnergyEntry& entry) {
   Verdict verdict{VerdictKind::kDiverged, entry.time, firstNotFinite(state), {}};
   if (verdict.particle > 0) {
     verdict.text = fmt::format("diverged at t = {:.6g} s: particle {} is no longer a finite number",
@@ -43,16 +43,16 @@ Verdict diverged(const Chain& chain, const State& state, const LedgerEntry& entr
   return verdict;
 }
 
-Verdict gainedEnergy(const LedgerEntry& entry) {
+Verdict gainedEnergy(const EnergyEntry& entry) {
   return {VerdictKind::kGainedEnergy, entry.time, 0,
           fmt::format("gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the "
                       "energy scale, in a chain that nothing drives",
                       entry.gain, entry.time, 100.0 * entry.relative_gain)};
 }
 
-Verdict drifted(const LedgerEntry& entry) {
+Verdict drifted(const EnergyEntry& entry) {
   return {VerdictKind::kDrift, entry.time, 0,
-          fmt::format("drift: the energy ledger is off by {:.3g} J at t = {:.6g} s, {:.3g} % of "
+          fmt::format("drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of "
                       "the energy scale",
                       *entry.residual, entry.time, 100.0 * *entry.relative_residual)};
 }
@@ -74,10 +74,10 @@ std::string_view toString(VerdictKind kind) {
 }
 
 Judge::Judge(const Chain& chain, const State& start, bool tracks_dissipation)
-    : chain_(chain), ledger_(chain, start, tracks_dissipation) {}
+    : chain_(chain), energy_balance_(chain, start, tracks_dissipation) {}
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated) {
-  entry_ = ledger_.entry(time, state, dissipated);
+  entry_ = energy_balance_.entry(time, state, dissipated);
   // A state with a number that is not finite has no finite energy, so one test covers both.
   if (!(entry_.relative_gain <= kDivergenceThreshold)) {
     latest_ = diverged(chain_, state, entry_);

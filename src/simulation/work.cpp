@@ -19,7 +19,8 @@ std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator&
   if (skips.damping) skipped.emplace_back("velocity differences: damping is 0");
   if (skips.gravity) skipped.emplace_back("gravity: it is 0");
   if (skips.masses) skipped.emplace_back("reading masses: all moving particles have the same");
-  if (scenario.energy.empty()) skipped.emplace_back("dissipated energy: no ledger is asked for");
+  if (scenario.energy.empty())
+    skipped.emplace_back("dissipated energy: no energy balance is asked for");
   if (scenario.no_frames) skipped.emplace_back("frame files: not wanted");
   return skipped;
 }

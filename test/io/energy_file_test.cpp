@@ -29,8 +29,8 @@ class EnergyFileTest : public testing::Test {
                         testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
-LedgerEntry someEntry() {
-  LedgerEntry entry;
+EnergyEntry someEntry() {
+  EnergyEntry entry;
   entry.time = 0.1;
   entry.energy = {1.0, -2.5, 0.125};
   entry.dissipated = 0.25;

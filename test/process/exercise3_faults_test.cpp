@@ -77,7 +77,7 @@ TEST_F(Disturbed, OutputFolderMadeReadOnly) {
   expectOneLine(result.errors);
 }
 
-TEST_F(Disturbed, KilledWithALedgerLeavesNoPartOfIt) {
+TEST_F(Disturbed, KilledWithAEnergyBalanceLeavesNoPartOfIt) {
   Process process(command({"--energy", "energy.csv"}));
   waitForFrame();
   process.sendSignal(SIGKILL);
@@ -85,7 +85,7 @@ TEST_F(Disturbed, KilledWithALedgerLeavesNoPartOfIt) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("energy.csv")));
 }
 
-TEST_F(Disturbed, ASecondRunWithTheSameLedgerIsRefused) {
+TEST_F(Disturbed, ASecondRunWithTheSameEnergyBalanceIsRefused) {
   Process first(command({"--energy", "energy.csv"}));
   waitForFrame();
   const Result second = run(exercise3(folder_, {"Euler", "--no-frames", "--energy", "energy.csv"}));
@@ -179,12 +179,12 @@ TEST(Exercise3Faults, NoThreadToBeHadGivesTheSameFrames) {
   }
 }
 
-TEST(Exercise3Faults, LedgerOnAFullDisk) {
+TEST(Exercise3Faults, EnergyBalanceOnAFullDisk) {
   const TemporaryFolder folder;
   folder.write("particle.txt", kTwoParticles);
   Command command = exercise3(folder, {"Runge-Kutta-4", "--no-frames", "--energy", "e.csv"});
   command.prepare = [] {
-    const rlimit size{65536, 65536};  // of the 75 kB that the ledger has
+    const rlimit size{65536, 65536};  // of the 75 kB that the energy balance has
     if (setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(1);
     signal(SIGXFSZ, SIG_IGN);
   };

@@ -79,13 +79,13 @@ TEST(PendulumRun, NeverCutsFinerThanAStep) {
 TEST(PendulumRun, ResetGivesTheSameRunAgain) {
   PendulumRun run(scenarioOf("Runge-Kutta-2"), scene(), true, 0.05);
   const auto first = frames(run, true);
-  const double dissipated = run.ledgerEntry().dissipated.value();
+  const double dissipated = run.energyEntry().dissipated.value();
   EXPECT_GT(dissipated, 0.0);
   run.reset();
   EXPECT_EQ(run.time(), 0.0);
-  EXPECT_EQ(run.ledgerEntry().dissipated.value(), 0.0);
+  EXPECT_EQ(run.energyEntry().dissipated.value(), 0.0);
   EXPECT_TRUE(frames(run, false) == first);
-  EXPECT_EQ(run.ledgerEntry().dissipated.value(), dissipated);
+  EXPECT_EQ(run.energyEntry().dissipated.value(), dissipated);
 }
 
 TEST(PendulumRun, EndsWhereTheMotionDiverges) {

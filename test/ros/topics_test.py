@@ -105,7 +105,7 @@ class Topics(unittest.TestCase):
             tip = state.wait_for(3)[-1].tip_position
             self.assertEqual((tip.x, tip.y, tip.z), (1, 0, 2))
 
-    def test_state_is_the_frame_and_its_energies_are_the_ledgers(self):
+    def test_state_is_the_frame_and_its_energies_add_up(self):
         # The dissipated energy must be right for a subscriber that comes late: this one comes when
         # the run is over.
         with Folder() as folder:

@@ -65,7 +65,7 @@ TEST(Verdict, RungeKutta4BeyondItsStabilityLimitDivergesWhileAllIsFinite) {
   EXPECT_LE(outcome.verdict.particle, 11);
 }
 
-TEST(Verdict, DriftIsFoundByTheLedgerAlone) {
+TEST(Verdict, DriftIsFoundByTheEnergyBalanceAlone) {
   // One light particle just inside the stability limit: no gain, but a wrong balance (1.1 %).
   EXPECT_EQ(run("Runge-Kutta-4", 2, 0.01, 0.01).verdict.kind, VerdictKind::kDrift);
 }

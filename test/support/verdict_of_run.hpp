@@ -14,13 +14,13 @@ namespace spring_pendulum::test {
 
 /// The verdict on `duration` s with a fixed step, judged every 0.1 s, or every step if that is
 /// longer. Ends where the verdict reaches `enough`.
-/// \param with_ledger whether drift is looked for, too
+/// \param with_energy whether drift is looked for, too
 inline Verdict verdictOfRun(const Scene& scene, const Method& method, double time_step,
-                            double duration, bool with_ledger,
+                            double duration, bool with_energy,
                             VerdictKind enough = VerdictKind::kDiverged) {
-  const auto integrator = makeIntegrator(method.name, scene.chain, {1e-6, with_ledger});
+  const auto integrator = makeIntegrator(method.name, scene.chain, {1e-6, with_energy});
   State state = scene.start;
-  Judge judge(scene.chain, state, with_ledger);
+  Judge judge(scene.chain, state, with_energy);
   const std::int64_t steps =
       std::max<std::int64_t>(1, std::llround(std::min(0.1, duration) / time_step));
   for (std::int64_t n = 0; static_cast<double>(n) * time_step < duration; n += steps) {

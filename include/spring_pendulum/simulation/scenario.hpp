@@ -16,7 +16,7 @@ struct Scenario {
   std::string particles = "particle.txt";  ///< the particle file
   std::string output = ".";                ///< where frame files go
   bool no_frames = false;                  ///< write no frame files
-  std::string energy;                      ///< where the energy ledger goes; empty: nowhere
+  std::string energy;                      ///< where the energy balance goes; empty: nowhere
   OnDivergence on_divergence = OnDivergence::kStop;
 
   std::int64_t frames = 500;

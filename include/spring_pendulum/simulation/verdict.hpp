@@ -5,7 +5,7 @@
 // every frame, before it is written.
 #pragma once
 
-#include <spring_pendulum/simulation/energy_ledger.hpp>
+#include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <string>
 #include <string_view>
@@ -15,7 +15,7 @@ namespace spring_pendulum {
 /// In order of severity.
 enum class VerdictKind {
   kOk,
-  kDrift,         ///< the ledger's residual exceeds 1 % of the energy scale
+  kDrift,         ///< the energy balance's residual exceeds 1 % of the energy scale
   kGainedEnergy,  ///< energy above the start by over 1 % of the energy scale
   kDiverged       ///< a number that is not finite, or energy up by over the whole scale
 };
@@ -37,15 +37,15 @@ class Judge {
   static constexpr double kGainThreshold = 0.01;
   static constexpr double kDivergenceThreshold = 1.0;
 
-  /// \throws InputError as EnergyLedger
+  /// \throws InputError as EnergyBalance
   Judge(const Chain& chain, const State& start, bool tracks_dissipation);
 
   /// Judges the state at `time` s. No allocation while the motion is good.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; read only if it is tracked
   const Verdict& judge(double time, const State& state, double dissipated);
 
-  /// The ledger's row of the state judged last.
-  const LedgerEntry& entry() const { return entry_; }
+  /// The energy balance's row of the state judged last.
+  const EnergyEntry& entry() const { return entry_; }
   /// The verdict on the state judged last.
   const Verdict& latest() const { return latest_; }
   /// The first of the most severe verdicts so far: the verdict on the run.
@@ -53,8 +53,8 @@ class Judge {
 
  private:
   Chain chain_;
-  EnergyLedger ledger_;
-  LedgerEntry entry_;
+  EnergyBalance energy_balance_;
+  EnergyEntry entry_;
   Verdict latest_;
   Verdict worst_;
 };

@@ -1,4 +1,4 @@
-// The energy ledger of a run: where the energy is, what the dashpots took, and what is missing.
+// The energy balance of a run: where the energy is, what the dashpots took, and what is missing.
 //
 // Nothing drives the chain, so E(t) + D(t) = E(0) at all times, with the energy E = kinetic +
 // gravity + spring and the heat D that the dashpots took up. The residual E(t) + D(t) - E(0) is the
@@ -38,8 +38,8 @@ class EnergyScale {
   double fall_ = 0.0;      ///< J/s²
 };
 
-/// One row of the ledger. Energies in J, relative numbers in parts of the energy scale.
-struct LedgerEntry {
+/// One row of the energy balance. Energies in J, relative numbers in parts of the energy scale.
+struct EnergyEntry {
   double time = 0.0;                 ///< s
   Energy energy;                     ///< not finite if the state is not
   double gain = 0.0;                 ///< E(t) - E(0)
@@ -49,17 +49,17 @@ struct LedgerEntry {
   std::optional<double> relative_residual;
 };
 
-class EnergyLedger {
+class EnergyBalance {
  public:
   /// \param tracks_dissipation whether the integrator was made with `track_dissipation`. Without,
   ///   the residual is known only if the chain has no damping, and then costs nothing.
   /// \throws InputError as EnergyScale
-  EnergyLedger(const Chain& chain, const State& start, bool tracks_dissipation);
+  EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation);
 
   /// One pass over the state.
   /// \param time       s since the start
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; read only if it is tracked
-  LedgerEntry entry(double time, const State& state, double dissipated) const;
+  EnergyEntry entry(double time, const State& state, double dissipated) const;
 
   /// Energy scale at a time, J.
   double scale(double time) const { return scale_.at(time); }

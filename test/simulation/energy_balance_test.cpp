@@ -1,6 +1,6 @@
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/simulation/energy_ledger.hpp>
+#include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <gtest/gtest.h>
 
@@ -58,18 +58,18 @@ TEST(EnergyScale, RefusesEnergiesBeyondADouble) {
   EXPECT_THROW(EnergyScale(uniform(3, none, 1e160), horizontal(3, 1.0)), InputError);
 }
 
-TEST(EnergyLedger, ClosesWithTheOrderOfTheMethod) {
+TEST(EnergyBalance, ClosesWithTheOrderOfTheMethod) {
   // Halving the step divides the residual by 2^order; measured 2.01, 4.10 and 15.9.
   const Chain chain = uniform(4, SpringLaw{}, 9.81);
   for (const char* name : {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"}) {
     double residual[2];
     for (const int refined : {0, 1}) {
       State state = horizontal(4, 1.1);
-      const EnergyLedger ledger(chain, state, true);
+      const EnergyBalance balance(chain, state, true);
       const auto integrator = makeIntegrator(name, chain, {1e-6, true});
       const std::int64_t steps = refined == 0 ? 1000 : 2000;
       integrator->advance(state, 1.0 / static_cast<double>(steps), steps);
-      residual[refined] = *ledger.entry(1.0, state, integrator->dissipatedEnergy()).residual;
+      residual[refined] = *balance.entry(1.0, state, integrator->dissipatedEnergy()).residual;
     }
     const double ratio = residual[0] / residual[1];
     const double expected = std::pow(2.0, findMethod(name).order);
@@ -78,20 +78,20 @@ TEST(EnergyLedger, ClosesWithTheOrderOfTheMethod) {
   }
 }
 
-TEST(EnergyLedger, LeavesTheResidualOpenOnlyIfDampingIsNotTracked) {
+TEST(EnergyBalance, LeavesTheResidualOpenOnlyIfDampingIsNotTracked) {
   const State start = horizontal(3, 1.0);
   EXPECT_FALSE(
-      EnergyLedger(uniform(3, SpringLaw{}, 9.81), start, false).entry(0.0, start, 0.0).residual);
+      EnergyBalance(uniform(3, SpringLaw{}, 9.81), start, false).entry(0.0, start, 0.0).residual);
   const auto undamped =
-      EnergyLedger(uniform(3, {50.0, 0.0, 1.0}, 9.81), start, false).entry(0.0, start, 0.0);
+      EnergyBalance(uniform(3, {50.0, 0.0, 1.0}, 9.81), start, false).entry(0.0, start, 0.0);
   EXPECT_EQ(undamped.dissipated, 0.0);
   EXPECT_EQ(undamped.residual, 0.0);
 }
 
-TEST(EnergyLedger, IsDefinedForTheFixedParticleAlone) {
+TEST(EnergyBalance, IsDefinedForTheFixedParticleAlone) {
   const State start(1);
   const auto entry =
-      EnergyLedger(uniform(1, SpringLaw{}, 9.81), start, true).entry(1.0, start, 0.0);
+      EnergyBalance(uniform(1, SpringLaw{}, 9.81), start, true).entry(1.0, start, 0.0);
   EXPECT_EQ(entry.relative_gain, 0.0);
   EXPECT_EQ(entry.relative_residual, 0.0);
 }

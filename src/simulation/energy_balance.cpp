@@ -1,5 +1,5 @@
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/simulation/energy_ledger.hpp>
+#include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,15 +40,15 @@ EnergyScale::EnergyScale(const Chain& chain, const State& start) {
   }
 }
 
-EnergyLedger::EnergyLedger(const Chain& chain, const State& start, bool tracks_dissipation)
+EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation)
     : chain_(chain),
       scale_(chain, start),
       start_energy_(computeEnergy(chain, start).total()),
       tracks_dissipation_(tracks_dissipation) {}
 
-LedgerEntry EnergyLedger::entry(double time, const State& state, double dissipated) const {
+EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipated) const {
   const double scale = std::max(scale_.at(time), std::numeric_limits<double>::min());
-  LedgerEntry entry;
+  EnergyEntry entry;
   entry.time = time;
   entry.energy = computeEnergy(chain_, state);
   entry.gain = entry.energy.total() - start_energy_;
