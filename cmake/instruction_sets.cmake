@@ -4,9 +4,9 @@ set(kernel_sources src/integration/kernels/baseline.cpp)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   list(APPEND kernel_sources src/integration/kernels/avx2.cpp src/integration/kernels/avx512.cpp)
   set_source_files_properties(src/integration/kernels/avx2.cpp PROPERTIES
-    COMPILE_OPTIONS -mavx2)
+    COMPILE_OPTIONS "-mavx2;-mfma")
   set_source_files_properties(src/integration/kernels/avx512.cpp PROPERTIES
-    COMPILE_OPTIONS "-mavx512f;-mavx512dq;-mavx512vl;-mprefer-vector-width=512")
+    COMPILE_OPTIONS "-mfma;-mavx512f;-mavx512dq;-mavx512vl;-mprefer-vector-width=512")
   set_source_files_properties(src/integration/kernels/chain_kernels.cpp PROPERTIES
     COMPILE_DEFINITIONS SPRING_PENDULUM_X86_KERNELS)
 endif()

@@ -20,7 +20,7 @@ void computeAccelerations(const Chain& chain, const State& state, PlaneVectors& 
     const auto right = free_end ? PlaneVector<double>{} : springForceOn(chain, state, i);
     const double inverse_mass = chain.inverseMasses()[i];
     accelerations(i, 0) = (right.x - left.x) * inverse_mass;
-    accelerations(i, 1) = (right.y - left.y) * inverse_mass - chain.gravity();
+    accelerations(i, 1) = fused(right.y - left.y, inverse_mass, -chain.gravity());
     left = right;
   }
 }

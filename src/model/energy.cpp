@@ -23,12 +23,10 @@ Energy computeEnergy(const Chain& chain, const State& state) {
 double dissipatedPower(const Chain& chain, const State& state) {
   double power = 0.0;
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
-    const double dx = state.x()[i] - state.x()[i - 1];
-    const double dy = state.y()[i] - state.y()[i - 1];
-    const double dot =
-        (state.vx()[i] - state.vx()[i - 1]) * dx + (state.vy()[i] - state.vy()[i - 1]) * dy;
-    const double rate = dot * inverseSquareRoot(dx * dx + dy * dy);
-    power += chain.spring().damping * rate * rate;
+    const double rate = elongationRate<double>(
+        {state.x()[i] - state.x()[i - 1], state.y()[i] - state.y()[i - 1]},
+        {state.vx()[i] - state.vx()[i - 1], state.vy()[i] - state.vy()[i - 1]});
+    power = fused(chain.spring().damping, rate * rate, power);
   }
   return power;
 }

@@ -5,6 +5,18 @@
 #include <utility>
 
 namespace spring_pendulum {
+namespace {
+
+/// to += weight slope, from one particle on
+void addWeighted(double weight, const State& slope, State& to, Eigen::Index first) {
+  for (Eigen::Index c = 0; c < 4; ++c) {
+    for (Eigen::Index i = first; i < to.size(); ++i) {
+      to.values()(i, c) = fused(weight, slope.values()(i, c), to.values()(i, c));
+    }
+  }
+}
+
+}  // namespace
 
 PlainRungeKutta::PlainRungeKutta(Chain chain, const ButcherTableau& tableau, bool track_dissipation)
     : chain_(std::move(chain)),
@@ -24,7 +36,7 @@ void PlainRungeKutta::step(State& state, double time_step) {
     stage_.values() = state.values();
     for (std::size_t j = 0; j < i; ++j) {
       if (tableau_.a[i][j] == 0.0) continue;
-      stage_.values() += (time_step * tableau_.a[i][j]) * slopes_[j].values();
+      addWeighted(time_step * tableau_.a[i][j], slopes_[j], stage_, 0);
     }
     computeAccelerations(chain_, stage_, accelerations_);
     slopes_[i].positions() = stage_.velocities();
@@ -37,9 +49,7 @@ void PlainRungeKutta::step(State& state, double time_step) {
   }
   for (std::size_t i = 0; i < tableau_.stages; ++i) {
     if (tableau_.b[i] == 0.0) continue;
-    const Eigen::Index moving = chain_.size() - 1;
-    state.values().bottomRows(moving) +=
-        (time_step * tableau_.b[i]) * slopes_[i].values().bottomRows(moving);
+    addWeighted(time_step * tableau_.b[i], slopes_[i], state, 1);
   }
 }
 

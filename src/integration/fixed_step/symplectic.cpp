@@ -20,6 +20,7 @@ void SymplecticMethod::restart() {
 }
 
 void SymplecticMethod::advance(State& state, double time_step, std::int64_t steps) {
+  state.velocities().row(0).setZero();
   current_.values() = state.values();
   double power_before = track_dissipation_ ? dissipatedPower(chain_, state) : 0.0;
   for (std::int64_t n = 0; n < steps; ++n) {
@@ -39,13 +40,13 @@ void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {
 }
 
 void SymplecticMethod::kick(StateBuffer& state, double weight, const StateBuffer& slope) {
-  state.values().rightCols<2>() += weight * slope.values().rightCols<2>();
+  const Eigen::Index velocities = 2 * state.pitch();
+  kernels_.addWeighted(velocities, weight, slope.data() + velocities, state.data() + velocities);
 }
 
 void SymplecticMethod::drift(StateBuffer& state, double weight) {
-  const Eigen::Index moving = state.size() - 1;
-  state.values().leftCols<2>().bottomRows(moving) +=
-      weight * state.values().rightCols<2>().bottomRows(moving);
+  const Eigen::Index positions = 2 * state.pitch();
+  kernels_.addWeighted(positions, weight, state.data() + positions, state.data());
 }
 
 SemiImplicitEuler::SemiImplicitEuler(const Chain& chain, bool track_dissipation)

@@ -52,9 +52,9 @@ class SymplecticMethod : public Integrator {
   /// Accelerations of a state into the columns vx and vy of `slope`.
   void evaluate(const StateBuffer& state, StateBuffer& slope);
   /// state velocities += weight * slope accelerations
-  static void kick(StateBuffer& state, double weight, const StateBuffer& slope);
-  /// positions += weight * velocities, but for the fixed particle
-  static void drift(StateBuffer& state, double weight);
+  void kick(StateBuffer& state, double weight, const StateBuffer& slope);
+  /// positions += weight * velocities
+  void drift(StateBuffer& state, double weight);
 
  private:
   double power(const State& state) const;

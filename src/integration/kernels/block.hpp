@@ -44,8 +44,8 @@ struct BlockPlace {
 /// state + weight * slope
 [[gnu::always_inline]] inline Block plusWeighted(const Block& state, double weight,
                                                  const Block& slope) {
-  return {state.x + weight * slope.x, state.y + weight * slope.y, state.vx + weight * slope.vx,
-          state.vy + weight * slope.vy};
+  return {fused(weight, slope.x, state.x), fused(weight, slope.y, state.y),
+          fused(weight, slope.vx, state.vx), fused(weight, slope.vy, state.vy)};
 }
 
 [[gnu::always_inline]] inline std::ptrdiff_t blocksOf(std::ptrdiff_t size) {
@@ -80,9 +80,14 @@ template <bool kGravity>
                                             const PlaneVector<Pack>& left,
                                             const PlaneVector<Pack>& right, std::ptrdiff_t block) {
   const Pack inverse_mass = Pack::load(chain.inverse_masses + chain.mass_stride * (block * kLanes));
-  Block slope{here.vx, here.vy, (right.x - leftNeighbours(left.x, right.x)) * inverse_mass,
-              (right.y - leftNeighbours(left.y, right.y)) * inverse_mass};
-  if constexpr (kGravity) slope.vy = slope.vy - chain.gravity;
+  const PlaneVector<Pack> force{right.x - leftNeighbours(left.x, right.x),
+                                right.y - leftNeighbours(left.y, right.y)};
+  Block slope{here.vx, here.vy, force.x * inverse_mass, {}};
+  if constexpr (kGravity) {
+    slope.vy = fused(force.y, inverse_mass, -chain.gravity);
+  } else {
+    slope.vy = force.y * inverse_mass;
+  }
   const std::ptrdiff_t particles = chain.size - block * kLanes;
   if (block == 0 || particles < kLanes) {
     const std::ptrdiff_t first_moving = block == 0 ? 1 : 0;

@@ -13,7 +13,8 @@ std::vector<const ChainKernels*> findSupportedKernels() {
   std::vector<const ChainKernels*> found;
 #ifdef SPRING_PENDULUM_X86_KERNELS
   __builtin_cpu_init();
-  const auto avx2 = static_cast<bool>(__builtin_cpu_supports("avx2"));
+  const bool avx2 = static_cast<bool>(__builtin_cpu_supports("avx2")) &&
+                    static_cast<bool>(__builtin_cpu_supports("fma"));
   const bool avx512 = avx2 && static_cast<bool>(__builtin_cpu_supports("avx512f")) &&
                       static_cast<bool>(__builtin_cpu_supports("avx512dq")) &&
                       static_cast<bool>(__builtin_cpu_supports("avx512vl"));

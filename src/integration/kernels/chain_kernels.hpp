@@ -6,8 +6,8 @@
 //     compensated sum      z + (d + w_1 k_1 + w_2 k_2 + ...), and what of it was rounded away
 //     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
 //
-// Every particle sees the operations of the plain code (computeAccelerations) in its order and
-// nothing is contracted, so the bits are the same for every instruction set. Eigen's types change
+// Every particle sees the operations of the plain code (computeAccelerations) in its order, with the
+// same fused multiply-adds, so the bits are the same for every instruction set. Eigen's types change
 // their layout with the instruction set; nothing but pointers and numbers crosses this border.
 #pragma once
 
@@ -84,6 +84,9 @@ struct ChainKernels {
 
   /// out = state + sum
   void (*combine)(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out);
+
+  /// to += weight * from, `count` numbers, a multiple of 8.
+  void (*addWeighted)(std::ptrdiff_t count, double weight, const double* from, double* to);
 
   /// out = state + (change + sum), lost = (change + sum) - (out - state): what rounding took from
   /// the sum, exactly where |change + sum| <= |state|. As a part of the next change it is not lost.

@@ -57,6 +57,12 @@ void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* ou
   }
 }
 
+void addWeighted(std::ptrdiff_t count, double weight, const double* from, double* to) {
+  for (std::ptrdiff_t first = 0; first < count; first += kLanes) {
+    fused(weight, Pack::load(from + first), Pack::load(to + first)).store(to + first);
+  }
+}
+
 void compensatedSum(std::ptrdiff_t pitch, const double* state, const double* change, SlopeSum sum,
                     double* out, double* lost) {
   for (std::ptrdiff_t block = 0; block < pitch / kLanes; ++block) {

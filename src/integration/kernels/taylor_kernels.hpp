@@ -16,11 +16,19 @@ namespace {
 using Index = std::ptrdiff_t;
 constexpr Index kGroup = 8;  ///< springs whose coefficients lie together, on all instruction sets
 
+/// A coefficient of a spring: of its separation and its length.
+struct SpringCoefficient {
+  PlaneVector<Pack> separation;
+  Pack length;
+};
+
 /// What is missing to coefficients of one order: of sum_j a_j b_{n-j} the terms known so far.
 struct Convolutions {
-  Pack length;              ///< of L_{n+1}, times L_0
-  Pack quotient;            ///< of u L
-  PlaneVector<Pack> force;  ///< of u d
+  SpringCoefficient product;  ///< of L_{n+1}, times L_0: three sums, for a shorter latency
+  Pack quotient;              ///< of u L
+  PlaneVector<Pack> force;    ///< of u d
+
+  Pack length() const { return (product.separation.x + product.separation.y) - product.length; }
 };
 
 /// The coefficients of the springs of one block.
@@ -38,7 +46,7 @@ class SpringSeries {
   PlaneVector<Pack> direction() const { return separation(order_ + 1); }
   Pack inverseLength() const { return at(order_ + 1, 2); }
   Convolutions convolutions() const {
-    return {length(order_ + 2), quotient(order_ + 2), separation(order_ + 2)};
+    return {{{length(order_ + 2), Pack{}}, Pack{}}, quotient(order_ + 2), separation(order_ + 2)};
   }
 
   void setSeparation(Index n, const PlaneVector<Pack>& value) {
@@ -51,7 +59,7 @@ class SpringSeries {
   void setInverseLength(Pack value) { setLength(order_ + 1, value); }
   void setConvolutions(const Convolutions& value) {
     setSeparation(order_ + 2, value.force);
-    setLength(order_ + 2, value.length);
+    setLength(order_ + 2, value.length());
     setQuotient(order_ + 2, value.quotient);
   }
 
@@ -64,26 +72,28 @@ class SpringSeries {
   Index order_;
 };
 
-/// A coefficient of a spring: of its separation and its length.
-struct SpringCoefficient {
-  PlaneVector<Pack> separation;
-  Pack length;
-};
-
 [[gnu::always_inline]] inline SpringCoefficient coefficient(const SpringSeries& spring, Index n) {
   return {spring.separation(n), spring.length(n)};
 }
 
-/// Its term in the convolution for the length.
-[[gnu::always_inline]] inline Pack product(const SpringCoefficient& a, const SpringCoefficient& b) {
-  return a.separation.x * b.separation.x + a.separation.y * b.separation.y - a.length * b.length;
+/// The terms of two coefficients in the convolutions for the length.
+[[gnu::always_inline]] inline void addProduct(Convolutions& sums, const SpringCoefficient& a,
+                                              const SpringCoefficient& b) {
+  SpringCoefficient& sum = sums.product;
+  sum.separation.x = fused(a.separation.x, b.separation.x, sum.separation.x);
+  sum.separation.y = fused(a.separation.y, b.separation.y, sum.separation.y);
+  sum.length = fused(a.length, b.length, sum.length);
+}
+
+[[gnu::always_inline]] inline SpringCoefficient half(const SpringCoefficient& a) {
+  return {{0.5 * a.separation.x, 0.5 * a.separation.y}, 0.5 * a.length};
 }
 
 [[gnu::always_inline]] inline void addTerm(Convolutions& sums, Pack quotient,
                                            const SpringCoefficient& other) {
-  sums.quotient = sums.quotient + quotient * other.length;
-  sums.force.x = sums.force.x + quotient * other.separation.x;
-  sums.force.y = sums.force.y + quotient * other.separation.y;
+  sums.quotient = fused(quotient, other.length, sums.quotient);
+  sums.force.x = fused(quotient, other.separation.x, sums.force.x);
+  sums.force.y = fused(quotient, other.separation.y, sums.force.y);
 }
 
 /// Of the even order n and of the next one, what the coefficients before n give: the loads are
@@ -93,15 +103,15 @@ struct SpringCoefficient {
   if (n == 0) return;
   SpringCoefficient last = coefficient(spring, n);
   const SpringCoefficient first = coefficient(spring, 1);
-  here.length = here.length + product(first, last);
+  addProduct(here, first, last);
   for (Index j = 2; 2 * j <= n; ++j) {
     const SpringCoefficient a = coefficient(spring, j);
-    next.length = next.length + product(a, last);
+    addProduct(next, a, last);
     last = coefficient(spring, n + 1 - j);
-    here.length = here.length + product(a, last);
+    addProduct(here, a, last);
   }
   const SpringCoefficient middle = coefficient(spring, n / 2 + 1);
-  next.length = next.length + 0.5 * product(middle, middle);
+  addProduct(next, half(middle), middle);
 
   last = coefficient(spring, n);
   addTerm(here, spring.quotient(0), last);
@@ -118,7 +128,7 @@ struct SpringCoefficient {
                                                Convolutions& next) {
   const SpringCoefficient first = coefficient(spring, 1);
   const SpringCoefficient newest = coefficient(spring, n + 1);
-  next.length = next.length + (n == 0 ? 0.5 : 1.0) * product(first, newest);
+  addProduct(next, n == 0 ? half(first) : first, newest);
   addTerm(next, spring.quotient(0), newest);
   if (n > 0) addTerm(next, spring.quotient(n), first);
 }
@@ -131,16 +141,16 @@ struct SpringCoefficient {
   const PlaneVector<Pack> direction = spring.direction();
   const PlaneVector<Pack> newest = spring.separation(n + 1);
   const Pack length =
-      direction.x * newest.x + direction.y * newest.y + sums.length * inverse_length;
+      fused(direction.x, newest.x, fused(direction.y, newest.y, sums.length() * inverse_length));
   spring.setLength(n + 1, length);
 
   const Pack stretch = n == 0 ? spring.length(0) - work.spring.rest_length : spring.length(n);
-  const Pack elastic = (work.spring.stiffness * stretch - sums.quotient) * inverse_length;
+  const Pack elastic = fused(work.spring.stiffness, stretch, -sums.quotient) * inverse_length;
   const Pack damping = (work.spring.damping * static_cast<double>(n + 1)) * inverse_length;
-  const Pack quotient = elastic + damping * length;
+  const Pack quotient = fused(damping, length, elastic);
   spring.setQuotient(n, quotient);
   const PlaneVector<Pack> origin = spring.separation(0);
-  return {sums.force.x + quotient * origin.x, sums.force.y + quotient * origin.y};
+  return {fused(quotient, origin.x, sums.force.x), fused(quotient, origin.y, sums.force.y)};
 }
 
 /// The same, with the sums of even orders made here, those of odd orders on the way.
@@ -168,7 +178,7 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
     const Block next = block + 1 < blocks ? load({state + (block + 1) * kLanes, work.pitch}) : here;
     const PlaneVector<Pack> separation{rightNeighbours(here.x, next.x) - here.x,
                                        rightNeighbours(here.y, next.y) - here.y};
-    const Pack square = separation.x * separation.x + separation.y * separation.y;
+    const Pack square = squaredLength(separation);
     // Behind the chain's end 1/L_0 = 0, so nothing comes of the other numbers there.
     const Index springs = work.size - 1 - block * kLanes;
     const Pack inverse = only(inverseSquareRoot(square), 0, springs);
@@ -237,8 +247,8 @@ void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
     const Pack y = Pack::load(row + work.pitch);
     const double position = weights.position[static_cast<std::size_t>(n)];
     const double velocity = weights.velocity[static_cast<std::size_t>(n)];
-    change = {change.x + position * x, change.y + position * y, change.vx + velocity * x,
-              change.vy + velocity * y};
+    change = {fused(position, x, change.x), fused(position, y, change.y),
+              fused(velocity, x, change.vx), fused(velocity, y, change.vy)};
   }
   return change;
 }
@@ -251,7 +261,7 @@ void taylorState(const TaylorWorkspace& callers_work, const double* state, const
     const Block change = weightedSum(work, weights, block);
     const Block speed = load({state + block * kLanes, work.pitch});
     const Block from = load({base + block * kLanes, work.pitch});
-    store({from.x + (time * speed.vx + change.x), from.y + (time * speed.vy + change.y),
+    store({from.x + fused(time, speed.vx, change.x), from.y + fused(time, speed.vy, change.y),
            from.vx + change.vx, from.vy + change.vy},
           {out + block * kLanes, work.pitch});
   }

@@ -129,7 +129,7 @@ void TaylorSeries::sumAt(double time, StateBuffer& out) const {
   const auto from = begin_.values().bottomRows(falling);
   auto to = out.values().bottomRows(falling);
   to.col(0) = from.col(0);
-  to.col(1).array() = from.col(1).array() + (time * from.col(3).array() + drop);
+  for (Eigen::Index i = 0; i < falling; ++i) to(i, 1) = from(i, 1) + fused(time, from(i, 3), drop);
   to.col(2) = from.col(2);
   to.col(3).array() = from.col(3).array() + speed;
 }

@@ -42,6 +42,13 @@ bool sameBits(const State::Matrix& a, const State::Matrix& b) {
          std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
+State::Matrix plusWeighted(State::Matrix sum, double weight, const State::Matrix& slope) {
+  for (Eigen::Index i = 0; i < sum.size(); ++i) {
+    sum.data()[i] = std::fma(weight, slope.data()[i], sum.data()[i]);
+  }
+  return sum;
+}
+
 State::Matrix plainSlope(const Chain& chain, const State& state) {
   PlaneVectors accelerations;
   computeAccelerations(chain, state, accelerations);
@@ -70,8 +77,8 @@ TEST(ChainKernels, StageSlopeHasTheBitsOfThePlainCode) {
           k2.values() = randomState(size, 3).values();
           const WeightedSlope terms[] = {{0.1, k1.data()}, {-0.03, k2.data()}};
           kernels->stageSlope(constants.chain(), z.data(), {terms, 2}, slope.data());
-          state.values() += 0.1 * k1.values();
-          state.values() += -0.03 * k2.values();
+          state.values() = plusWeighted(state.values(), 0.1, k1.values());
+          state.values() = plusWeighted(state.values(), -0.03, k2.values());
           const State::Matrix expected = plainSlope(chain, state);
           EXPECT_TRUE(sameBits(slope.values(), expected))
               << kernels->name << ", " << size << " particles, damping " << spring.damping;
@@ -89,9 +96,20 @@ TEST(ChainKernels, CombinationHasTheBitsOfThePlainCode) {
       k.values() = randomState(size, 2).values();
       const WeightedSlope term{0.3, k.data()};
       kernels->combine(z.pitch(), z.data(), {&term, 1}, out.data());
-      const State::Matrix expected = z.values() + 0.3 * k.values();
+      const State::Matrix expected = plusWeighted(z.values(), 0.3, k.values());
       EXPECT_TRUE(sameBits(out.values(), expected)) << kernels->name << ", " << size;
     }
+  }
+}
+
+TEST(ChainKernels, AddWeightedHasTheBitsOfThePlainCode) {
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    StateBuffer to(11), from(11);
+    to.values() = randomState(11, 1).values();
+    from.values() = randomState(11, 2).values();
+    const State::Matrix expected = plusWeighted(to.values(), 0.3, from.values());
+    kernels->addWeighted(4 * to.pitch(), 0.3, from.data(), to.data());
+    EXPECT_TRUE(sameBits(to.values(), expected)) << kernels->name;
   }
 }
 
@@ -105,7 +123,7 @@ TEST(ChainKernels, CompensatedSumKeepsWhatRoundingTakes) {
       const WeightedSlope term{1e-9, k.data()};
       kernels->compensatedSum(z.pitch(), z.data(), change.data(), {&term, 1}, out.data(),
                               lost.data());
-      const State::Matrix step = change.values() + 1e-9 * k.values();
+      const State::Matrix step = plusWeighted(change.values(), 1e-9, k.values());
       const State::Matrix sum = z.values() + step;
       const State::Matrix difference = sum - z.values();
       const State::Matrix rest = step - difference;
