@@ -1,6 +1,7 @@
 # Warnings for our own code, and the flags that make results the same bits on every machine: no
-# contraction into fused multiply-add, no fast-math. The two -fno flags take away only errno and
-# traps, which nobody reads and which would keep the compiler from vectorising; no result changes.
+# fast-math, and no contraction: multiply-adds are fused only where the code calls `fused`. The two
+# -fno flags take away errno and traps, which nobody reads and which keep the compiler from
+# vectorising; no result changes.
 add_library(spring_pendulum_options INTERFACE)
 target_compile_options(spring_pendulum_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off -fno-math-errno
