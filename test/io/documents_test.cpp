@@ -1,4 +1,5 @@
 // Tables in the documents that repeat facts of the code or of measurements.
+#include "simulation/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
@@ -28,7 +29,8 @@ TEST(Documents, ShowTheCheapestMethodsThatWereMeasured) {
   const std::string header = "| scene | to 1e-3 m | to 1e-6 m | to 1e-9 m |";
   const auto measured = tableRows("benchmark/results/cheapest_methods.md", header);
   ASSERT_FALSE(measured.empty());
-  EXPECT_EQ(tableRows("docs/benchmarks.md", header), measured) << "copy the rows from there to docs/benchmarks.md";
+  EXPECT_EQ(tableRows("docs/benchmarks.md", header), measured)
+      << "copy the rows from there to docs/benchmarks.md";
 }
 
 TEST(Documents, ListTheMethodsOfTheTable) {
@@ -41,6 +43,30 @@ TEST(Documents, ListTheMethodsOfTheTable) {
     EXPECT_THAT(rows[i], testing::StartsWith(
                              fmt::format("| `{}` |{} | {} | ", method.name, order,
                                          method.control == StepControl::kFixed ? "fixed" : "own")));
+  }
+}
+
+std::string replaced(std::string text, char from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, 1, to);
+  }
+  return text;
+}
+
+/// "| `--time-step SECONDS` | integration step size | s | 0.01 |"
+std::string documentedRow(const Option& option) {
+  const std::string value = option.isFlag() ? "" : " " + option.placeholder();
+  return fmt::format("| `--{}{}` | {} | {} | {} |", replaced(std::string(option.key), '_', "-"),
+                     replaced(value, '|', "\\|"), option.meaning, option.unit,
+                     option.isFlag() ? "" : option.text());
+}
+
+TEST(Documents, ListTheOptionsOfTheTable) {
+  const auto rows = tableRows("docs/exercise3.md", "| option | meaning | unit | default |");
+  Scenario defaults;
+  for (const Option& option : scenarioOptions(defaults)) {
+    if (option.key == "method") continue;  // the first argument
+    EXPECT_THAT(rows, testing::Contains(documentedRow(option))) << "add this row to the document";
   }
 }
 
