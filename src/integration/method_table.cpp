@@ -2,7 +2,6 @@
 #include "integration/embedded/embedded_runge_kutta.hpp"
 #include "integration/error_control/error_controlled.hpp"
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
-#include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/symplectic.hpp"
 #include "integration/implicit/rosenbrock.hpp"
 #include "integration/taylor/stabilized_taylor.hpp"
@@ -21,10 +20,8 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
                                                    const IntegratorOptions& options) {
-  if (options.track_dissipation) {
-    return std::make_unique<PlainRungeKutta>(chain, *method.tableau, true);
-  }
   EngineOptions engine;
+  engine.track_dissipation = options.track_dissipation;
   engine.threads = options.threads;
   return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, engine);
 }

@@ -16,7 +16,7 @@ namespace spring_pendulum {
 /// What a method is told besides the chain.
 struct IntegratorOptions {
   double tolerance = 1e-6;         ///< error-controlled methods: position error aimed at, m
-  bool track_dissipation = false;  ///< integrate the dissipated power along, at extra cost
+  bool track_dissipation = false;  ///< integrate the dissipated power along
   int threads = 0;                 ///< at most; 0: as many as the processor runs at once
 };
 

@@ -36,12 +36,37 @@ template <typename Value>
   return fused(separation.x, separation.x, separation.y * separation.y);
 }
 
+/// a·b
+template <typename Value>
+[[gnu::always_inline]] inline Value dotProduct(const PlaneVector<Value>& a,
+                                               const PlaneVector<Value>& b) {
+  return fused(a.x, b.x, a.y * b.y);
+}
+
 /// w·r, m/s: how fast a spring grows longer; 0 without length.
 template <typename Value>
 [[gnu::always_inline]] inline Value elongationRate(const PlaneVector<Value>& separation,
                                                    const PlaneVector<Value>& approach) {
-  const Value dot = fused(approach.x, separation.x, approach.y * separation.y);
-  return dot * inverseSquareRoot(squaredLength(separation));
+  return dotProduct(approach, separation) * inverseSquareRoot(squaredLength(separation));
+}
+
+/// The force of a spring with w·d (m²/s) and 1/L (1/m) known.
+template <typename Value>
+[[gnu::always_inline]] inline PlaneVector<Value> springForce(const SpringLaw& law,
+                                                             const PlaneVector<Value>& separation,
+                                                             const Value& dot,
+                                                             const Value& inverse_length) {
+  const Value inner = fused(law.damping * dot, inverse_length, -(law.stiffness * law.rest_length));
+  const Value factor = fused(inverse_length, inner, law.stiffness);
+  return {factor * separation.x, factor * separation.y};
+}
+
+/// The same, to the last bit, of a spring whose damping is 0 (as long as w·d is finite).
+template <typename Value>
+[[gnu::always_inline]] inline PlaneVector<Value> undampedSpringForce(
+    const SpringLaw& law, const PlaneVector<Value>& separation, const Value& inverse_length) {
+  const Value factor = fused(inverse_length, -(law.stiffness * law.rest_length), law.stiffness);
+  return {factor * separation.x, factor * separation.y};
 }
 
 /// Force in N of a spring on the end it is seen from,
@@ -55,22 +80,15 @@ template <typename Value>
 [[gnu::always_inline]] inline PlaneVector<Value> springForce(const SpringLaw& law,
                                                              const PlaneVector<Value>& separation,
                                                              const PlaneVector<Value>& approach) {
-  const Value square = squaredLength(separation);
-  const Value inverse_length = inverseSquareRoot(square);
-  const Value dot = fused(approach.x, separation.x, approach.y * separation.y);
-  const Value inner = fused(law.damping * dot, inverse_length, -(law.stiffness * law.rest_length));
-  const Value factor = fused(inverse_length, inner, law.stiffness);
-  return {factor * separation.x, factor * separation.y};
+  const Value inverse_length = inverseSquareRoot(squaredLength(separation));
+  return springForce(law, separation, dotProduct(approach, separation), inverse_length);
 }
 
 /// The same, to the last bit, of a spring whose damping is 0 (as long as w·d is finite).
 template <typename Value>
 [[gnu::always_inline]] inline PlaneVector<Value> undampedSpringForce(
     const SpringLaw& law, const PlaneVector<Value>& separation) {
-  const Value inverse_length = inverseSquareRoot(squaredLength(separation));
-  const double preload = law.stiffness * law.rest_length;
-  const Value factor = fused(inverse_length, -preload, law.stiffness);
-  return {factor * separation.x, factor * separation.y};
+  return undampedSpringForce(law, separation, inverseSquareRoot(squaredLength(separation)));
 }
 
 }  // namespace spring_pendulum

@@ -38,10 +38,16 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
     : options_(options),
       constants_(chain, options.skip_masses),
       stages_(tableau.stages),
+      tracks_heat_(options.track_dissipation && chain.spring().damping != 0.0),
       tableau_(tableau),
       kernel_(kernelsFor(options, chain.size())
-                  .advanceKernel(tableau, !skips().damping, !skips().gravity)) {
-  assert(kernel_ != nullptr);
+                  .advanceKernel(tableau, {!skips().damping, !skips().gravity, tracks_heat_})) {
+  if (kernel_ == nullptr) {
+    plain_ = std::make_unique<PlainRungeKutta>(chain, tableau, options.track_dissipation,
+                                               kernelsFor(options, chain.size()));
+    return;
+  }
+  if (tracks_heat_) heat_ = DashpotHeat(chain.size());
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
   if (!one_block) largest_border_ = largestBorder(options_.block_size, stages_);
@@ -51,6 +57,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
     share.left.resize(largest_border_, 4);
     share.right.resize(largest_border_, 4);
     share.block = StateBuffer(roundedUp(longest_block) + 2 * largest_border_);
+    if (tracks_heat_) share.heat = AlignedNumbers(share.block.pitch());
     share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
   }
   workers_ = std::make_unique<WorkerThreads>(static_cast<int>(shares_.size()), [this](int share) {
@@ -67,12 +74,27 @@ Skips ExplicitRungeKutta::skips() const {
   return skips;
 }
 
+double ExplicitRungeKutta::dissipatedEnergy() const {
+  return plain_ ? plain_->dissipatedEnergy() : heat_.total();
+}
+
+void ExplicitRungeKutta::restart() {
+  if (plain_) plain_->restart();
+  heat_.reset();
+}
+
 void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
+  if (plain_) {
+    plain_->advance(state, time_step, steps);
+    force_evaluations_ = plain_->forceEvaluations();
+    return;
+  }
   assert(state.size() == constants_.chain().size);
   state.velocities().row(0).setZero();
   for (std::size_t i = 0; i < stages_; ++i) {
     const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
     for (std::size_t j = 0; j <= i; ++j) weights_.after[i][j] = time_step * row[j];
+    weights_.heat[i] = time_step * tableau_.b[i] * constants_.chain().spring.damping;
   }
   const auto stages = static_cast<std::int64_t>(stages_);
   // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has a stage
@@ -132,8 +154,11 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
   if (end < share.end) {
     share.left.topRows(pass_.border) = state.middleRows(end - pass_.border, pass_.border);
   }
+  double* const heat = share.heat.data();
+  if (tracks_heat_) std::copy_n(heat_.data() + begin, end - begin, heat + (begin - first));
   const KernelChain piece = constants_.piece(first, last, share.block.pitch());
-  kernel_(piece, weights_, pass_.steps, share.block.data(), share.workspace.data());
+  kernel_(piece, weights_, pass_.steps, share.block.data(), heat, share.workspace.data());
+  if (tracks_heat_) std::copy_n(heat + (begin - first), end - begin, heat_.data() + begin);
   const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
   state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);
 }

@@ -8,6 +8,8 @@
 // the bits are always those of `PlainRungeKutta`.
 #pragma once
 
+#include "integration/fixed_step/dashpot_heat.hpp"
+#include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/worker_threads.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/kernel_constants.hpp"
@@ -34,18 +36,20 @@ struct EngineOptions {
   bool skip_damping = true;
   bool skip_gravity = true;
   bool skip_masses = true;
+  bool track_dissipation = false;  ///< integrate the dissipated power along
 };
 
 /// As `Integrator`. The velocity of the first particle, which is fixed, is set to 0.
 class ExplicitRungeKutta : public Integrator {
  public:
-  /// \param tableau one of the constants in butcher_tableau.hpp, for which kernels are compiled
+  /// \param tableau any; without kernels of its own (conveyor.hpp) it is run by `PlainRungeKutta`
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                      const EngineOptions& options = {});
 
   void advance(State& state, double time_step, std::int64_t steps) override;
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
-  double dissipatedEnergy() const override { return 0.0; }
+  double dissipatedEnergy() const override;
+  void restart() override;
   Skips skips() const override;
 
  private:
@@ -56,6 +60,7 @@ class ExplicitRungeKutta : public Integrator {
     /// The rows before the next block and those behind the share, as they were before the pass.
     State::Matrix left, right;
     StateBuffer block;
+    AlignedNumbers heat;  ///< of the springs of the block
     AlignedNumbers workspace;
   };
 
@@ -74,8 +79,11 @@ class ExplicitRungeKutta : public Integrator {
   EngineOptions options_;
   KernelConstants constants_;
   std::size_t stages_;
+  bool tracks_heat_;
   const ButcherTableau& tableau_;
   AdvanceKernel kernel_;
+  std::unique_ptr<PlainRungeKutta> plain_;  ///< if there is no kernel
+  DashpotHeat heat_;
   Eigen::Index largest_border_ = 0;  ///< 0: the whole chain is one block
   StepWeights weights_;
   Pass pass_;

@@ -1,56 +1,52 @@
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 
-#include <spring_pendulum/model/energy.hpp>
-
-#include <utility>
-
 namespace spring_pendulum {
-namespace {
 
-/// to += weight slope, from one particle on
-void addWeighted(double weight, const State& slope, State& to, Eigen::Index first) {
-  for (Eigen::Index c = 0; c < 4; ++c) {
-    for (Eigen::Index i = first; i < to.size(); ++i) {
-      to.values()(i, c) = fused(weight, slope.values()(i, c), to.values()(i, c));
-    }
-  }
-}
-
-}  // namespace
-
-PlainRungeKutta::PlainRungeKutta(Chain chain, const ButcherTableau& tableau, bool track_dissipation)
-    : chain_(std::move(chain)),
-      tableau_(tableau),
+PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau,
+                                 bool track_dissipation, const ChainKernels& kernels)
+    : tableau_(tableau),
       track_dissipation_(track_dissipation),
-      stage_(chain_.size()),
-      slopes_(tableau.stages, State(chain_.size())),
-      accelerations_(chain_.size(), 2) {}
+      damping_(chain.spring().damping),
+      constants_(chain),
+      kernels_(kernels),
+      heat_(chain.size()),
+      state_(chain.size()),
+      stage_(chain.size()),
+      terms_(tableau.stages) {
+  for (std::size_t i = 0; i < tableau.stages; ++i) slopes_.emplace_back(chain.size());
+}
 
 void PlainRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
   state.velocities().row(0).setZero();
-  for (std::int64_t n = 0; n < steps; ++n) step(state, time_step);
+  state_.values() = state.values();
+  for (std::int64_t n = 0; n < steps; ++n) step(time_step);
+  state.values().bottomRows(state.size() - 1) = state_.values().bottomRows(state.size() - 1);
 }
 
-void PlainRungeKutta::step(State& state, double time_step) {
+SlopeSum PlainRungeKutta::sum(double time_step,
+                              const std::array<double, ButcherTableau::kMaxStages>& weights,
+                              std::size_t stages) {
+  std::ptrdiff_t count = 0;
+  for (std::size_t j = 0; j < stages; ++j) {
+    if (weights[j] == 0.0) continue;
+    terms_[static_cast<std::size_t>(count++)] = {time_step * weights[j], slopes_[j].data()};
+  }
+  return {terms_.data(), count};
+}
+
+void PlainRungeKutta::step(double time_step) {
+  const Eigen::Index pitch = state_.pitch();
   for (std::size_t i = 0; i < tableau_.stages; ++i) {
-    stage_.values() = state.values();
-    for (std::size_t j = 0; j < i; ++j) {
-      if (tableau_.a[i][j] == 0.0) continue;
-      addWeighted(time_step * tableau_.a[i][j], slopes_[j], stage_, 0);
-    }
-    computeAccelerations(chain_, stage_, accelerations_);
-    slopes_[i].positions() = stage_.velocities();
-    slopes_[i].positions().row(0).setZero();
-    slopes_[i].velocities() = accelerations_;
+    kernels_.combine(pitch, state_.data(), sum(time_step, tableau_.a[i], i), stage_.data());
+    kernels_.stageSlope(constants_.chain(), stage_.data(), {}, slopes_[i].data());
     ++force_evaluations_;
-    if (track_dissipation_) {
-      dissipated_energy_ += time_step * tableau_.b[i] * dissipatedPower(chain_, stage_);
+    if (track_dissipation_ && damping_ != 0.0 && tableau_.b[i] != 0.0) {
+      const double weight = time_step * tableau_.b[i] * damping_;
+      kernels_.addHeat(constants_.chain(), stage_.data(), weight, heat_.data());
     }
   }
-  for (std::size_t i = 0; i < tableau_.stages; ++i) {
-    if (tableau_.b[i] == 0.0) continue;
-    addWeighted(time_step * tableau_.b[i], slopes_[i], state, 1);
-  }
+  kernels_.combine(pitch, state_.data(), sum(time_step, tableau_.b, tableau_.stages),
+                   state_.data());
 }
 
 }  // namespace spring_pendulum

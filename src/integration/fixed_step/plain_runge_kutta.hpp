@@ -1,12 +1,15 @@
 // An explicit Runge-Kutta method with a fixed step, step by step and stage by stage as the formula
-// is written. `ExplicitRungeKutta` gives the same bits much faster; this is what it is compared
-// with, and what runs where the heat of the dashpots is integrated along.
+// is written. It runs any tableau. `ExplicitRungeKutta` gives the same bits faster where its kernels
+// know the tableau.
 #pragma once
 
+#include "integration/fixed_step/dashpot_heat.hpp"
+#include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/kernel_constants.hpp"
+#include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/dynamics.hpp>
 
 #include <vector>
 
@@ -15,23 +18,30 @@ namespace spring_pendulum {
 /// As `Integrator`. The velocity of the first particle, which is fixed, is set to 0.
 class PlainRungeKutta : public Integrator {
  public:
-  PlainRungeKutta(Chain chain, const ButcherTableau& tableau, bool track_dissipation);
+  PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau, bool track_dissipation,
+                  const ChainKernels& kernels = fastestChainKernels());
 
   void advance(State& state, double time_step, std::int64_t steps) override;
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
-  double dissipatedEnergy() const override { return dissipated_energy_; }
-  void restart() override { dissipated_energy_ = 0.0; }
+  double dissipatedEnergy() const override { return heat_.total(); }
+  void restart() override { heat_.reset(); }
 
  private:
-  void step(State& state, double time_step);
+  void step(double time_step);
+  /// sum_j h w_j k_j over the first `stages` slopes, without those of weight 0.
+  SlopeSum sum(double time_step, const std::array<double, ButcherTableau::kMaxStages>& weights,
+               std::size_t stages);
 
-  Chain chain_;
   ButcherTableau tableau_;
   bool track_dissipation_;
-  double dissipated_energy_ = 0.0;
-  State stage_;                ///< z_n + h sum a_ij k_j
-  std::vector<State> slopes_;  ///< k_i, one a stage
-  PlaneVectors accelerations_;
+  double damping_;  ///< N·s/m
+  KernelConstants constants_;
+  const ChainKernels& kernels_;
+  DashpotHeat heat_;
+  StateBuffer state_;
+  StateBuffer stage_;                ///< z_n + h sum a_ij k_j
+  std::vector<StateBuffer> slopes_;  ///< k_i, one a stage
+  std::vector<WeightedSlope> terms_;
   std::int64_t force_evaluations_ = 0;
 };
 

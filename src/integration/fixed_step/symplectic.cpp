@@ -1,7 +1,5 @@
 #include "integration/fixed_step/symplectic.hpp"
 
-#include <spring_pendulum/model/energy.hpp>
-
 #include <utility>
 
 namespace spring_pendulum {
@@ -12,26 +10,27 @@ SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
       constants_(chain_),
       kernels_(fastestChainKernels()),
       current_(chain.size()),
-      sample_(chain.size()) {}
+      heat_(chain.size()) {}
 
 void SymplecticMethod::restart() {
-  dissipated_energy_ = 0.0;
+  heat_.reset();
   forget();
 }
 
 void SymplecticMethod::advance(State& state, double time_step, std::int64_t steps) {
   state.velocities().row(0).setZero();
   current_.values() = state.values();
-  double power_before = track_dissipation_ ? dissipatedPower(chain_, state) : 0.0;
   for (std::int64_t n = 0; n < steps; ++n) {
+    if (track_dissipation_) addHeat(0.5 * time_step);
     step(time_step);
-    if (!track_dissipation_) continue;
-    sample_.values() = current_.values();
-    const double power_after = dissipatedPower(chain_, sample_);
-    dissipated_energy_ += 0.5 * time_step * (power_before + power_after);
-    power_before = power_after;
+    if (track_dissipation_) addHeat(0.5 * time_step);
   }
   state.values() = current_.values();
+}
+
+void SymplecticMethod::addHeat(double time) {
+  kernels_.addHeat(constants_.chain(), current_.data(), time * chain_.spring().damping,
+                   heat_.data());
 }
 
 void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {

@@ -21,6 +21,7 @@
 // doi:10.1017/S0962492902000144.
 #pragma once
 
+#include "integration/fixed_step/dashpot_heat.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
@@ -36,7 +37,7 @@ class SymplecticMethod : public Integrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
-  double dissipatedEnergy() const final { return dissipated_energy_; }
+  double dissipatedEnergy() const final { return heat_.total(); }
   void restart() final;
 
  protected:
@@ -57,15 +58,15 @@ class SymplecticMethod : public Integrator {
   void drift(StateBuffer& state, double weight);
 
  private:
-  double power(const State& state) const;
+  /// Adds the heat that the current power dissipates in `time` s.
+  void addHeat(double time);
 
   Chain chain_;
   bool track_dissipation_;
   KernelConstants constants_;
   const ChainKernels& kernels_;
   StateBuffer current_;
-  State sample_;  ///< workspace of the heat
-  double dissipated_energy_ = 0.0;
+  DashpotHeat heat_;
   std::int64_t force_evaluations_ = 0;
 };
 

@@ -74,8 +74,13 @@ template <bool kDamped>
   return force;
 }
 
+/// heat += weight * rate², weight k_d times a time.
+[[gnu::always_inline]] inline void addHeat(double weight, Pack rate, double* heat) {
+  fused(weight, rate * rate, Pack::load(heat)).store(heat);
+}
+
 /// The slope of a block from the forces of its springs and those of the block to its left.
-template <bool kGravity>
+template <bool kGravity, bool kInner = false>
 [[gnu::always_inline]] inline Block slopeOf(const KernelChain& chain, const Block& here,
                                             const PlaneVector<Pack>& left,
                                             const PlaneVector<Pack>& right, std::ptrdiff_t block) {
@@ -89,7 +94,7 @@ template <bool kGravity>
     slope.vy = force.y * inverse_mass;
   }
   const std::ptrdiff_t particles = chain.size - block * kLanes;
-  if (block == 0 || particles < kLanes) {
+  if (!kInner && (block == 0 || particles < kLanes)) {
     const std::ptrdiff_t first_moving = block == 0 ? 1 : 0;
     slope = {only(slope.x, first_moving, particles), only(slope.y, first_moving, particles),
              only(slope.vx, first_moving, particles), only(slope.vy, first_moving, particles)};

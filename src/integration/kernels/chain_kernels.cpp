@@ -2,9 +2,14 @@
 
 #include "integration/kernels/instruction_sets.hpp"
 #include "integration/kernels/kernel_constants.hpp"
+#include <spring_pendulum/model/errors.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
+#include <string>
 
 namespace spring_pendulum {
 namespace {
@@ -28,8 +33,22 @@ std::vector<const ChainKernels*> findSupportedKernels() {
 }  // namespace
 
 const std::vector<const ChainKernels*>& supportedChainKernels() {
-  static const std::vector<const ChainKernels*> kSupported = findSupportedKernels();
+  static const std::vector<const ChainKernels*> kSupported = [] {
+    const char* name = std::getenv("SPRING_PENDULUM_INSTRUCTION_SET");
+    return name == nullptr ? findSupportedKernels() : chainKernelsUpTo(name);
+  }();
   return kSupported;
+}
+
+std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name) {
+  std::vector<const ChainKernels*> kernels = findSupportedKernels();
+  const auto named = std::find_if(kernels.begin(), kernels.end(),
+                                  [name](const ChainKernels* k) { return k->name == name; });
+  if (named != kernels.end()) return {named, kernels.end()};
+  std::string known;
+  for (const ChainKernels* k : kernels) known.append(known.empty() ? "" : ", ").append(k->name);
+  throw InputError(
+      fmt::format("SPRING_PENDULUM_INSTRUCTION_SET is '{}': this processor has {}", name, known));
 }
 
 const ChainKernels& fastestChainKernels() {

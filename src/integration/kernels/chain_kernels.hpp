@@ -49,25 +49,35 @@ struct SlopeSum {
 /// j in the state that follows stage i, of stage i+1 or of the next step.
 struct StepWeights {
   double after[ButcherTableau::kMaxStages][ButcherTableau::kMaxStages] = {};
+  double heat[ButcherTableau::kMaxStages] = {};  ///< h b_i k_d, kg
 };
 
-/// How many blocks are under way between the first and the last stage while whole steps are taken
-/// along the chain, rounded up to a power of two.
+/// How many blocks at most are under way between the first and the last stage while whole steps are
+/// taken along the chain, rounded up to a power of two.
 constexpr std::ptrdiff_t ringBlocks(std::size_t stages) {
   std::ptrdiff_t blocks = 8;
-  while (blocks < 2 * static_cast<std::ptrdiff_t>(stages)) blocks *= 2;
+  while (blocks < 3 * static_cast<std::ptrdiff_t>(stages)) blocks *= 2;
   return blocks;
 }
 
-/// How many doubles of workspace whole steps need: states and slopes of the stages.
+/// How many doubles of workspace whole steps need: states, sums, slopes and springs of the stages.
 constexpr std::ptrdiff_t stepWorkspaceSize(std::size_t stages) {
-  return static_cast<std::ptrdiff_t>(stages) * (2 * ringBlocks(stages) * 4 + 2) * 8;
+  return static_cast<std::ptrdiff_t>(stages) * (4 * ringBlocks(stages) * 4 + 2) * 8;
 }
 
+/// What a kernel for whole steps does; damping or gravity of 0 need not be computed.
+struct StepNeeds {
+  bool damping = true;
+  bool gravity = true;
+  bool heat = false;  ///< of the dashpots; none without damping
+};
+
 /// Takes `steps` steps, in place.
+/// \param heat a column: what each dashpot dissipates is added, J; may be null if not needed
 /// \param workspace `stepWorkspaceSize` doubles, aligned as a column, that were zero once
 using AdvanceKernel = void (*)(const KernelChain& chain, const StepWeights& weights,
-                               std::ptrdiff_t steps, double* state, double* workspace);
+                               std::ptrdiff_t steps, double* state, double* heat,
+                               double* workspace);
 
 /// Largest absolute values in a combination of slopes; NaN if it is not finite.
 struct LargestChange {
@@ -82,7 +92,7 @@ struct ChainKernels {
   /// slope = F(state + sum); with no terms F(state). Row 0 is zero: the first particle is fixed.
   void (*stageSlope)(const KernelChain& chain, const double* state, SlopeSum sum, double* slope);
 
-  /// out = state + sum
+  /// out = state + sum; `out` may be `state`
   void (*combine)(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out);
 
   /// to += weight * from, `count` numbers, a multiple of 8.
@@ -103,9 +113,12 @@ struct ChainKernels {
   bool (*springsChangeMuch)(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
                             const double* to);
 
-  /// Whole steps of a tableau, for chains with or without damping and gravity; null if none was
-  /// compiled for this tableau (which is known by its address).
-  AdvanceKernel (*advanceKernel)(const ButcherTableau& tableau, bool damped, bool gravity);
+  /// Adds to each spring's heat, J, that of its dashpot in a state: weight * rate². Of N - 1 springs;
+  /// what comes behind them is without meaning.
+  void (*addHeat)(const KernelChain& chain, const double* state, double weight, double* heat);
+
+  /// Whole steps of a tableau; null if none was compiled for it.
+  AdvanceKernel (*advanceKernel)(const ButcherTableau& tableau, StepNeeds needs);
 
   /// All Taylor coefficients of the motion about a state.
   void (*taylorSeries)(const TaylorWorkspace& work, const double* state);
@@ -122,8 +135,14 @@ struct ChainKernels {
 };
 
 /// The kernels of every instruction set that this processor has, the fastest first. The last is the
-/// baseline, which all processors of the architecture have.
+/// baseline, which all processors of the architecture have. The environment variable
+/// SPRING_PENDULUM_INSTRUCTION_SET, if set to the name of one, leaves out all faster ones.
+/// \throws InputError if it names none of them
 const std::vector<const ChainKernels*>& supportedChainKernels();
+
+/// Those of the processor that are not faster than the named one.
+/// \throws InputError if there is no such one, or not on this processor
+std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name);
 
 /// The fastest of them for a long chain, and for one of so many particles.
 const ChainKernels& fastestChainKernels();

@@ -1,13 +1,14 @@
 // Whole steps of an explicit Runge-Kutta method in one pass over the chain, in place.
 //
 // Stage i of a block needs no more than stage i-1 of that block and the next. So the stages follow
-// each other along the chain like machines along a conveyor, two blocks apart, and all that passes
-// between them fits the innermost cache:
+// each other along the chain like machines along a conveyor, and all that passes between them fits
+// the innermost cache. Each stage works in two halves, the first up to the root and the division,
+// the second from there on, a tick later: while the divider works, nothing waits for it.
 //
-//     tick t:   stage 4 of block t-6,  stage 3 of block t-4,  stage 2 of block t-2,  stage 1 of t
+//     tick t:   stage 1 of blocks t and t-1,  stage 2 of t-3 and t-4,  ...  stage 4 of t-9 and t-10
 //
-// The stages of one tick need nothing of each other; the processor does them side by side, which
-// hides the latency of the square root and the division.
+// The halves of one tick need nothing of each other. Chains of up to four blocks stay in registers
+// as far as these go; somewhat longer ones do stage after stage.
 #pragma once
 
 #include "integration/kernels/block.hpp"
@@ -22,72 +23,243 @@ namespace {
 
 /// Which slopes a stage's result needs is known to the compiler; their weights, which contain the
 /// step, are not.
-template <const ButcherTableau& kTableau, bool kDamped, bool kGravity>
+template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kHeat>
 class Conveyor {
  public:
-  Conveyor(const KernelChain& chain, const StepWeights& weights, double* state, double* workspace)
+  Conveyor(const KernelChain& chain, const StepWeights& weights, double* state, double* heat,
+           double* workspace)
       : chain_(chain),
         weights_(weights),
         state_(state),
+        heat_(heat),
         workspace_(workspace),
         blocks_(blocksOf(chain.size)) {}
 
-  void step() { step(std::make_index_sequence<kTableau.stages>()); }
+  void advance(std::ptrdiff_t steps) {
+    switch (blocks_) {
+      case 1:
+        return shortSteps(steps, std::make_index_sequence<1>());
+      case 2:
+        return shortSteps(steps, std::make_index_sequence<2>());
+      case 3:
+        return shortSteps(steps, std::make_index_sequence<3>());
+      case 4:
+        return shortSteps(steps, std::make_index_sequence<4>());
+      default:
+        break;
+    }
+    for (std::ptrdiff_t n = 0; n < steps; ++n) step(std::make_index_sequence<kTableau.stages>());
+  }
 
  private:
-  static constexpr std::size_t kStages = kTableau.stages;
-  static constexpr std::ptrdiff_t kBlocksBetweenStages = 2;
-  static constexpr std::ptrdiff_t kRing = ringBlocks(kStages);
+  static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
+  /// Halves of a stage are so many ticks apart that some four stages lie between them.
+  static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
+  static constexpr std::ptrdiff_t kLead = 4;
+  static constexpr std::ptrdiff_t kBlocksBetweenStages = kLag + 2;
+  static constexpr std::ptrdiff_t kFill = kBlocksBetweenStages * (kStages - 1) + kLag;
   static constexpr std::ptrdiff_t kBlockNumbers = 4 * kLanes;
+
+  /// Whether slope j is needed by more than the next stage and the sum.
+  static constexpr bool keepsSlope(std::ptrdiff_t j) {
+    for (std::ptrdiff_t i = j + 2; i < kStages; ++i) {
+      if (kTableau.a[i][j] != 0.0) return true;
+    }
+    return false;
+  }
+  static constexpr bool keepsSlopes() {
+    for (std::ptrdiff_t j = 0; j < kStages; ++j) {
+      if (keepsSlope(j)) return true;
+    }
+    return false;
+  }
+  /// What the first half of a stage hands to the second.
+  struct Springs {
+    PlaneVector<Pack> separation;
+    Pack inverse_length, dot;
+  };
+
+  static constexpr std::ptrdiff_t kRing = keepsSlopes() ? ringBlocks(kStages) : 8;
 
   template <std::size_t... kStage>
   void step(std::index_sequence<kStage...> /*stages*/) {
-    for (std::size_t i = 0; i < kStages; ++i) {
+    for (std::ptrdiff_t i = 0; i < kStages; ++i) {
       Pack{}.store(forcesOf(i));
       Pack{}.store(forcesOf(i) + kLanes);
     }
     if (blocks_ <= kRing) return (wholeStage<kStage>(), ...);
-    const std::ptrdiff_t ticks = blocks_ + kBlocksBetweenStages * (kStages - 1);
-    for (std::ptrdiff_t tick = 0; tick < ticks; ++tick) {
-      (stageOfTick<kStages - 1 - kStage>(tick), ...);
-    }
+    std::ptrdiff_t tick = 0;
+    for (; tick <= kFill; ++tick) (halves<kStage>(tick), ...);
+    for (; tick < blocks_ - 1; ++tick) (innerHalves<kStage>(tick), ...);
+    for (; tick < blocks_ + kFill; ++tick) (halves<kStage>(tick), ...);
   }
 
-  template <std::size_t kStage>
-  void wholeStage() {
-    for (std::ptrdiff_t block = 0; block < blocks_; ++block) stage<kStage>(block);
+  /// A block of a chain that is kept in registers as far as they go.
+  struct ShortBlock {
+    Block state, sum, at, slope;
+    Springs springs;
+    PlaneVector<Pack> forces;
+    Block slopes[keepsSlopes() ? kStages : 1];
+  };
+
+  template <std::size_t... kBlock>
+  void shortSteps(std::ptrdiff_t steps, std::index_sequence<kBlock...> blocks) {
+    ShortBlock chain[sizeof...(kBlock)];
+    ((chain[kBlock].state = load({state_ + kBlock * kLanes, chain_.pitch})), ...);
+    for (std::ptrdiff_t n = 0; n < steps; ++n) {
+      ((chain[kBlock].at = chain[kBlock].sum = chain[kBlock].state), ...);
+      shortStages(chain, blocks, std::make_index_sequence<kTableau.stages>());
+      ((chain[kBlock].state = chain[kBlock].sum), ...);
+    }
+    (store(chain[kBlock].state, {state_ + kBlock * kLanes, chain_.pitch}), ...);
   }
 
-  template <std::size_t kStage>
-  [[gnu::always_inline]] void stageOfTick(std::ptrdiff_t tick) {
-    const std::ptrdiff_t block = tick - kBlocksBetweenStages * kStage;
-    if (block >= 0 && block < blocks_) stage<kStage>(block);
+  template <std::size_t... kBlock, std::size_t... kStage>
+  [[gnu::always_inline]] void shortStages(ShortBlock* chain, std::index_sequence<kBlock...> blocks,
+                                          std::index_sequence<kStage...> /*stages*/) {
+    (shortStage<kStage>(chain, blocks), ...);
   }
 
-  template <std::size_t kStage>
-  [[gnu::always_inline]] void stage(std::ptrdiff_t block) {
-    const Block here = load(stateOf(kStage, block));
-    const Block next = load(stateOf(kStage, block + 1 < blocks_ ? block + 1 : block));
-    double* const carried = forcesOf(kStage);
-    const PlaneVector<Pack> before{Pack::load(carried), Pack::load(carried + kLanes)};
-    const PlaneVector<Pack> forces = forcesFromRight<kDamped>(chain_, here, next, block);
-    forces.x.store(carried);
-    forces.y.store(carried + kLanes);
-    const Block slope = slopeOf<kGravity>(chain_, here, before, forces, block);
-    Block result = load({state_ + block * kLanes, chain_.pitch});
-    result = plusEarlierSlopes<kStage>(result, block, std::make_index_sequence<kStage>());
-    if constexpr (coefficient(kStage, kStage) != 0.0) {
-      result = plusWeighted(result, weights_.after[kStage][kStage], slope);
-    }
-    if constexpr (kStage + 1 < kStages) {
-      store(slope, {slopesOf(kStage) + inRing(block), kLanes});
-      store(result, {statesOf(kStage + 1) + inRing(block), kLanes});
-    } else {
-      store(result, {state_ + block * kLanes, chain_.pitch});
-    }
+  template <std::size_t kStage, std::size_t... kBlock>
+  [[gnu::always_inline]] void shortStage(ShortBlock* chain, std::index_sequence<kBlock...>) {
+    constexpr std::size_t kLast = sizeof...(kBlock) - 1;
+    ((chain[kBlock].springs =
+          springsBetween(chain[kBlock].at, chain[kBlock < kLast ? kBlock + 1 : kLast].at)),
+     ...);
+    ((chain[kBlock].forces = forcesFrom<kStage, (kBlock < kLast)>(chain[kBlock].springs, kBlock)),
+     ...);
+    ((chain[kBlock].slope = slopeOf<kGravity>(
+          chain_, chain[kBlock].at,
+          kBlock > 0 ? chain[kBlock > 0 ? kBlock - 1 : 0].forces : PlaneVector<Pack>{},
+          chain[kBlock].forces, kBlock)),
+     ...);
+    (shortResult<kStage>(chain[kBlock], std::make_index_sequence<kStage>()), ...);
   }
 
   template <std::size_t kStage, std::size_t... kEarlier>
+  [[gnu::always_inline]] void shortResult(ShortBlock& block, std::index_sequence<kEarlier...>) {
+    if constexpr (kTableau.b[kStage] != 0.0) {
+      block.sum = plusWeighted(block.sum, weights_.after[kStages - 1][kStage], block.slope);
+    }
+    if constexpr (kStage + 1 < kStages) {
+      block.at = block.state;
+      ((block.at = kTableau.a[kStage + 1][kEarlier] == 0.0
+                       ? block.at
+                       : plusWeighted(block.at, weights_.after[kStage][kEarlier],
+                                      block.slopes[keepsSlopes() ? kEarlier : 0])),
+       ...);
+      if constexpr (kTableau.a[kStage + 1][kStage] != 0.0) {
+        block.at = plusWeighted(block.at, weights_.after[kStage][kStage], block.slope);
+      }
+      if constexpr (keepsSlope(kStage)) block.slopes[kStage] = block.slope;
+    }
+  }
+
+  template <std::ptrdiff_t kStage>
+  void wholeStage() {
+    for (std::ptrdiff_t block = 0; block < blocks_ + kLead; ++block) {
+      if (block >= kLead) finish<kStage, false>(block - kLead);
+      if (block < blocks_) begin<kStage, false>(block);
+    }
+  }
+
+  template <std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void halves(std::ptrdiff_t tick) {
+    const std::ptrdiff_t block = tick - kBlocksBetweenStages * kStage;
+    if (block >= kLag && block - kLag < blocks_) finish<kStage, false>(block - kLag);
+    if (block >= 0 && block < blocks_) begin<kStage, false>(block);
+  }
+
+  template <std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void innerHalves(std::ptrdiff_t tick) {
+    const std::ptrdiff_t block = tick - kBlocksBetweenStages * kStage;
+    finish<kStage, true>(block - kLag);
+    begin<kStage, true>(block);
+  }
+
+  /// First half, up to the inverse length of the springs.
+  template <std::ptrdiff_t kStage, bool kInner>
+  [[gnu::always_inline]] void begin(std::ptrdiff_t block) {
+    const Block here = load(stateOf(kStage, block));
+    const Block next = load(stateOf(kStage, kInner || block + 1 < blocks_ ? block + 1 : block));
+    const Springs springs = springsBetween(here, next);
+    double* const to = springsOf(kStage) + inRing(block);
+    springs.separation.x.store(to);
+    springs.separation.y.store(to + kLanes);
+    springs.inverse_length.store(to + 2 * kLanes);
+    if constexpr (kDamped) springs.dot.store(to + 3 * kLanes);
+  }
+
+  [[gnu::always_inline]] static Springs springsBetween(const Block& here, const Block& next) {
+    Springs springs{};
+    springs.separation = {rightNeighbours(here.x, next.x) - here.x,
+                          rightNeighbours(here.y, next.y) - here.y};
+    springs.inverse_length = inverseSquareRoot(squaredLength(springs.separation));
+    if constexpr (kDamped) {
+      const PlaneVector<Pack> approach{rightNeighbours(here.vx, next.vx) - here.vx,
+                                       rightNeighbours(here.vy, next.vy) - here.vy};
+      springs.dot = dotProduct(approach, springs.separation);
+    }
+    return springs;
+  }
+
+  /// Second half: forces, slope, and what is made of it.
+  template <std::ptrdiff_t kStage, bool kInner>
+  [[gnu::always_inline]] void finish(std::ptrdiff_t block) {
+    const double* const from = springsOf(kStage) + inRing(block);
+    Springs springs{
+        {Pack::load(from), Pack::load(from + kLanes)}, Pack::load(from + 2 * kLanes), {}};
+    if constexpr (kDamped) springs.dot = Pack::load(from + 3 * kLanes);
+    const PlaneVector<Pack> forces = forcesFrom<kStage, kInner>(springs, block);
+    double* const carried = forcesOf(kStage);
+    const PlaneVector<Pack> before{Pack::load(carried), Pack::load(carried + kLanes)};
+    forces.x.store(carried);
+    forces.y.store(carried + kLanes);
+    const BlockPlace<const double> at = stateOf(kStage, block);
+    const Block here{
+        {}, {}, Pack::load(at.first + 2 * at.pitch), Pack::load(at.first + 3 * at.pitch)};
+    const Block slope = slopeOf<kGravity, kInner>(chain_, here, before, forces, block);
+    const BlockPlace<double> place{state_ + block * kLanes, chain_.pitch};
+    Block sum = kStage == 0 ? load({place.first, place.pitch})
+                            : load({sumsOf(kStage) + inRing(block), kLanes});
+    if constexpr (kTableau.b[kStage] != 0.0) {
+      sum = plusWeighted(sum, weights_.after[kStages - 1][kStage], slope);
+    }
+    if constexpr (kStage + 1 == kStages) {
+      store(sum, place);
+    } else {
+      store(sum, {sumsOf(kStage + 1) + inRing(block), kLanes});
+      Block result = load({place.first, place.pitch});
+      result = plusEarlierSlopes<kStage>(result, block, std::make_index_sequence<kStage>());
+      if constexpr (kTableau.a[kStage + 1][kStage] != 0.0) {
+        result = plusWeighted(result, weights_.after[kStage][kStage], slope);
+      }
+      store(result, {statesOf(kStage + 1) + inRing(block), kLanes});
+      if constexpr (keepsSlope(kStage)) store(slope, {slopesOf(kStage) + inRing(block), kLanes});
+    }
+  }
+
+  template <std::ptrdiff_t kStage, bool kInner>
+  [[gnu::always_inline]] PlaneVector<Pack> forcesFrom(const Springs& springs,
+                                                      std::ptrdiff_t block) {
+    PlaneVector<Pack> forces;
+    if constexpr (kDamped) {
+      forces = springForce(chain_.spring, springs.separation, springs.dot, springs.inverse_length);
+      if constexpr (kHeat && kTableau.b[kStage] != 0.0) {
+        addHeat(weights_.heat[kStage], springs.dot * springs.inverse_length,
+                heat_ + block * kLanes);
+      }
+    } else {
+      forces = undampedSpringForce(chain_.spring, springs.separation, springs.inverse_length);
+    }
+    const std::ptrdiff_t springs_left = chain_.size - 1 - block * kLanes;
+    if (!kInner && springs_left < kLanes) {
+      forces = {only(forces.x, 0, springs_left), only(forces.y, 0, springs_left)};
+    }
+    return forces;
+  }
+
+  template <std::ptrdiff_t kStage, std::size_t... kEarlier>
   [[gnu::always_inline]] Block plusEarlierSlopes(Block result,
                                                  [[maybe_unused]] std::ptrdiff_t block,
                                                  std::index_sequence<kEarlier...> /*stages*/) {
@@ -95,61 +267,76 @@ class Conveyor {
     return result;
   }
 
-  template <std::size_t kStage, std::size_t kEarlier>
+  template <std::ptrdiff_t kStage, std::size_t kEarlier>
   [[gnu::always_inline]] Block plusEarlierSlope(const Block& result, std::ptrdiff_t block) {
-    if constexpr (coefficient(kStage, kEarlier) == 0.0) return result;
+    if constexpr (kTableau.a[kStage + 1][kEarlier] == 0.0) return result;
     const Block slope = load({slopesOf(kEarlier) + inRing(block), kLanes});
     return plusWeighted(result, weights_.after[kStage][kEarlier], slope);
   }
 
-  /// Of slope `earlier` in the state that follows `stage`.
-  static constexpr double coefficient(std::size_t stage, std::size_t earlier) {
-    return stage + 1 < kStages ? kTableau.a[stage + 1][earlier] : kTableau.b[earlier];
+  /// A stage's workspace: rings of blocks, and the forces of the springs of the block before.
+  static constexpr std::ptrdiff_t kRingNumbers = kRing * kBlockNumbers;
+  double* statesOf(std::ptrdiff_t stage) const {
+    return workspace_ + stage * (4 * kRingNumbers + 2 * kLanes);
   }
-
-  /// A stage's workspace: a ring of blocks with its slopes, one with its states, and the forces of
-  /// the springs of the block before.
-  double* slopesOf(std::size_t stage) const {
-    return workspace_ +
-           static_cast<std::ptrdiff_t>(stage) * (2 * kRing * kBlockNumbers + 2 * kLanes);
-  }
-  double* statesOf(std::size_t stage) const { return slopesOf(stage) + kRing * kBlockNumbers; }
-  double* forcesOf(std::size_t stage) const { return statesOf(stage) + kRing * kBlockNumbers; }
+  double* sumsOf(std::ptrdiff_t stage) const { return statesOf(stage) + kRingNumbers; }
+  double* springsOf(std::ptrdiff_t stage) const { return statesOf(stage) + 2 * kRingNumbers; }
+  double* slopesOf(std::ptrdiff_t stage) const { return statesOf(stage) + 3 * kRingNumbers; }
+  double* forcesOf(std::ptrdiff_t stage) const { return statesOf(stage) + 4 * kRingNumbers; }
   static std::ptrdiff_t inRing(std::ptrdiff_t block) {
     return (block & (kRing - 1)) * kBlockNumbers;
   }
 
-  [[gnu::always_inline]] BlockPlace<const double> stateOf(std::size_t stage,
+  [[gnu::always_inline]] BlockPlace<const double> stateOf(std::ptrdiff_t stage,
                                                           std::ptrdiff_t block) const {
     if (stage == 0) return {state_ + block * kLanes, chain_.pitch};
     return {statesOf(stage) + inRing(block), kLanes};
   }
 
   const KernelChain chain_;  ///< a copy, which writing a state can not change
-  const StepWeights& weights_;
-  double* state_;
-  double* workspace_;
-  std::ptrdiff_t blocks_;
+  const StepWeights weights_;
+  double* const state_;
+  double* const heat_;
+  double* const workspace_;
+  const std::ptrdiff_t blocks_;
 };
 
-template <const ButcherTableau& kTableau, bool kDamped, bool kGravity>
+template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kHeat>
 void advance(const KernelChain& chain, const StepWeights& weights, std::ptrdiff_t steps,
-             double* state, double* workspace) {
-  Conveyor<kTableau, kDamped, kGravity> conveyor(chain, weights, state, workspace);
-  for (std::ptrdiff_t n = 0; n < steps; ++n) conveyor.step();
+             double* state, double* heat, double* workspace) {
+  Conveyor<kTableau, kDamped, kGravity, kHeat>(chain, weights, state, heat, workspace)
+      .advance(steps);
 }
 
 template <const ButcherTableau& kTableau>
-AdvanceKernel advanceKernelFor(bool damped, bool gravity) {
-  if (damped) return gravity ? advance<kTableau, true, true> : advance<kTableau, true, false>;
-  return gravity ? advance<kTableau, false, true> : advance<kTableau, false, false>;
+AdvanceKernel advanceKernelFor(StepNeeds needs) {
+  if (!needs.damping) {
+    return needs.gravity ? advance<kTableau, false, true, false>
+                         : advance<kTableau, false, false, false>;
+  }
+  if (needs.heat) {
+    return needs.gravity ? advance<kTableau, true, true, true>
+                         : advance<kTableau, true, false, true>;
+  }
+  return needs.gravity ? advance<kTableau, true, true, false>
+                       : advance<kTableau, true, false, false>;
 }
 
-AdvanceKernel advanceKernel(const ButcherTableau& tableau, bool damped, bool gravity) {
-  if (&tableau == &kEulerTableau) return advanceKernelFor<kEulerTableau>(damped, gravity);
-  if (&tableau == &kMidpointTableau) return advanceKernelFor<kMidpointTableau>(damped, gravity);
-  if (&tableau == &kClassicalRungeKuttaTableau) {
-    return advanceKernelFor<kClassicalRungeKuttaTableau>(damped, gravity);
+/// The tableaus that are compiled: one line here makes a tableau fast. Every other runs stage by
+/// stage, with the same bits.
+struct FastTableau {
+  const ButcherTableau* tableau;
+  AdvanceKernel (*kernel_for)(StepNeeds needs);
+};
+constexpr FastTableau kFastTableaus[] = {
+    {&kEulerTableau, advanceKernelFor<kEulerTableau>},
+    {&kMidpointTableau, advanceKernelFor<kMidpointTableau>},
+    {&kClassicalRungeKuttaTableau, advanceKernelFor<kClassicalRungeKuttaTableau>},
+};
+
+AdvanceKernel advanceKernel(const ButcherTableau& tableau, StepNeeds needs) {
+  for (const FastTableau& fast : kFastTableaus) {
+    if (isSame(*fast.tableau, tableau)) return fast.kernel_for(needs);
   }
   return nullptr;
 }

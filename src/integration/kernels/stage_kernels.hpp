@@ -57,6 +57,21 @@ void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* ou
   }
 }
 
+void addHeat(const KernelChain& callers_chain, const double* state, double weight, double* heat) {
+  const KernelChain chain = callers_chain;
+  const std::ptrdiff_t blocks = blocksOf(chain.size);
+  for (std::ptrdiff_t block = 0; block < blocks; ++block) {
+    const Block here = load({state + block * kLanes, chain.pitch});
+    const Block next =
+        block + 1 < blocks ? load({state + (block + 1) * kLanes, chain.pitch}) : here;
+    const PlaneVector<Pack> separation{rightNeighbours(here.x, next.x) - here.x,
+                                       rightNeighbours(here.y, next.y) - here.y};
+    const PlaneVector<Pack> approach{rightNeighbours(here.vx, next.vx) - here.vx,
+                                     rightNeighbours(here.vy, next.vy) - here.vy};
+    addHeat(weight, elongationRate(separation, approach), heat + block * kLanes);
+  }
+}
+
 void addWeighted(std::ptrdiff_t count, double weight, const double* from, double* to) {
   for (std::ptrdiff_t first = 0; first < count; first += kLanes) {
     fused(weight, Pack::load(from + first), Pack::load(to + first)).store(to + first);

@@ -53,6 +53,8 @@ Chain chainOf(Eigen::Index size, const Kind& kind) {
 
 constexpr const char* kMethods[] = {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"};
 constexpr Eigen::Index kShortChains[] = {1, 2, 3, 7, 8, 9, 11, 64, 1000};
+/// More numbers of blocks: those kept in registers, and around where the conveyor starts.
+constexpr Eigen::Index kOtherShortChains[] = {4, 5, 12, 13, 16, 17, 31, 32, 33, 40, 65, 100};
 constexpr Eigen::Index kLongChain = 100003;
 constexpr int kSteps = 12;
 constexpr int kStepsOfLongChain = 3;
@@ -72,11 +74,6 @@ State stateAfter(Integrator& integrator, State state, int steps, int steps_a_cal
   return state;
 }
 
-State plainStateAfter(const char* method, const Kind& kind, const State& start, int steps) {
-  PlainRungeKutta plain(chainOf(start.size(), kind), *findMethod(method).tableau, false);
-  return stateAfter(plain, start, steps, steps);
-}
-
 bool sameBits(const State& a, const State& b) {
   const auto bytes = static_cast<std::size_t>(a.values().size()) * sizeof(double);
   return a.size() == b.size() && std::memcmp(a.values().data(), b.values().data(), bytes) == 0;
@@ -91,20 +88,26 @@ struct Ways {
 
 /// Runs the engine all these ways with every instruction set and compares the bits.
 void expectSameBits(const char* method, const Kind& kind, const State& start, int steps,
-                    const Ways& ways) {
-  const State expected = plainStateAfter(method, kind, start, steps);
+                    const Ways& ways, bool heat = false) {
   const Chain chain = chainOf(start.size(), kind);
+  PlainRungeKutta plain(chain, *findMethod(method).tableau, heat);
+  const State expected = stateAfter(plain, start, steps, steps);
   for (const ChainKernels* kernels : supportedChainKernels()) {
     for (const auto& [threads, block_size] : ways.threads_and_block_sizes) {
       for (const unsigned skips : ways.skips) {
-        const EngineOptions options{threads,          block_size,      1, kernels, (skips & 1) != 0,
-                                    (skips & 2) != 0, (skips & 4) != 0};
+        const EngineOptions options{
+            threads,          block_size,       1,   kernels, (skips & 1) != 0,
+            (skips & 2) != 0, (skips & 4) != 0, heat};
         ExplicitRungeKutta engine(chain, *findMethod(method).tableau, options);
         for (const int at_once : ways.steps_a_call) {
+          engine.restart();
           EXPECT_TRUE(sameBits(stateAfter(engine, start, steps, at_once), expected))
               << method << ", " << start.size() << " particles, scene " << kind.name << ", "
               << kernels->name << ", " << threads << " threads, blocks of " << block_size << ", "
               << at_once << " steps a call, skips " << skips;
+          EXPECT_EQ(engine.dissipatedEnergy(), plain.dissipatedEnergy())
+              << method << ", " << start.size() << " particles, " << kernels->name << ", blocks of "
+              << block_size;
         }
       }
     }
@@ -119,6 +122,49 @@ TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeHoweverItIsRun) {
         expectSameBits(method, kind, bentChain(size), kSteps, ways);
       }
     }
+  }
+}
+
+TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeForEveryNumberOfBlocks) {
+  for (const char* method : kMethods) {
+    for (const Eigen::Index size : kOtherShortChains) {
+      for (const Kind& kind : kKinds) {
+        expectSameBits(method, kind, bentChain(size), kSteps, {{{1, 4096}}, {kSteps}, {7}});
+      }
+    }
+  }
+}
+
+TEST(ExplicitRungeKutta, TracksTheHeatOfThePlainCodeHoweverItIsRun) {
+  const Ways ways{{{1, 4096}, {2, 16}, {3, 64}}, {kSteps, 5}, {7, 0}};
+  for (const char* method : kMethods) {
+    for (const Eigen::Index size : {1, 2, 3, 11, 16, 64, 1000}) {
+      for (const Kind& kind : kKinds) {
+        expectSameBits(method, kind, bentChain(size), kSteps, ways, true);
+      }
+    }
+  }
+  expectSameBits("Runge-Kutta-4", kKinds[0], bentChain(kLongChain), 2,
+                 {{{1, 4096}, {3, 20000}}, {2}, {7}}, true);
+}
+
+// K. Heun's method, for which no kernel is compiled.
+TEST(ExplicitRungeKutta, RunsATableauWithoutAKernel) {
+  const ButcherTableau heun{2, {{{}, {1.0}}}, {0.5, 0.5}};
+  const Chain chain = chainOf(11, kKinds[0]);
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    EngineOptions options;
+    options.kernels = kernels;
+    options.track_dissipation = true;
+    ExplicitRungeKutta engine(chain, heun, options);
+    PlainRungeKutta plain(chain, heun, true);
+    EXPECT_TRUE(sameBits(stateAfter(engine, bentChain(11), kSteps, 5),
+                         stateAfter(plain, bentChain(11), kSteps, kSteps)));
+    EXPECT_EQ(engine.forceEvaluations(), 2 * kSteps);
+    EXPECT_GT(engine.dissipatedEnergy(), 0.0);
+    EXPECT_EQ(engine.dissipatedEnergy(), plain.dissipatedEnergy());
+    engine.restart();
+    EXPECT_EQ(engine.dissipatedEnergy(), 0.0);
   }
 }
 

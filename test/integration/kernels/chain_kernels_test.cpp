@@ -3,6 +3,7 @@
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
+#include <spring_pendulum/model/errors.hpp>
 
 #include <gtest/gtest.h>
 
@@ -100,6 +101,45 @@ TEST(ChainKernels, CombinationHasTheBitsOfThePlainCode) {
       EXPECT_TRUE(sameBits(out.values(), expected)) << kernels->name << ", " << size;
     }
   }
+}
+
+TEST(ChainKernels, AddHeatHasTheBitsOfThePlainCode) {
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    for (const Eigen::Index size : kSizes) {
+      const Chain chain = randomChain(size, SpringLaw{}, true, 9.81);
+      const State state = randomState(size, 1);
+      StateBuffer z(size), heat(size);
+      z.values() = state.values();
+      heat.values().setConstant(0.1);
+      kernels->addHeat(KernelConstants(chain).chain(), z.data(), 0.3, heat.data());
+      for (Eigen::Index i = 0; i + 1 < size; ++i) {
+        const State::Matrix& s = state.values();
+        const double rate = elongationRate<double>({s(i + 1, 0) - s(i, 0), s(i + 1, 1) - s(i, 1)},
+                                                   {s(i + 1, 2) - s(i, 2), s(i + 1, 3) - s(i, 3)});
+        EXPECT_EQ(heat.values()(i, 0), std::fma(0.3, rate * rate, 0.1))
+            << kernels->name << ", " << size;
+      }
+    }
+  }
+}
+
+TEST(ChainKernels, KnowATableauByItsCoefficients) {
+  for (const ChainKernels* kernels : supportedChainKernels()) {
+    ButcherTableau tableau = kClassicalRungeKuttaTableau;
+    EXPECT_NE(kernels->advanceKernel(tableau, {}), nullptr) << kernels->name;
+    tableau.a[2][0] = 1e-3;
+    EXPECT_EQ(kernels->advanceKernel(tableau, {}), nullptr) << kernels->name;
+  }
+}
+
+TEST(ChainKernels, NamedInstructionSetLeavesOutFasterOnes) {
+  const std::vector<const ChainKernels*> all = supportedChainKernels();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::vector<const ChainKernels*> found = chainKernelsUpTo(all[i]->name);
+    EXPECT_EQ(found,
+              std::vector<const ChainKernels*>(all.begin() + static_cast<long>(i), all.end()));
+  }
+  EXPECT_THROW(chainKernelsUpTo("sse9"), InputError);
 }
 
 TEST(ChainKernels, AddWeightedHasTheBitsOfThePlainCode) {
