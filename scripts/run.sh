@@ -37,7 +37,7 @@ done
 "$project/scripts/setup.sh" core ros
 say "building into $build"
 configure "$build"
-compile "$build" Exercise3 $(have_ros && echo pendulum_node record_bag)
+compile "$build" Exercise3 $(have_ros && echo pendulum_node record_bag spring_pendulum_generate_messages)
 
 simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "${options[@]}")
 if $answers; then exec "${simulate[@]}"; fi

@@ -107,7 +107,7 @@ int conclude(const Scenario& scenario, const Chain& chain, const State& start,
 }
 
 void reportSkips(const Scenario& scenario, const Integrator& integrator) {
-  for (const std::string& skipped : skippedWork(scenario, integrator)) {
+  for (const std::string& skipped : skippedWork(scenario, integrator, !scenario.energy.empty())) {
     fmt::print("skipped: {}\n", skipped);
   }
 }

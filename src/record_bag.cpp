@@ -19,13 +19,13 @@ namespace spring_pendulum {
 namespace {
 
 /// What is asked for besides, or instead of, a bag.
-void report(const Scenario& scenario, const Switches& switches) {
+void report(const Scenario& scenario, bool track_energy, const Switches& switches) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   const auto integrator =
-      makeIntegrator(scenario.method, chain, integratorOptions(scenario, !scenario.energy.empty()));
+      makeIntegrator(scenario.method, chain, integratorOptions(scenario, track_energy));
   if (switches.report_skips) {
-    for (const std::string& skipped : skippedWork(scenario, *integrator)) {
+    for (const std::string& skipped : skippedWork(scenario, *integrator, track_energy)) {
       fmt::print("skipped: {}\n", skipped);
     }
   }
@@ -49,7 +49,9 @@ int record(int argc, const char* const* argv) {
     return kDone;
   }
   if (!options.isGiven("output")) scenario.no_frames = true;
-  if (switches.check || switches.report_skips) report(scenario, switches);
+  if (switches.check || switches.report_skips) {
+    report(scenario, display.track_energy || !scenario.energy.empty(), switches);
+  }
   if (switches.check) return kDone;
   const BagSummary summary = recordBag(scenario, display, bag);
   fmt::print("{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, verdict: {}\n", scenario.method,

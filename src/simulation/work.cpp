@@ -13,15 +13,15 @@ IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipa
   return options;
 }
 
-std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator) {
+std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator,
+                                     bool track_dissipation) {
   const Skips skips = integrator.skips();
   std::vector<std::string> skipped;
   if (skips.damping) skipped.emplace_back("velocity differences: damping is 0");
   if (skips.gravity) skipped.emplace_back("gravity: it is 0");
   if (skips.masses) skipped.emplace_back("reading masses: all moving particles have the same");
-  if (scenario.energy.empty())
-    skipped.emplace_back("dissipated energy: no energy balance is asked for");
-  if (scenario.no_frames) skipped.emplace_back("frame files: not wanted");
+  if (!track_dissipation) skipped.emplace_back("dissipated energy: no output needs it");
+  if (scenario.no_frames) skipped.emplace_back("frame files: not written");
   return skipped;
 }
 

@@ -13,6 +13,7 @@ namespace spring_pendulum {
 IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipation);
 
 /// What a run of this scenario leaves out because nobody needs it, a line each.
-std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator);
+std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator,
+                                     bool track_dissipation);
 
 }  // namespace spring_pendulum

@@ -11,7 +11,7 @@ import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import Folder, Listener, program, project, run_exercise
+from pendulum_process import Folder, Listener, program, project, read_frames, run_exercise
 
 SCENE = project('data/particle.txt')
 
@@ -101,9 +101,28 @@ class Bag(unittest.TestCase):
             self.assertIn('diverged at t = ', output)
             self.assertEqual(contents(path, '/status')[-1][0].code, PendulumStatus.DIVERGED)
 
+    def test_check_writes_nothing(self):
+        with Folder() as folder:
+            _, output = record(folder, 'one.bag', '--check', '--report-skips')
+            self.assertIn('skipped: frame files', output)
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_obeys_the_options_of_the_exercise(self):
+        with Folder() as folder, Folder() as expected_folder:
+            expected = run_exercise(expected_folder, 'Euler', '--particles', SCENE, '--frames', '5',
+                                    '--damping', '0', '--energy', expected_folder + '/energy.csv')
+            record(folder, 'one.bag', '--bag=' + folder + '/other.bag', '--frames=5',
+                               '--energy', folder + '/energy.csv', '--output', folder + '/frames',
+                               '--damping', '0', method='Euler')
+            self.assertEqual(sorted(os.listdir(folder)), ['energy.csv', 'frames', 'other.bag'])
+            self.assertEqual(read_frames(folder + '/frames'), expected)
+            with open(folder + '/energy.csv') as ours, open(expected_folder + '/energy.csv') as theirs:
+                self.assertEqual(ours.read(), theirs.read())
+
     def test_bad_use_leaves_no_file(self):
         cases = [(('--color', 'red'), 2, "--color: must be #rrggbb"), (('--frames', '0'), 2, 'frames'),
                  (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, "option '--trail' is missing"),
+                 (('--time-step', '0,5'), 2, 'use a decimal point'), (('Euler',), 2, 'only one METHOD'),
                  (('--bag', '/nowhere/x.bag'), 1, '/nowhere/x.bag')]
         for arguments, status, message in cases:
             with self.subTest(arguments=arguments), Folder() as folder:

@@ -23,11 +23,13 @@ rosmaster --core -p "$1" > master.log 2>&1 & master=$!
 trap 'kill $master; wait $master 2> /dev/null' EXIT
 until rosparam list > /dev/null 2>&1; do sleep 0.2; done
 eval "$(cat node.sh) _at_end:=exit _real_time_factor:=0" > node.log 2>&1 || { cat node.log; exit 1; }
+rosmsg show spring_pendulum/PendulumState > /dev/null && rostopic echo -b frames/pendulum.bag -p /state/time > time.csv || exit 1
 rosrun spring_pendulum record_bag Euler --particles "$2/data/particle.txt" --frames 5 || exit 1
 USER
 port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
 env -i PATH=/usr/bin:/bin HOME="$folder" ROS_MASTER_URI=http://127.0.0.1:"$port" ROS_IP=127.0.0.1 \
   bash user.sh "$port" "$project"
+check test "$(wc -l < time.csv)" -gt 5
 check test -s pendulum.bag
 for frame in frames/frame_*.txt; do check cmp "$frame" "frames/node/${frame#frames/}"; done
 echo "run.sh and its commands work"
