@@ -1,7 +1,7 @@
 # What only a build with ROS has: the messages, and how other packages find this one. The ROS
 # library and its executables follow in src/ros/CMakeLists.txt.
 find_package(catkin REQUIRED COMPONENTS geometry_msgs message_generation rosbag_storage roscpp
-  rosgraph_msgs std_msgs std_srvs visualization_msgs)
+  rosgraph_msgs std_msgs std_srvs tf2_msgs visualization_msgs)
 
 add_message_files(FILES PendulumState.msg PendulumStatus.msg)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
@@ -9,6 +9,7 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES spring_pendulum spring_pendulum_ros
-  CATKIN_DEPENDS geometry_msgs message_runtime roscpp rosgraph_msgs std_msgs std_srvs visualization_msgs
+  CATKIN_DEPENDS geometry_msgs message_runtime roscpp rosgraph_msgs std_msgs std_srvs
+    tf2_msgs visualization_msgs
   DEPENDS EIGEN3
   CFG_EXTRAS spring_pendulum-extras.cmake)

@@ -1,34 +1,56 @@
 #!/usr/bin/env bash
-# Plays a bag in a real rviz on a virtual display and films it, at the true speed.
-# Usage: scripts/film.sh BAG OUT.gif|OUT.mp4|OUT.png [options]
-#   --config FILE     rviz configuration [rviz/pendulum.rviz, or rviz/compare.rviz for its topics]
+# Plays a bag in a real rviz on a virtual display and films it, at the true speed. Every pendulum in
+# the bag is shown, whatever its namespace.
+# Usage: film.sh BAG OUT.gif|OUT.mp4|OUT.png [options]
+#   --config FILE     rviz configuration [rviz/pendulum.rviz]
 #   --start S         s of the bag to leave out at the start [0]
-#   --duration S      s to film [10]; for a PNG the picture at --start
-#   --fps N           pictures a second [20]
-#   --size WxH        of the picture [720x640]
-#   --slow N          play and film so many times slower, for a slow computer [2]
+#   --duration S      s to film [10]; a PNG shows the instant --start
+#   --fps N           pictures per second [20]
+#   --size WxH        of the picture [800x600]
+#   --slow N          play and film N times slower, for a slow computer [2]
 #   --window          the whole window of rviz instead of the scene alone
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd)
+export PATH=/usr/bin:$PATH  # ROS's Python modules belong to the system's python3
+say() { printf '%s\n' "-- $*"; }
+die() { printf '%s\n' "film.sh: $*" >&2; exit 1; }
 
-[ $# -ge 2 ] || { sed -n '3,10s/^# \{0,1\}//p' "$0" >&2; exit 2; }
-bag=$(realpath "$1") out=$(realpath -m "$2")
+[ $# -ge 2 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+bag=$(realpath -m "$1") out=$(realpath -m "$2")
 shift 2
-config='' start=0 duration=10 fps=20 size=720x640 slow=2 rviz_args=--fullscreen
+config='' start=0 duration=10 fps=20 size=800x600 slow=2 rviz_args=--fullscreen
 while [ $# -gt 0 ]; do
   case $1 in
-    --window) rviz_args=''; shift; continue ;;
+    --window) rviz_args=--; shift; continue ;;
     --config | --start | --duration | --fps | --size | --slow) ;;
-    *) die "film.sh: unknown option '$1'" ;;
+    *) die "unknown option '$1'" ;;
   esac
-  [ $# -ge 2 ] || die "film.sh: $1 needs a value"
+  [ $# -ge 2 ] || die "$1 needs a value"
   [ "$1" = --config ] && config=$(realpath "$2") || printf -v "${1#--}" %s "$2"
   shift 2
 done
-[ -f "$bag" ] || die "film.sh: no bag '$bag'"
-case $out in *.gif | *.mp4 | *.png) ;; *) die "film.sh: OUT must end in .gif, .mp4 or .png" ;; esac
+[ -f "$bag" ] || die "there is no bag '$bag'"
+case $out in *.gif | *.mp4 | *.png) ;; *) die "OUT must end in .gif, .mp4 or .png" ;; esac
+[[ $size =~ ^[0-9]+x[0-9]+$ ]] || die "--size is '$size': must be WIDTHxHEIGHT, for example 800x600"
+for option in start duration fps slow; do
+  [[ ${!option} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--$option is '${!option}': must be a number"
+done
 
-"$project/scripts/setup.sh" ros rviz film
+# In the repository missing packages are installed; an installed script only says which they are.
+[ ! -x "$here/setup.sh" ] || "$here/setup.sh" ros rviz film
+for program in Xvfb import ffmpeg roslaunch rosbag rosmaster rviz; do
+  command -v $program > /dev/null ||
+    die "$program is missing: apt-get install xvfb imagemagick ffmpeg rviz python3-roslaunch python3-rosbag"
+done
+project=$(cd "$here/.." && pwd)
+[ -f "$project/package.xml" ] || project=$(rospack find spring_pendulum 2> /dev/null) ||
+  die "ROS does not find the package spring_pendulum: source the setup.bash of your workspace first"
+topics=$(/usr/bin/python3 -c 'import rosbag, sys
+for name, info in rosbag.Bag(sys.argv[1]).get_type_and_topic_info()[1].items():
+    if info.msg_type == "visualization_msgs/MarkerArray": print(name)' "$bag" 2> /dev/null) ||
+  die "$bag is not a complete bag: see rosbag info, rosbag reindex"
+[ -n "$topics" ] || die "$bag holds no markers (visualization_msgs/MarkerArray)"
+
 work=$(mktemp -d)
 started=()
 # Ends what was started, last first, each by its own number; rviz's launcher ends its nodes itself.
@@ -43,11 +65,13 @@ clean_up() {
 trap clean_up EXIT
 # A background job of a script ignores SIGINT; setsid and env start it with the default.
 start() { env --default-signal=INT "$@" > "$work/$(basename "$1").log" 2>&1 & started+=($!); }
-# until_true SECONDS COMMAND: tries until it succeeds
+# give_up LOG REASON: shows what the program said, and why this script ends
+give_up() { tail -n 20 "$work/$1.log" >&2 2> /dev/null || true; die "$2"; }
+# until_true SECONDS LOG REASON COMMAND: tries until it succeeds
 until_true() {
-  local end=$((SECONDS + $1)); shift
+  local end=$((SECONDS + $1)) log=$2 reason=$3; shift 3
   until "$@" > /dev/null 2>&1; do
-    [ $SECONDS -lt $end ] || { cat "$work"/*.log >&2; die "film.sh: gave up waiting for: $*"; }
+    [ $SECONDS -lt $end ] || give_up "$log" "$reason"
     sleep 0.1
   done
 }
@@ -58,29 +82,24 @@ export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1 ROS_HOME=$work ROS
 export LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb ROS_PACKAGE_PATH=$project:${ROS_PACKAGE_PATH:-/usr/share}
 unset ROS_HOSTNAME
 
-topics=$(rosbag info -y -k topics "$bag" | sed -n 's/^- topic: //p' | grep 'markers$')
-if [ -z "$config" ]; then
-  config=$project/rviz/pendulum.rviz
-  [ "$topics" = /markers ] || config=$project/rviz/compare.rviz
-fi
-
 # rviz takes its size from the configuration.
-sed -e "s/^  Width: .*/  Width: ${size%x*}/" -e "s/^  Height: .*/  Height: ${size#*x}/" "$config" \
+sed -e "s/^  Width: .*/  Width: ${size%x*}/" -e "s/^  Height: .*/  Height: ${size#*x}/" "${config:-$project/rviz/pendulum.rviz}" \
   > "$work/film.rviz"
 start Xvfb -displayfd 3 -screen 0 "${size}x24" -nolisten tcp -noreset 3> "$work/display"
-until_true 20 test -s "$work/display"
+until_true 20 Xvfb "the virtual display did not start" test -s "$work/display"
 export DISPLAY=:$(cat "$work/display")
 start rosmaster --core -p "$port"
-until_true 20 rosparam set /use_sim_time true
+until_true 20 rosmaster "the ROS master did not start" rosparam set /use_sim_time true
 rviz_listens() { for topic in $topics; do rostopic info "$topic" | grep -q '\* /rviz '; done; }
 rviz_listens_or_ended() { rviz_listens || ! kill -0 "${started[-1]}"; }
 # Mesa's software renderer can crash as rviz starts: one more try then.
 for try in first second; do
-  start roslaunch "$project/launch/view.launch" config:="$work/film.rviz" rviz_args:="$rviz_args"
-  until_true 60 rviz_listens_or_ended
+  start roslaunch "$project/launch/view.launch" config:="$work/film.rviz" bag:="$bag" \
+    rviz_args:="$rviz_args"
+  until_true 60 roslaunch "rviz did not listen to $(echo $topics) within 60 s" rviz_listens_or_ended
   sleep 2
   kill -0 "${started[-1]}" 2> /dev/null && break
-  [ $try = first ] || { cat "$work/roslaunch.log" >&2; die "film.sh: rviz does not stay"; }
+  [ $try = first ] || give_up roslaunch "rviz ended right after its start, twice"
   say "rviz crashed as it started: once more"
 done
 
@@ -99,7 +118,7 @@ fi
 start ffmpeg -nostdin -y -f x11grab -framerate "$(calculate "$fps / $slow")" -video_size "$size" \
   -draw_mouse 0 -i "$DISPLAY" -c:v libx264rgb -crf 0 -preset ultrafast "$work/raw.mkv"
 camera=${started[-1]}
-until_true 20 grep -q 'start: [0-9]' "$work/ffmpeg.log"
+until_true 20 ffmpeg "ffmpeg did not start to film" grep -q 'start: [0-9]' "$work/ffmpeg.log"
 camera_start=$(sed -n 's/.*start: \([0-9.]*\),.*/\1/p' "$work/ffmpeg.log" | head -n 1)
 # When this one's output was last written, the first message had come.
 PYTHONUNBUFFERED=1 start rostopic echo -n 1 /clock

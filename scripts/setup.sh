@@ -19,12 +19,12 @@ packages_of() {
            libboost-program-options-dev libgtest-dev libgmock-dev gnuplot-nox ;;
     ros)
       echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
-           libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev ros-visualization-msgs \
+           libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev ros-visualization-msgs \
            ros-geometry-msgs ros-std-msgs ros-message-generation ros-message-runtime \
            python3-roslaunch python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
            python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
-           python3-geometry-msgs python3-roslib rosbash ;;
-    rviz) echo rviz tf2-tools libtf2-ros-dev ;;
+           python3-geometry-msgs python3-tf2-msgs python3-roslib rosbash ;;
+    rviz) echo rviz ;;
     test) echo procps locales-all ;;
     test-ros)
       echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \

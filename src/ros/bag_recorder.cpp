@@ -13,6 +13,7 @@
 #include <rosbag/bag.h>
 
 #include <filesystem>
+#include <tf2_msgs/TFMessage.h>
 
 namespace spring_pendulum {
 namespace {
@@ -35,19 +36,23 @@ class BagRecorder {
               const std::string& prefix)
       : bag_(bag),
         frame_id_(options.frame_id),
+        camera_frame_(options.camera_frame),
         marker_builder_(run, options),
         state_builder_(options.y_offset),
         markers_topic_(prefix + "markers"),
         state_topic_(prefix + "state"),
         status_topic_(prefix + "status"),
-        status_header_(connectionHeader<PendulumStatus>(status_topic_, true)) {}
+        status_header_(connectionHeader<PendulumStatus>(status_topic_, true)),
+        camera_header_(connectionHeader<tf2_msgs::TFMessage>("/tf_static", true)) {}
 
   void write(const PendulumRun& run) {
     std_msgs::Header header;
     header.frame_id = frame_id_;
     header.stamp = stamps_.next(run.time());
     marker_builder_.trackTip(run);
-    bag_.write(markers_topic_, header.stamp, marker_builder_.build(run, header, ""));
+    const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, header, "");
+    writeCamera(header);
+    bag_.write(markers_topic_, header.stamp, markers);
     bag_.write(state_topic_, header.stamp, state_builder_.build(run, header));
     messages_ += 2;
     writeStatus(run, header);
@@ -56,6 +61,15 @@ class BagRecorder {
   std::int64_t messages() const { return messages_; }
 
  private:
+  void writeCamera(const std_msgs::Header& header) {
+    if (camera_frame_.empty() || marker_builder_.cameraChanges() == camera_changes_written_) return;
+    camera_changes_written_ = marker_builder_.cameraChanges();
+    tf2_msgs::TFMessage message;
+    message.transforms = {marker_builder_.camera(header)};
+    bag_.write("/tf_static", header.stamp, message, camera_header_);
+    ++messages_;
+  }
+
   void writeStatus(const PendulumRun& run, const std_msgs::Header& header) {
     PendulumStatus status = statusOf(run, false);
     if (status.text == last_status_) return;
@@ -67,6 +81,7 @@ class BagRecorder {
 
   rosbag::Bag& bag_;
   std::string frame_id_;
+  std::string camera_frame_;
   MarkerBuilder marker_builder_;
   StateBuilder state_builder_;
   Stamps stamps_{true};
@@ -74,6 +89,8 @@ class BagRecorder {
   std::string state_topic_;
   std::string status_topic_;
   boost::shared_ptr<ros::M_string> status_header_;
+  boost::shared_ptr<ros::M_string> camera_header_;
+  int camera_changes_written_ = 0;
   std::string last_status_;
   std::int64_t messages_ = 0;
 };

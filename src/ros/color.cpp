@@ -57,6 +57,11 @@ std_msgs::ColorRGBA lighter(const std_msgs::ColorRGBA& color) {
 std_msgs::ColorRGBA anchorColor() {
   return fromHex(0x9aa4b2);
 }
+std_msgs::ColorRGBA gridColor() {
+  std_msgs::ColorRGBA color = fromHex(0x788291);
+  color.a = 0.25F;
+  return color;
+}
 std_msgs::ColorRGBA textColor() {
   return fromHex(0xe6e9ee);
 }

@@ -23,6 +23,7 @@ std_msgs::ColorRGBA massColor(double weight);
 std_msgs::ColorRGBA lighter(const std_msgs::ColorRGBA& color);
 
 std_msgs::ColorRGBA anchorColor();
+std_msgs::ColorRGBA gridColor();
 std_msgs::ColorRGBA textColor();
 /// The whole chain when its energy is wrong though finite.
 std_msgs::ColorRGBA doubtColor();

@@ -11,32 +11,21 @@
 namespace spring_pendulum {
 namespace {
 
-enum MarkerIndex : std::size_t { kSprings, kParticles, kAnchor, kTrail, kText, kMarkers };
+enum MarkerIndex : std::size_t { kSprings, kParticles, kAnchor, kTrail, kText, kGrid };
 
 /// rviz has been seen to crash on a LINE_STRIP of more than 16384 points.
 constexpr std::size_t kMostTrailPoints = 4096;
 
-// Sizes in parts of the chain's reach, so that scenes of any size look alike.
-constexpr double kLeastDiameter = 0.008;
-constexpr double kLargestDiameter = 0.06;
-constexpr double kDiameterInSprings = 0.4;
-constexpr double kSpringWidth = 0.35;  ///< in diameters
-constexpr double kTextHeight = 0.06;
-constexpr double kFirstTextRow = 0.18;
-constexpr double kTextRowDistance = 0.16;
-
-/// How far the chain reaches at rest, m; never 0.
-double reachOf(const PendulumRun& run) {
-  const Chain& chain = run.chain();
-  const State& start = run.start();
-  const auto springs = static_cast<double>(chain.size() - 1);
-  double length = 0.0;
-  for (Eigen::Index i = 0; i + 1 < start.size(); ++i) {
-    length += (start.positions().row(i + 1) - start.positions().row(i)).norm();
-  }
-  const double reach = std::max(length, springs * chain.spring().rest_length);
-  return reach > 0.0 ? reach : 1.0;
-}
+// Sizes in parts of the picture's size, so that scenes of any size look alike.
+constexpr double kLeastDiameter = 0.009;
+constexpr double kLargestDiameter = 0.045;
+constexpr double kDiameterShare = 0.35;  ///< of the picture over the number of particles
+constexpr double kSpringWidth = 0.35;    ///< in diameters
+constexpr double kLeastWidth = 0.0035;
+constexpr int kTextLines = 3;  ///< of a chain that has the picture to itself
+constexpr double kGridWidth = 0.0015;
+constexpr double kGridDepth = 0.02;  ///< behind the plane of the motion
+constexpr double kGridReach = 1.5;   ///< beyond the scene, for windows wider than it
 
 /// Length over rest length less 1; in m for a spring without rest length.
 double strainOf(double length, double rest_length) {
@@ -84,6 +73,24 @@ void setScale(visualization_msgs::Marker& marker, double size) {
   marker.scale.x = marker.scale.y = marker.scale.z = size;
 }
 
+geometry_msgs::Point pointAt(double x, double y, double z) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+/// The texts that are not empty, with commas between them.
+std::string joined(std::initializer_list<std::string> texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    if (!all.empty() && !text.empty()) all += ", ";
+    all += text;
+  }
+  return all;
+}
+
 /// rviz complains about a list without points.
 void hideIfEmpty(visualization_msgs::Marker& marker) {
   marker.action = marker.points.size() < 2 ? visualization_msgs::Marker::DELETE
@@ -103,28 +110,78 @@ MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
   full_color_strain_ = fullColorStrain(chain);
 
   using visualization_msgs::Marker;
-  const double reach = reachOf(run);
-  const double diameter =
-      std::clamp(kDiameterInSprings * reach / static_cast<double>(drawn_.size()),
-                 kLeastDiameter * reach, kLargestDiameter * reach);
-  markers_.markers = {emptyMarker("springs", Marker::LINE_LIST),
-                      emptyMarker("particles", Marker::SPHERE_LIST),
-                      emptyMarker("anchor", Marker::CUBE), emptyMarker("trail", Marker::LINE_STRIP),
-                      emptyMarker("text", Marker::TEXT_VIEW_FACING)};
-  setScale(markers_.markers[kSprings], kSpringWidth * diameter);
-  setScale(markers_.markers[kParticles], diameter);
-  setScale(markers_.markers[kAnchor], 1.5 * diameter);
+  markers_.markers = {
+      emptyMarker("springs", Marker::LINE_LIST),     emptyMarker("particles", Marker::SPHERE_LIST),
+      emptyMarker("anchor", Marker::CUBE),           emptyMarker("trail", Marker::LINE_STRIP),
+      emptyMarker("text", Marker::TEXT_VIEW_FACING), emptyMarker("grid", Marker::LINE_LIST)};
   markers_.markers[kAnchor].color = anchorColor();
   markers_.markers[kAnchor].pose.position = pointOf(run.start(), 0);
-  setScale(markers_.markers[kTrail], 0.5 * kSpringWidth * diameter);
   // rviz blends a line only if its own colour is not opaque.
   markers_.markers[kTrail].color.a = 0.5F;
-  Marker& text = markers_.markers[kText];
-  setScale(text, kTextHeight * reach);
-  text.pose.position = pointOf(run.start(), 0);
-  text.pose.position.z +=
-      reach * (kFirstTextRow + kTextRowDistance * static_cast<double>(options.text_row));
-  if (!options.color.empty()) text.color = *parseColor(options.color);
+  markers_.markers[kGrid].color = gridColor();
+  if (!options.color.empty()) markers_.markers[kText].color = *parseColor(options.color);
+}
+
+void MarkerBuilder::frame(const PendulumRun& run) {
+  const bool drawable = run.isFinite() && run.isShown();
+  if (!view_) {
+    view_.emplace(run, textLines());
+    if (drawable) view_->follow(run.state());
+  } else if (!drawable || !view_->follow(run.state())) {
+    return;
+  }
+  ++camera_changes_;
+  const double size = view_->size();
+  const double diameter = std::clamp(kDiameterShare * size / static_cast<double>(drawn_.size()),
+                                     kLeastDiameter * size, kLargestDiameter * size);
+  const double width = std::max(kSpringWidth * diameter, kLeastWidth * size);
+  setScale(markers_.markers[kSprings], width);
+  setScale(markers_.markers[kParticles], diameter);
+  setScale(markers_.markers[kAnchor], 1.5 * diameter);
+  setScale(markers_.markers[kTrail], 0.5 * width);
+  setScale(markers_.markers[kGrid], kGridWidth * size);
+  setScale(markers_.markers[kText], view_->textHeight());
+  drawGrid();
+}
+
+void MarkerBuilder::placeText() {
+  auto& text = markers_.markers[kText];
+  const auto lines = 1 + std::count(text.text.begin(), text.text.end(), '\n');
+  const double line = static_cast<double>(options_.text_row) + 0.5 * static_cast<double>(lines);
+  text.pose.position = pointAt(view_->box().centerX(), options_.y_offset,
+                               view_->box().top + line * view_->lineDistance());
+}
+
+void MarkerBuilder::drawGrid() {
+  auto& grid = markers_.markers[kGrid];
+  grid.points.clear();
+  if (options_.text_row != 0) return;  // the chain of the first row draws it
+  const Box& box = view_->box();
+  const double distance = view_->gridDistance(), size = view_->size();
+  const double y = options_.y_offset + kGridDepth * size;
+  const double left = distance * std::floor((box.left - kGridReach * size) / distance);
+  const double bottom = distance * std::floor((box.bottom - 0.5 * size) / distance);
+  const double right = box.right + kGridReach * size, top = box.top + 0.5 * size;
+  for (double x = left; x <= right; x += distance) {
+    grid.points.push_back(pointAt(x, y, bottom));
+    grid.points.push_back(pointAt(x, y, top));
+  }
+  for (double z = bottom; z <= top; z += distance) {
+    grid.points.push_back(pointAt(left, y, z));
+    grid.points.push_back(pointAt(right, y, z));
+  }
+}
+
+geometry_msgs::TransformStamped MarkerBuilder::camera(const std_msgs::Header& header) const {
+  geometry_msgs::TransformStamped transform;
+  transform.header = header;
+  transform.child_frame_id = options_.camera_frame;
+  transform.transform.translation.x = view_->box().centerX();
+  transform.transform.translation.y = options_.y_offset - view_->cameraDistance();
+  transform.transform.translation.z = view_->cameraHeight();
+  // A quarter turn around z: the camera's x axis, along which rviz looks, is the y axis.
+  transform.transform.rotation.z = transform.transform.rotation.w = std::sqrt(0.5);
+  return transform;
 }
 
 geometry_msgs::Point MarkerBuilder::pointOf(const State& state, Eigen::Index i) const {
@@ -149,13 +206,15 @@ const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& r
                                                             const std_msgs::Header& header,
                                                             const std::string& pace) {
   for (visualization_msgs::Marker& marker : markers_.markers) marker.header = header;
+  frame(run);
   if (run.isFinite() && run.isShown()) place(run);
   if (placed_) paint(run);
   drawTrail();
   label(run, pace);
-  hideIfEmpty(markers_.markers[kSprings]);
-  hideIfEmpty(markers_.markers[kParticles]);
-  hideIfEmpty(markers_.markers[kTrail]);
+  placeText();
+  for (const MarkerIndex list : {kSprings, kParticles, kTrail, kGrid}) {
+    hideIfEmpty(markers_.markers[list]);
+  }
   return markers_;
 }
 
@@ -215,25 +274,35 @@ void MarkerBuilder::drawTrail() {
   }
 }
 
+int MarkerBuilder::textLines() const {
+  return std::max(kTextLines, static_cast<int>(options_.text_rows));
+}
+
 void MarkerBuilder::label(const PendulumRun& run, const std::string& pace) {
   const Scenario& scenario = run.scenario();
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
   const EnergyEntry entry = run.energyEntry();
-  std::string text =
-      fixed_step ? fmt::format("{}, step {:.3g} s", scenario.method, scenario.time_step)
-                 : fmt::format("{}, tolerance {:.3g} m", scenario.method, scenario.tolerance);
-  text += fmt::format(", t = {:.2f} s\n", run.time());
-  if (entry.relative_residual) {
-    text += fmt::format("energy error {:.1e}, ", *entry.relative_residual);
+  const std::string time = fmt::format("t = {:.2f} s", run.time());
+  const std::string error =
+      entry.relative_residual ? fmt::format("energy error {:.1e}", *entry.relative_residual) : "";
+  std::string verdict(toString(run.verdict().kind));
+  if (run.verdict().kind != VerdictKind::kOk) {
+    verdict += fmt::format(" at {:.4g} s", run.verdict().time);
   }
-  text += pace.empty() ? "" : pace + ", ";
-  text += toString(run.verdict().kind);
-  if (run.verdict().kind != VerdictKind::kOk)
-    text += fmt::format(" at {:.4g} s", run.verdict().time);
-  if (static_cast<Eigen::Index>(drawn_.size()) < run.chain().size()) {
-    text += fmt::format("\n{} of {} particles drawn", drawn_.size(), run.chain().size());
+  std::string& text = markers_.markers[kText].text;
+  if (options_.text_rows > 1) {
+    text = joined({scenario.method + ": " + time, error, verdict});
+    return;
   }
-  markers_.markers[kText].text = std::move(text);
+  text = joined({scenario.method,
+                 fixed_step ? fmt::format("time step {:.3g} s", scenario.time_step)
+                            : fmt::format("tolerance {:.3g} m", scenario.tolerance),
+                 time}) +
+         "\n" + joined({error, verdict}) + "\n" +
+         joined({pace, fmt::format("grid {:g} m", view_->gridDistance()),
+                 static_cast<Eigen::Index>(drawn_.size()) < run.chain().size()
+                     ? fmt::format("{} of {} particles drawn", drawn_.size(), run.chain().size())
+                     : ""});
 }
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-// The chain as rviz markers: at most five, whatever its length.
+// The chain as rviz markers: six, whatever its length.
 //
 // Springs are one LINE_LIST coloured by strain, particles one SPHERE_LIST coloured by mass; rviz
 // draws thousands of them in one batch, where a marker a particle would stop it. Every marker has a
@@ -8,11 +8,14 @@
 
 #include "ros/node_options.hpp"
 #include "ros/pendulum_run.hpp"
+#include "ros/scene_view.hpp"
 
+#include <geometry_msgs/TransformStamped.h>
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,12 +36,21 @@ class MarkerBuilder {
                                                const std_msgs::Header& header,
                                                const std::string& pace);
 
+  /// Where the camera stands that shows the whole scene: x forward, z up. Only after `build`.
+  geometry_msgs::TransformStamped camera(const std_msgs::Header& header) const;
+  /// How often `build` has moved the camera.
+  int cameraChanges() const { return camera_changes_; }
+
  private:
   struct TrailPoint {
     double time;
     geometry_msgs::Point point;
   };
 
+  int textLines() const;
+  void frame(const PendulumRun& run);
+  void placeText();
+  void drawGrid();
   geometry_msgs::Point pointOf(const State& state, Eigen::Index i) const;
   void place(const PendulumRun& run);
   void paint(const PendulumRun& run);
@@ -53,6 +65,8 @@ class MarkerBuilder {
   double full_color_strain_ = 1.0;
   bool placed_ = false;  ///< whether the chain has been drawn
   std::deque<TrailPoint> trail_;
+  std::optional<SceneView> view_;  ///< made when the first state is drawn
+  int camera_changes_ = 0;
   visualization_msgs::MarkerArray markers_;
 };
 

@@ -9,6 +9,10 @@ bool isFrameName(std::string_view text) {
   return !text.empty() && text.front() != '/' && text.find(' ') == std::string_view::npos;
 }
 
+bool isCameraFrame(std::string_view text) {
+  return text.empty() || isFrameName(text);
+}
+
 bool isColor(std::string_view text) {
   return text.empty() || parseColor(std::string(text)).has_value();
 }
@@ -31,6 +35,12 @@ std::vector<Option> displayOptions(NodeOptions& o) {
        "largest number of particles drawn; a longer chain is thinned, in the markers only"},
       {"y_offset", Number{&o.y_offset, Range::any()}, "m", "y of the plane of the motion"},
       {"text_row", Count{&o.text_row, Range::atLeast(0)}, "", "row of the text, counted upwards"},
+      {"text_rows", Count{&o.text_rows, Range::atLeast(1)}, "",
+       "number of chains that share the picture; with several, each has one line of text"},
+      {"camera_frame",
+       Text{&o.camera_frame, "NAME", "a name without a leading '/', or empty for none",
+            isCameraFrame},
+       "", "tf frame of the camera that shows the whole scene"},
   };
 }
 

@@ -27,6 +27,8 @@ struct NodeOptions {
   std::int64_t display_limit = 10000;  ///< particles drawn at most
   double y_offset = 0.0;               ///< m, where the plane of the motion lies
   std::int64_t text_row = 0;           ///< the text stands so many rows above the first one
+  std::int64_t text_rows = 1;          ///< rows of text in the picture
+  std::string camera_frame = "pendulum_camera";  ///< empty: none
 };
 
 /// How a chain is shown: options of the node and of record_bag. Bound to `options`.

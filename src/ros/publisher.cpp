@@ -9,6 +9,7 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
+#include <tf2_msgs/TFMessage.h>
 
 namespace spring_pendulum {
 namespace {
@@ -53,6 +54,7 @@ PendulumStatus statusOf(const PendulumRun& run, bool paused) {
 Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
                      Registration& registration)
     : frame_id_(options.frame_id),
+      camera_frame_(options.camera_frame),
       publishes_clock_(options.publish_clock),
       stamps_(options.publish_clock),
       marker_builder_(run, options),
@@ -67,6 +69,10 @@ Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOp
   registration.addTopic(markers_.getTopic(), "visualization_msgs/MarkerArray");
   registration.addTopic(state_.getTopic(), "spring_pendulum/PendulumState");
   registration.addTopic(status_topic_.getTopic(), "spring_pendulum/PendulumStatus");
+  if (!camera_frame_.empty()) {
+    tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
+    registration.addTopic(tf_static_.getTopic(), "tf2_msgs/TFMessage");
+  }
   if (!publishes_clock_) return;
   clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
   registration.addTopic(clock_.getTopic(), "rosgraph_msgs/Clock");
@@ -109,15 +115,25 @@ void Publisher::publish(const PendulumRun& run, bool paused, const std::string& 
     clock_.publish(clock);
   }
   marker_builder_.trackTip(run);
-  if (markers_.getNumSubscribers() > 0) {
-    markers_.publish(marker_builder_.build(run, header, pace));
-    ++markers_built_;
-  }
+  if (markers_.getNumSubscribers() > 0) publishMarkers(run, header, pace);
   if (state_.getNumSubscribers() > 0) {
     state_.publish(state_builder_.build(run, header));
     ++states_built_;
   }
   publishStatus(statusOf(run, paused), header.stamp);
+}
+
+void Publisher::publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
+                               const std::string& pace) {
+  const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, header, pace);
+  if (!camera_frame_.empty() && marker_builder_.cameraChanges() != camera_changes_sent_) {
+    camera_changes_sent_ = marker_builder_.cameraChanges();
+    tf2_msgs::TFMessage message;
+    message.transforms = {marker_builder_.camera(header)};
+    tf_static_.publish(message);
+  }
+  markers_.publish(markers);
+  ++markers_built_;
 }
 
 void Publisher::publishStatus(PendulumStatus status, const ros::Time& stamp) {

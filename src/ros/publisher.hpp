@@ -1,4 +1,4 @@
-// The topics of a node: markers, state, status, and /clock on request.
+// The topics of a node: markers, state, status, the camera's transform, and /clock on request.
 //
 // What nobody subscribes to is not built. One stamp a state, the same on every topic.
 #pragma once
@@ -40,21 +40,26 @@ class Publisher {
 
  private:
   std::uint32_t subscribers() const;
+  void publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
+                      const std::string& pace);
   void publishStatus(PendulumStatus status, const ros::Time& stamp);
 
   std::string frame_id_;
+  std::string camera_frame_;
   bool publishes_clock_;
   Stamps stamps_;
   MarkerBuilder marker_builder_;
   StateBuilder state_builder_;
   PendulumStatus status_;
   bool status_sent_ = false;
+  int camera_changes_sent_ = 0;
   std::int64_t markers_built_ = 0;
   std::int64_t states_built_ = 0;
   ros::Publisher markers_;
   ros::Publisher state_;
   ros::Publisher status_topic_;
   ros::Publisher clock_;
+  ros::Publisher tf_static_;
 };
 
 }  // namespace spring_pendulum

@@ -9,6 +9,7 @@ import rosbag
 import rospy
 import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from pendulum_process import Folder, Listener, program, project, read_frames, run_exercise
@@ -85,14 +86,15 @@ class Bag(unittest.TestCase):
             path, _ = record(folder, 'one.bag', '--frames', '11', '--display-rate', '0')
             info = subprocess.run(['rosbag', 'info', '-y', path], capture_output=True, text=True,
                                   check=True).stdout
-            self.assertIn('messages: 24', info)  # 11 markers, 11 states, 2 status
+            self.assertIn('messages: 25', info)  # 11 markers, 11 states, 2 status, the camera
             state, markers = Listener('/state', PendulumState), Listener('/markers', MarkerArray)
-            status = Listener('/status', PendulumStatus)
+            status, camera = Listener('/status', PendulumStatus), Listener('/tf_static', TFMessage)
             subprocess.run(['rosbag', 'play', '--quiet', '--wait-for-subscribers', path],
                            check=True, timeout=60, stdout=subprocess.DEVNULL)
             self.assertEqual(len(state.wait_for(11)), 11)
             self.assertEqual(len(markers.wait_for(11)), 11)
             status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
+            self.assertEqual(camera.wait_for(1)[0].transforms[0].child_frame_id, 'pendulum_camera')
 
     def test_divergence_is_in_the_bag_and_in_the_exit_status(self):
         with Folder() as folder:

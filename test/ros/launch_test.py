@@ -2,16 +2,23 @@
 """The launch files, without a display."""
 import glob
 import os
+import re
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree
 
 import rosbag
+import rosgraph
 import rostest
 
-from pendulum_process import Folder, program, project, read_frames, run_exercise
+from pendulum_process import Folder, PendulumNode, program, project, read_frames, run_exercise
 
 SCENE = project('data/particle.txt')
+
+
+def launch_file(name):
+    return xml.etree.ElementTree.parse(project('launch/%s.launch' % name)).getroot()
 
 
 def launch(file, *arguments, cwd='/'):
@@ -30,18 +37,50 @@ class Launch(unittest.TestCase):
             for argument in xml.etree.ElementTree.parse(file).getroot().findall('arg'):
                 if argument.get('value') is None:
                     self.assertTrue(argument.get('doc'), (file, argument.get('name')))
+                    self.assertNotEqual(argument.get('default'), '', 'roslaunch would call it required')
+
+    def test_every_parameter_is_an_argument(self):
+        with PendulumNode(bogus=1) as node:
+            self.assertEqual(node.wait(), 2)
+            known = set(re.search(r'known[^,]* (\w+(?:, \w+)*)', node.output()).group(1).split(', '))
+        self.assertGreater(len(known), 30)
+        of_the_launch_file = {
+            'pendulum': set(),
+            'record': {'at_end', 'wait_for_subscribers'},
+            'compare': {'method', 'color', 'y_offset', 'text_row', 'text_rows', 'follow',
+                        'wait_for_subscribers'}}
+        for name, own in of_the_launch_file.items():
+            arguments = {a.get('name') for a in launch_file(name).findall('arg')}
+            self.assertEqual(known - own - arguments, set(), name)
+        passed = {p.get('name') for p in launch_file('pendulum').find('node').findall('param')
+                  if p.get('if') == "$(eval %s != 'unset')" % p.get('name')}
+        self.assertEqual(passed, known)
+
+    def test_roslaunch_lists_the_arguments(self):
+        listed = launch('compare.launch', '--ros-args')
+        self.assertNotIn('undocumented', listed)
+        self.assertNotIn('Required', listed)
 
     def test_pendulum(self):
         with Folder() as folder, Folder() as expected_folder:
-            expected = run_exercise(expected_folder, 'Euler', '--particles', SCENE, '--frames', '7')
+            expected = run_exercise(expected_folder, 'Euler', '--particles', SCENE, '--frames', '7',
+                                    '--damping', '0.5')
             output = launch('pendulum.launch', 'rviz:=false', 'at_end:=exit', 'frames:=7',
-                            'real_time_factor:=0', 'method:=Euler', cwd=folder)
-            self.assertIn('frames go to ' + folder + '/frames', output)
+                            'real_time_factor:=0', 'method:=Euler', 'damping:=0.5', cwd=folder)
+            self.assertIn(folder + '/frames', output)
             self.assertEqual(read_frames(folder + '/frames'), expected)
-            output = launch('pendulum.launch', 'rviz:=false', 'at_end:=exit', 'frames:=7', 'no_frames:=true',
-                            'real_time_factor:=0', 'config:=' + project('config/pendulum.yaml'))
-            self.assertIn('no frame files', output)
-            self.assertIn('7 frames, 60 steps', output)
+
+    def test_a_value_in_config_holds_unless_an_argument_is_given(self):
+        with Folder() as folder, Folder() as expected_folder:
+            expected = run_exercise(expected_folder, 'Euler', '--particles', SCENE, '--frames', '4',
+                                    '--time-step', '0.002', '--gravity', '1.62')
+            shutil.copy(SCENE, folder + '/mine.txt')
+            with open(folder + '/mine.yaml', 'w') as file:
+                file.write('method: Euler\nframes: 9\ntime_step: 0.002\ngravity: 9.0\noutput: mine\n'
+                           'particles: mine.txt\nreal_time_factor: 0.0\nat_end: exit\n')
+            launch('pendulum.launch', 'rviz:=false', 'config:=' + folder + '/mine.yaml', 'frames:=4',
+                   'gravity:=1.62', cwd=folder)
+            self.assertEqual(read_frames(folder + '/mine'), expected)
 
     def test_compare(self):
         with Folder() as folder, Folder() as expected_folder:
@@ -56,16 +95,23 @@ class Launch(unittest.TestCase):
 
     def test_record_loses_nothing_and_closes_the_bag(self):
         with Folder() as folder:
-            output = launch('record.launch', 'bag:=' + folder + '/one.bag', 'frames:=12',
-                            'real_time_factor:=2.0', 'display_rate:=20.0')
-            self.assertEqual(os.listdir(folder), ['one.bag'], output)
-            with rosbag.Bag(folder + '/one.bag') as bag:
+            # A replay with --clock leaves this behind.
+            rosgraph.Master('/test').setParam('/use_sim_time', True)
+            output = launch('record.launch', 'bag:=one run.bag', 'frames:=12', 'real_time_factor:=2.0',
+                            'display_rate:=20.0', cwd=folder)
+            self.assertEqual(os.listdir(folder), ['one run.bag'], output)
+            with rosbag.Bag(folder + '/one run.bag') as bag:
+                self.assertEqual(bag.get_message_count('/tf_static'), 1)
                 states = [message for _, message, _ in bag.read_messages(topics=['/state'])]
                 markers = bag.get_message_count('/markers')
                 status = [message for _, message, _ in bag.read_messages(topics=['/status'])]
             self.assertEqual([m.frame for m in states if m.at_frame], list(range(12)))
             self.assertEqual(markers, len(states))
             self.assertIn('finished', status[-1].text)
+
+    def test_record_says_that_no_bag_was_written(self):
+        output = launch('record.launch', 'bag:=/dev/null/one.bag', 'frames:=12')
+        self.assertIn('no bag was written to /dev/null/one.bag', output)
 
     def test_nodes_scripts_are_found_where_rosrun_looks(self):
         for name in ('pendulum_node', 'record_bag', 'Exercise3'):

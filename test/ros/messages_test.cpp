@@ -136,7 +136,8 @@ TEST(Bag, IsReadBackByTheLibrary) {
   EXPECT_EQ(counts["/markers"], 16);  // 3 states a frame and the start
   EXPECT_EQ(counts["/state"], 16);
   EXPECT_EQ(counts["/status"], 2);
-  EXPECT_EQ(summary.messages, 34);
+  EXPECT_EQ(counts["/tf_static"], 1);
+  EXPECT_EQ(summary.messages, 35);
   EXPECT_EQ(summary.frames, 6);
 }
 

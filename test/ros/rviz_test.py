@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A real rviz on a virtual display shows the running node, a replayed bag and the comparison. The
 pictures are looked at by their colours, and kept: PENDULUM_PICTURES says where."""
+import math
 import os
 import re
 import signal
@@ -13,6 +14,7 @@ import rospy
 import rostest
 from spring_pendulum.msg import PendulumState
 from std_srvs.srv import SetBool
+from tf2_msgs.msg import TFMessage
 
 from pendulum_process import (Folder, Listener, PendulumNode, program, project, standing,
                               wait_until)
@@ -136,40 +138,36 @@ class Viewer:
         return picture
 
 
-def pixel_of(point, scale, center_y):
-    """The pixel of a point of the plane, from the view of the rviz configuration."""
-    return round(WIDTH / 2 + scale * point.x), round(HEIGHT / 2 - scale * (point.z - center_y))
+FOCAL_LENGTH = 0.5 * HEIGHT / math.tan(math.pi / 8)  # pixels: rviz's camera sees 45 degrees
 
 
-def view_of(config):
-    with open(project('rviz/' + config)) as file:
-        text = file.read()
-    return tuple(float(re.search(r'^ +%s: (\S+)$' % key, text, re.M).group(1)) for key in ('Scale', 'Y'))
+def pixel_of(point, camera):
+    """The pixel of a point of the plane, seen from the camera of /tf_static."""
+    scale = FOCAL_LENGTH / (point.y - camera.y)
+    return round(WIDTH / 2 + scale * (point.x - camera.x)), round(HEIGHT / 2 - scale * (point.z - camera.z))
 
 
 class Rviz(unittest.TestCase):
-
-    def tearDown(self):
-        master = rosgraph.Master('/test')
-        if master.hasParam('/use_sim_time'):
-            master.deleteParam('/use_sim_time')
 
     def test_the_running_node(self):
         with Display() as display, \
                 Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer, \
                 PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=1) as node:
             listener = Listener('state', PendulumState, keep=2)
+            cameras = Listener('/tf_static', TFMessage)
             listener.wait_for_any(lambda state: state.frame >= 22)
             rospy.ServiceProxy('/pendulum/pause', SetBool)(True)
             state = wait_until(lambda: standing(listener.messages), 'the pause')
-            pixels = [pixel_of(p, *view_of('pendulum.rviz')) for p in state.positions]
-            inside = [p for p in pixels if 20 < p[0] < WIDTH - 20 and 20 < p[1] < HEIGHT - 20]
-            self.assertGreaterEqual(len(inside), 5)
+            camera = cameras.wait_for(1)[-1].transforms[0].transform.translation
+            pixels = [pixel_of(p, camera) for p in state.positions]
+            for x, y in pixels:
+                self.assertTrue(20 < x < WIDTH - 20 and 20 < y < HEIGHT - 20, 'the whole chain is seen')
             picture = viewer.wait_for_picture(
                 'running_node.png',
-                lambda p: all(p.near(*pixel, is_yellow) for pixel in inside[1:]), 'the chain')
-            self.check_chain(picture, inside)
+                lambda p: all(p.near(*pixel, is_yellow) for pixel in pixels[1:]), 'the chain')
+            self.check_chain(picture, pixels)
             listener.close()
+            cameras.close()
             node.interrupt()
             self.assertEqual(node.wait(), 0, node.output())
 
@@ -180,16 +178,22 @@ class Rviz(unittest.TestCase):
         self.assertTrue(is_background(picture.at(5, 5)))
         self.assertGreater(picture.count(is_background), 0.9 * WIDTH * HEIGHT)
 
-    def test_a_replayed_bag(self):
+    def test_a_replayed_bag_of_any_namespaces(self):
+        colors = {'left': (63, 182, 255), 'a/right': (255, 90, 79)}
         with Folder() as folder, Display() as display:
-            bag = folder + '/one.bag'
-            subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '60', '--bag', bag,
-                            '--particles', project('data/particle.txt')], check=True,
-                           stdout=subprocess.DEVNULL)
+            bag = folder + '/two runs.bag'
+            for row, (name, color) in enumerate(colors.items()):
+                subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '60', '--bag', bag,
+                                '--append', '--namespace', name, '--color', '#%02x%02x%02x' % color,
+                                '--text-row', str(row), '--text-rows', '2', '--gravity', str(9 - row),
+                                '--particles', project('data/particle.txt')], check=True,
+                               stdout=subprocess.DEVNULL)
             with Viewer(display, 'replay.launch', 'bag:=' + bag) as viewer:
-                picture = viewer.wait_for_picture(
-                    'replayed_bag.png', lambda p: p.count(is_yellow) > 200, 'the chain')
-            self.assertGreater(picture.count(is_yellow), 200)
+                viewer.wait_for_picture(
+                    'replayed_bag.png',
+                    lambda p: min(p.count(is_like(color)) for color in colors.values()) > 100,
+                    'both chains')
+            self.assertFalse(rosgraph.Master('/test').hasParam('/use_sim_time'))
 
     def test_the_comparison(self):
         colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61),

@@ -69,8 +69,8 @@ class Topics(unittest.TestCase):
         markers = self.listen('markers', MarkerArray)
         with PendulumNode(frames=5, wait_for_subscribers=1) as node:
             self.assertEqual(node.wait(), 0, node.output())
-        self.assertEqual(len(markers.wait_for(5)[-1].markers), 5)
-        names = ['springs', 'particles', 'anchor', 'trail', 'text']
+        self.assertEqual(len(markers.wait_for(5)[-1].markers), 6)
+        names = ['springs', 'particles', 'anchor', 'trail', 'text', 'grid']
         for message in markers.messages:
             self.assertEqual([m.ns for m in message.markers], names)
             for marker in message.markers:
@@ -87,9 +87,10 @@ class Topics(unittest.TestCase):
         self.assertGreater(min([marker.color.a] + [c.a for c in marker.colors]), 0)
         self.assertFalse(marker.header.frame_id.startswith('/'))
         if marker.type in (Marker.LINE_LIST, Marker.SPHERE_LIST, Marker.LINE_STRIP):
-            self.assertEqual(len(marker.points), len(marker.colors))
+            if marker.ns != 'grid':
+                self.assertEqual(len(marker.points), len(marker.colors))
             self.assertEqual(marker.action, Marker.ADD if len(marker.points) > 1 else Marker.DELETE)
-        self.assertTrue(all(p.y == 0 for p in marker.points))
+            self.assertTrue(all(p.y == 0 or marker.ns == 'grid' for p in marker.points))
 
     def test_one_particle(self):
         with Folder() as folder:
@@ -100,7 +101,7 @@ class Topics(unittest.TestCase):
                 self.assertEqual(node.wait(), 0, node.output())
             for marker in markers.wait_for(3)[-1].markers:
                 self.check_marker(marker)
-                self.assertEqual(marker.action, Marker.ADD if marker.ns in ('anchor', 'text')
+                self.assertEqual(marker.action, Marker.ADD if marker.ns in ('anchor', 'text', 'grid')
                                  else Marker.DELETE)
             tip = state.wait_for(3)[-1].tip_position
             self.assertEqual((tip.x, tip.y, tip.z), (1, 0, 2))

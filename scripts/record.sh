@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Records topics into a bag until it is interrupted, and fails if no bag was written.
+# Usage: record.sh BAG TOPIC ...
+set -euo pipefail
+
+bag=$1; shift
+[[ $bag = *.bag ]] || bag+=.bag
+topics=()
+for argument in "$@"; do [[ $argument = __* ]] || topics+=("$argument"); done
+
+fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$(realpath -m "$bag")" "$1" >&2; exit 1; }
+mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be made"
+[ -w "$(dirname "$bag")" ] || fail "no permission to write in the folder"
+rm -f "$bag" 2> /dev/null || fail "there is one that cannot be replaced"
+
+# In a group of its own, so that the recorder gets one SIGINT, from here.
+setsid env --default-signal=INT rosbag record -O "$bag" "${topics[@]}" & recorder=$!
+trap 'kill -INT "$recorder" 2> /dev/null' INT TERM
+status=0
+until wait "$recorder"; do status=$?; kill -0 "$recorder" 2> /dev/null || break; done
+[ -f "$bag" ] || fail "the recorder ended with status $status"

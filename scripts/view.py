@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Becomes rviz with a configuration that fits what is to be shown.
+
+Usage: view.py CONFIG BAG [arguments of rviz]
+
+BAG is "none", or a bag that will be played. Then rviz shows every topic of markers in it. If the bag
+holds no camera transform, which shows the whole scene, the view is set from the markers."""
+import math
+import os
+import sys
+
+import rosbag
+import rospkg
+import yaml
+
+CAMERA = 'pendulum_camera'
+ASPECT = 1.3
+HALF_VIEW = math.pi / 8  # of rviz's camera
+
+
+def marker_topics(bag):
+    topics = bag.get_type_and_topic_info()[1]
+    return sorted(name for name, info in topics.items() if info.msg_type == 'visualization_msgs/MarkerArray')
+
+
+def has_camera(bag):
+    return any(transform.child_frame_id == CAMERA for _, message, _ in
+               bag.read_messages(topics=['/tf_static', 'tf_static']) for transform in message.transforms)
+
+
+def set_displays(config, topics):
+    displays = config['Visualization Manager']['Displays']
+    template = next(d for d in displays if d['Class'] == 'rviz/MarkerArray')
+    others = [d for d in displays if d['Class'] != 'rviz/MarkerArray']
+    shown = [dict(template, Name=topic, **{'Marker Topic': topic}) for topic in topics]
+    config['Visualization Manager']['Displays'] = others + shown
+
+
+def set_view(config, bag, topics):
+    """Looks at the middle of all points, from where all are seen."""
+    points, frame = [], 'world'
+    for _, message, _ in bag.read_messages(topics=topics):
+        for marker in message.markers:
+            frame = marker.header.frame_id
+            points += [(p.x, p.z) for p in marker.points if math.isfinite(p.x + p.z)]
+    xs, zs = zip(*points) if points else ((0, 1), (0, 1))
+    size = max(max(zs) - min(zs), (max(xs) - min(xs)) / ASPECT)
+    position = {'X': (min(xs) + max(xs)) / 2, 'Y': -0.5 * 1.4 * size / math.tan(HALF_VIEW),
+                'Z': (min(zs) + max(zs)) / 2 + 0.1 * size}
+    manager = config['Visualization Manager']
+    manager['Global Options']['Fixed Frame'] = frame
+    manager['Views']['Current'].update(Position=position, Yaw=math.pi / 2)
+
+
+def adapted(path, bag_path):
+    """The path of a copy of the configuration that shows the bag."""
+    with open(path) as file:
+        config = yaml.safe_load(file)
+    with rosbag.Bag(bag_path) as bag:
+        topics = marker_topics(bag)
+        if not topics:
+            sys.exit('%s: holds no markers (visualization_msgs/MarkerArray)' % bag_path)
+        set_displays(config, topics)
+        if not has_camera(bag):
+            set_view(config, bag, topics)
+    copy = os.path.join(rospkg.get_ros_home(), 'spring_pendulum.rviz')
+    os.makedirs(os.path.dirname(copy), exist_ok=True)
+    with open(copy, 'w') as file:
+        yaml.safe_dump(config, file, sort_keys=False)
+    return copy
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    config, bag, *others = sys.argv[1:]
+    try:
+        if bag != 'none':
+            config = adapted(config, bag)
+    except (OSError, rosbag.ROSBagException, yaml.YAMLError) as error:
+        sys.exit('%s: %s' % (bag, error))
+    os.execvp('rviz', ['rviz', '-d', config] + [o for o in others if o != '--'])
+
+
+if __name__ == '__main__':
+    main()

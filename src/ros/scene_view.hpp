@@ -1,0 +1,54 @@
+// The part of the plane of motion that a picture has to show, and the camera that shows it.
+#pragma once
+
+#include "ros/pendulum_run.hpp"
+
+namespace spring_pendulum {
+
+/// A rectangle in the plane of motion, m.
+struct Box {
+  double left = 0.0;
+  double right = 0.0;
+  double bottom = 0.0;
+  double top = 0.0;
+
+  void include(const Box& other);
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+  double centerX() const { return 0.5 * (left + right); }
+};
+
+/// Frames the start of a run and its whole motion, which is probed with coarse steps and bounded
+/// work. A motion that leaves the frame later, because it is wrong or longer than what was probed,
+/// widens the frame in steps.
+class SceneView {
+ public:
+  /// \param text_lines lines of text to leave room for above the scene
+  SceneView(const PendulumRun& run, int text_lines);
+
+  /// Widens the frame if the chain has left it.
+  /// \return whether the frame changed
+  bool follow(const State& state);
+
+  /// What the picture shows of the plane, without the text above it.
+  const Box& box() const { return box_; }
+  /// Size of the picture in m: the unit of line widths and text heights.
+  double size() const;
+  double textHeight() const;
+  /// Distance of the lines of text, m.
+  double lineDistance() const;
+  /// Distance of the grid lines, m: 1, 2 or 5 times a power of ten.
+  double gridDistance() const;
+
+  /// Height of the camera's axis, m.
+  double cameraHeight() const;
+  /// Distance of the camera from the plane, m, for rviz's angle of view of 45 degrees.
+  double cameraDistance() const;
+
+ private:
+  int text_lines_;
+  Box largest_;  ///< the frame never grows beyond this, so that a diverging motion leaves it
+  Box box_;
+};
+
+}  // namespace spring_pendulum

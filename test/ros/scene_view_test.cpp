@@ -1,0 +1,85 @@
+// The picture of a scene: what it shows, and that it holds for scenes of any size.
+#include "ros/scene_view.hpp"
+
+#include <gtest/gtest.h>
+
+namespace spring_pendulum {
+namespace {
+
+Particles horizontal(Eigen::Index particles, double spacing) {
+  Particles scene{Eigen::VectorXd::Ones(particles), State(particles)};
+  for (Eigen::Index i = 0; i < particles; ++i) {
+    scene.state.x()[i] = spacing * static_cast<double>(i);
+  }
+  return scene;
+}
+
+bool shows(const SceneView& view, const State& state) {
+  const Box& box = view.box();
+  return state.x().minCoeff() >= box.left && state.x().maxCoeff() <= box.right &&
+         state.y().minCoeff() >= box.bottom && state.y().maxCoeff() <= box.top;
+}
+
+TEST(SceneView, HoldsTheWholeMotionOfEveryShippedScene) {
+  for (const char* name : {"particle", "horizontal_11", "one_spring", "random_masses", "heavy_bob",
+                           "two_masses", "hanging_plucked"}) {
+    SCOPED_TRACE(name);
+    const Scenario scenario;
+    PendulumRun run(scenario, readParticleFile(std::string(PROJECT_DIR "/data/") + name + ".txt"),
+                    false, 0.0);
+    SceneView view(run, 3);
+    Box motion{0.0, 0.0, 0.0, 0.0};
+    bool widened = false;
+    while (!run.isOver()) {
+      run.advance(false);
+      widened = view.follow(run.state()) || widened;
+      ASSERT_TRUE(shows(view, run.state())) << run.time();
+      motion.include({run.state().x().minCoeff(), run.state().x().maxCoeff(),
+                      run.state().y().minCoeff(), run.state().y().maxCoeff()});
+    }
+    EXPECT_FALSE(widened) << "the probe missed part of the motion";
+    // Measured: the motion takes 0.90 of the picture in one direction.
+    EXPECT_GT(std::max(motion.height(), motion.width() / 1.3) / view.size(), 0.8);
+  }
+}
+
+TEST(SceneView, ScalesWithTheScene) {
+  Scenario scenario;
+  scenario.gravity = 0.0;
+  double last = 0.0;
+  for (const double spacing : {1e-3, 1.0, 1e3}) {
+    scenario.rest_length = spacing;
+    const PendulumRun run(scenario, horizontal(11, spacing), false, 0.0);
+    const SceneView view(run, 3);
+    EXPECT_NEAR(view.cameraDistance(), 10.0 * spacing * 1.1 / 1.3 / 2.0 / 0.41421356, spacing);
+    EXPECT_NEAR(view.gridDistance(), spacing, 1e-9 * spacing);
+    EXPECT_GT(view.textHeight(), last);
+    last = view.textHeight();
+  }
+}
+
+TEST(SceneView, OneParticleHasAPicture) {
+  const PendulumRun run(Scenario{}, horizontal(1, 1.0), false, 0.0);
+  const SceneView view(run, 3);
+  EXPECT_GT(view.size(), 0.5);
+  EXPECT_LT(view.size(), 2.0);
+}
+
+TEST(SceneView, WidensForAMotionThatLeavesItButNotForEver) {
+  const PendulumRun run(Scenario{}, horizontal(6, 1.0), false, 0.0);
+  SceneView view(run, 3);
+  State state = run.start();
+  EXPECT_FALSE(view.follow(state));
+  state.x()[5] = 30.0;
+  EXPECT_TRUE(view.follow(state));
+  EXPECT_TRUE(shows(view, state));
+  EXPECT_FALSE(view.follow(state));
+  const double size = view.size();
+  state.x()[5] = 1e12;
+  EXPECT_TRUE(view.follow(state));
+  EXPECT_FALSE(view.follow(state));
+  EXPECT_LT(view.size(), 20.0 * size);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
