@@ -18,7 +18,7 @@ constexpr std::size_t kMostTrailPoints = 4096;
 
 // Sizes in parts of the picture's size, so that scenes of any size look alike.
 constexpr double kLeastDiameter = 0.009;
-constexpr double kLargestDiameter = 0.045;
+constexpr double kLargestDiameter = 0.036;
 constexpr double kDiameterShare = 0.35;  ///< of the picture over the number of particles
 constexpr double kSpringWidth = 0.35;    ///< in diameters
 constexpr double kLeastWidth = 0.0035;

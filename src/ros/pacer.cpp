@@ -8,21 +8,21 @@ constexpr double kMeasureOver = 0.5;  // s
 
 }  // namespace
 
-void Pacer::start(double simulated_time, ros::WallTime now) {
+void Pacer::start(double simulated_time, ros::SteadyTime now) {
   start_simulated_ = measured_simulated_ = simulated_time;
   start_ = measured_ = now;
 }
 
-ros::WallTime Pacer::dueTime(double simulated_time) const {
+ros::SteadyTime Pacer::dueTime(double simulated_time) const {
   if (factor_ <= 0.0) return start_;
   return start_ + ros::WallDuration((simulated_time - start_simulated_) / factor_);
 }
 
-bool Pacer::isLate(double simulated_time, ros::WallTime now) const {
+bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {
   return factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > 0.5 * kLateness;
 }
 
-void Pacer::note(double simulated_time, ros::WallTime now) {
+void Pacer::note(double simulated_time, ros::SteadyTime now) {
   const double seconds = (now - measured_).toSec();
   if (seconds >= kMeasureOver) {
     speed_ = (simulated_time - measured_simulated_) / seconds;

@@ -13,15 +13,15 @@ class Pacer {
   explicit Pacer(double factor) : factor_(factor) {}
 
   /// From now on `simulated_time` is due now.
-  void start(double simulated_time, ros::WallTime now);
+  void start(double simulated_time, ros::SteadyTime now);
 
   bool isStarted() const { return !start_.isZero(); }
 
-  ros::WallTime dueTime(double simulated_time) const;
+  ros::SteadyTime dueTime(double simulated_time) const;
   /// To be called when `simulated_time` is reached.
-  void note(double simulated_time, ros::WallTime now);
+  void note(double simulated_time, ros::SteadyTime now);
   /// Whether states between the frames should be left out to keep up.
-  bool isLate(double simulated_time, ros::WallTime now) const;
+  bool isLate(double simulated_time, ros::SteadyTime now) const;
 
   /// Simulated seconds a second, measured; 0 before there is a measurement.
   double speed() const { return speed_; }
@@ -29,9 +29,9 @@ class Pacer {
  private:
   double factor_;
   double start_simulated_ = 0.0;
-  ros::WallTime start_;
+  ros::SteadyTime start_;
   double measured_simulated_ = 0.0;  ///< where the current measurement of the speed began
-  ros::WallTime measured_;
+  ros::SteadyTime measured_;
   double speed_ = 0.0;
 };
 

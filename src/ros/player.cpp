@@ -29,7 +29,7 @@ bool isWanted() {
 }  // namespace
 
 Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
-               const NodeOptions& options, Registration& registration)
+               const NodeOptions& options, MasterRegistration& registration)
     : run_(run), options_(options), pacer_(options.real_time_factor) {
   pause_ = private_node.advertiseService("pause", &Player::onPause, this);
   step_ = private_node.advertiseService("step", &Player::onStep, this);
@@ -44,15 +44,15 @@ Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const Pendu
 }
 
 Player::Action Player::next() {
-  if (!pacer_.isStarted()) pacer_.start(run_.time(), ros::WallTime::now());
-  pacer_.note(run_.time(), ros::WallTime::now());
+  if (!pacer_.isStarted()) pacer_.start(run_.time(), ros::SteadyTime::now());
+  pacer_.note(run_.time(), ros::SteadyTime::now());
   while (isWanted()) {
     serveUntilDue();
     if (!isWanted()) break;
-    const ros::WallTime now = ros::WallTime::now();
+    const ros::SteadyTime now = ros::SteadyTime::now();
     if (reset_wanted_) return reset();
     if (isDue()) {
-      stands_since_ = ros::WallTime();
+      stands_since_ = ros::SteadyTime();
       if (steps_wanted_ > 0) --steps_wanted_;
       const bool hurry =
           paused_ || (options_.follow.empty() && pacer_.isLate(run_.nextTime(), now));
@@ -78,8 +78,8 @@ Player::Action Player::next() {
 Player::Action Player::reset() {
   reset_wanted_ = false;
   steps_wanted_ = 0;
-  stands_since_ = ros::WallTime();
-  pacer_.start(0.0, ros::WallTime::now());
+  stands_since_ = ros::SteadyTime();
+  pacer_.start(0.0, ros::SteadyTime::now());
   return Action::kReset;
 }
 
@@ -87,7 +87,7 @@ bool Player::isDue() const {
   if (run_.isOver()) return false;
   if (paused_) return steps_wanted_ > 0;
   if (!options_.follow.empty()) return run_.nextTime() <= leader_time_;
-  return ros::WallTime::now() >= pacer_.dueTime(run_.nextTime());
+  return ros::SteadyTime::now() >= pacer_.dueTime(run_.nextTime());
 }
 
 void Player::serveUntilDue() {
@@ -96,7 +96,7 @@ void Player::serveUntilDue() {
   if (reset_wanted_ || isDue() || (run_.isOver() && options_.at_end == AtEnd::kExit)) return;
   double wait = kLongestWait;
   if (!run_.isOver() && !paused_ && options_.follow.empty()) {
-    wait = std::min(wait, (pacer_.dueTime(run_.nextTime()) - ros::WallTime::now()).toSec());
+    wait = std::min(wait, (pacer_.dueTime(run_.nextTime()) - ros::SteadyTime::now()).toSec());
   }
   if (wait > 0.0) callbacks->callAvailable(ros::WallDuration(wait));
 }
@@ -106,8 +106,18 @@ std::string Player::pace() const {
   return pacer_.speed() > 0.0 ? fmt::format("{:.2f} x real time", pacer_.speed()) : "";
 }
 
+std::string Player::overMessage() const {
+  return fmt::format("the run is over at frame {}{}: ~reset starts it again", run_.frame(),
+                     run_.isShown() ? "" : ", because the motion diverged");
+}
+
 bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   const bool pause = request.data != 0;
+  if (pause && run_.isOver() && options_.at_end != AtEnd::kLoop) {
+    response.success = 0;
+    response.message = overMessage();
+    return true;
+  }
   response.success = 1;
   response.message =
       fmt::format("{}{} at frame {}, t = {:.6g} s", pause == paused_ ? "already " : "",
@@ -115,15 +125,14 @@ bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Res
   if (pause == paused_) return true;
   paused_ = pause;
   steps_wanted_ = 0;
-  stands_since_ = ros::WallTime();
-  pacer_.start(run_.time(), ros::WallTime::now());
+  stands_since_ = ros::SteadyTime();
+  pacer_.start(run_.time(), ros::SteadyTime::now());
   return true;
 }
 
 bool Player::onStep(TriggerRequest&, TriggerResponse& response) {
   if (run_.isOver()) {
-    answer(response, false,
-           fmt::format("the run is over at frame {}: ~reset starts it again", run_.frame()));
+    answer(response, false, overMessage());
   } else if (!paused_) {
     answer(response, false, "the run is not paused: call ~pause first");
   } else {

@@ -2,10 +2,10 @@
 // time, and lets the services ~pause, ~step and ~reset interrupt it.
 #pragma once
 
+#include "ros/master_registration.hpp"
 #include "ros/node_options.hpp"
 #include "ros/pacer.hpp"
 #include "ros/pendulum_run.hpp"
-#include "ros/registration.hpp"
 #include <spring_pendulum/PendulumState.h>
 
 #include <ros/node_handle.h>
@@ -28,7 +28,7 @@ class Player {
 
   /// \param run outlives the player
   Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
-         const NodeOptions& options, Registration& registration);
+         const NodeOptions& options, MasterRegistration& registration);
 
   /// Serves callbacks until something is due.
   Action next();
@@ -46,6 +46,7 @@ class Player {
   bool onReset(TriggerRequest& request, TriggerResponse& response);
   void onLeaderState(const PendulumState::ConstPtr& state);
 
+  std::string overMessage() const;
   Action reset();
   bool isDue() const;
   void serveUntilDue();
@@ -56,9 +57,9 @@ class Player {
   bool paused_ = false;
   bool reset_wanted_ = false;
   std::int64_t steps_wanted_ = 0;
-  double leader_time_ = -1.0;   ///< s, simulated time of the node that is followed
-  ros::WallTime stands_since_;  ///< zero while the run moves
-  ros::WallTime last_shown_;    ///< while the run stands
+  double leader_time_ = -1.0;     ///< s, simulated time of the node that is followed
+  ros::SteadyTime stands_since_;  ///< zero while the run moves
+  ros::SteadyTime last_shown_;    ///< while the run stands
   ros::ServiceServer pause_;
   ros::ServiceServer step_;
   ros::ServiceServer reset_;

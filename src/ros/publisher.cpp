@@ -52,7 +52,7 @@ PendulumStatus statusOf(const PendulumRun& run, bool paused) {
 }
 
 Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
-                     Registration& registration)
+                     MasterRegistration& registration)
     : frame_id_(options.frame_id),
       camera_frame_(options.camera_frame),
       publishes_clock_(options.publish_clock),
@@ -88,17 +88,18 @@ bool Publisher::isWatched() const {
 }
 
 void Publisher::waitForSubscribers(const NodeOptions& options) {
-  const ros::WallTime start = ros::WallTime::now();
+  const ros::SteadyTime start = ros::SteadyTime::now();
   const ros::WallDuration timeout(options.wait_timeout);
   const auto is_ready = [&] { return subscribers() >= options.wait_for_subscribers; };
   if (is_ready()) return;
   PendulumStatus waiting;
   waiting.code = PendulumStatus::WAITING;
   waiting.text = fmt::format("waiting for {} subscribers", options.wait_for_subscribers);
+  ROS_INFO_STREAM(waiting.text << " of markers, state and status (wait_for_subscribers)");
   publishStatus(waiting, stamps_.next(0.0));
   while (ros::ok() && interruption() == 0 && !is_ready()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPollInterval));
-    if (timeout.isZero() || ros::WallTime::now() - start < timeout) continue;
+    if (timeout.isZero() || ros::SteadyTime::now() - start < timeout) continue;
     ROS_WARN("%u of %ld subscribers after %.6g s: starting without the others", subscribers(),
              static_cast<long>(options.wait_for_subscribers), options.wait_timeout);
     return;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "ros/marker_builder.hpp"
-#include "ros/registration.hpp"
+#include "ros/master_registration.hpp"
 #include "ros/stamps.hpp"
 #include "ros/state_builder.hpp"
 #include <spring_pendulum/PendulumStatus.h>
@@ -23,7 +23,7 @@ PendulumStatus statusOf(const PendulumRun& run, bool paused);
 class Publisher {
  public:
   Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
-            Registration& registration);
+            MasterRegistration& registration);
 
   /// Whether anybody wants to see states between the frames.
   bool isWatched() const;

@@ -15,7 +15,7 @@ constexpr double kLineDistance = 1.35;  ///< in text heights
 constexpr double kGridLines = 8.0;      ///< at least, over the height of the picture
 const double kHalfViewTangent = std::sqrt(2.0) - 1.0;  ///< tan of rviz's half angle, 22.5 degrees
 
-constexpr double kMostReaches = 3.0;  ///< how far from the anchor the probed motion is shown
+constexpr double kMostReaches = 4.0;  ///< how far from the anchor the probed motion is shown
 constexpr double kGrowth = 0.25;      ///< of the frame when the chain has left it
 constexpr double kMostGrowth = 3.0;   ///< the frame widens to so many times the motion's extent
 constexpr double kMostWork = 1e6;     ///< steps times particles of the probe

@@ -8,6 +8,7 @@ import unittest
 import rospy
 import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
+from std_srvs.srv import SetBool
 from visualization_msgs.msg import MarkerArray
 
 from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
@@ -73,6 +74,14 @@ class Ends(unittest.TestCase):
                 message = late.wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
                 self.assertIn('diverged at t = ', message.text)
                 late.close()
+                # All of this is said when it happens, not when the node ends.
+                for part in ('diverged at t = ', 'particle 11', 'step'):
+                    self.assertIn(part, node.lines('ERROR')[0])
+                self.assertIn('verdict: diverged', node.lines('INFO')[-1])
+                rospy.wait_for_service('/pendulum/pause', timeout=30)
+                answer = rospy.ServiceProxy('/pendulum/pause', SetBool)(True)
+                self.assertFalse(answer.success)
+                self.assertIn('because the motion diverged', answer.message)
                 node.interrupt()
                 self.assertEqual(node.wait(), 3, node.output())
                 self.assertEqual(len(node.lines('ERROR')), 1, node.output())
@@ -91,6 +100,17 @@ class Ends(unittest.TestCase):
         self.assertEqual(springs.points, good.points)
         self.assertEqual(len({(c.r, c.g, c.b) for c in springs.colors}), 1)
         self.assertNotEqual(springs.colors, good.colors)
+
+    def test_a_bad_verdict_is_a_warning_when_it_happens(self):
+        with PendulumNode(method='Euler', particles=HORIZONTAL, frames=30) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+            self.assertTrue(any('gained energy' in line for line in node.lines('WARN')), node.output())
+            self.assertIn('step', node.lines('WARN')[0])
+
+    def test_the_method_that_auto_chose_is_said(self):
+        with PendulumNode(method='Auto', particles=HORIZONTAL, frames=30) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+            self.assertRegex(node.output(), r'Auto chose \S+ for 0\.\d+ s')
 
     def test_the_closing_line_says_what_was_done(self):
         with PendulumNode(frames=11, particles=HORIZONTAL) as node:

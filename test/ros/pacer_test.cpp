@@ -5,9 +5,9 @@
 namespace spring_pendulum {
 namespace {
 
-const ros::WallTime kStart(1000.0);
+const ros::SteadyTime kStart(1000.0);
 
-ros::WallTime after(double seconds) {
+ros::SteadyTime after(double seconds) {
   return kStart + ros::WallDuration(seconds);
 }
 

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """Parameters right and wrong."""
+import time
 import unittest
 
 import rosgraph
 import rostest
 import yaml
 
-from pendulum_process import Folder, PendulumNode, project, read_frames, run_exercise
+from pendulum_process import Folder, PendulumNode, project, read_frames, run_exercise, wait_until
 
 
 class Parameters(unittest.TestCase):
@@ -28,6 +29,21 @@ class Parameters(unittest.TestCase):
             self.assertEqual(node.wait(), 2)
             for key in ('method', 'time_step', 'gravity', 'frame_id', 'at_end', 'follow'):
                 self.assertIn(key, node.output())
+
+    def test_a_refused_one_may_come_from_an_earlier_run(self):
+        with PendulumNode(bogus=1) as node:
+            self.assertEqual(node.wait(), 2)
+            self.assertIn('rosparam delete /pendulum', node.output())
+
+    def test_one_that_changes_while_the_node_runs_is_refused_aloud(self):
+        with PendulumNode(frames=100000, real_time_factor=1.0, damping=1.0) as node:
+            wait_until(lambda: 'no frame files' in node.output(), 'the start')
+            time.sleep(1.0)
+            rosgraph.Master('/test').setParam('/pendulum/damping', 0.5)
+            wait_until(lambda: node.lines('WARN'), 'a warning')
+            self.assertIn('~damping was changed while the node runs', node.lines('WARN')[0])
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
 
     def test_what_is_meant_is_accepted_in_every_type(self):
         spellings = [

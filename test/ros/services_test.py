@@ -76,6 +76,9 @@ class Services(unittest.TestCase):
             answer = self.call('step', Trigger)
             self.assertFalse(answer.success)
             self.assertIn('over at frame 2', answer.message)
+            answer = self.call('pause', SetBool, True)
+            self.assertFalse(answer.success)
+            self.assertIn('over at frame 2', answer.message)
             self.call('reset', Trigger)
             wait_until(lambda: sum(m.code == PendulumStatus.FINISHED for m in status.messages) >= 2,
                        'a second end')

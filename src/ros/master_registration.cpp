@@ -1,4 +1,4 @@
-#include "ros/registration.hpp"
+#include "ros/master_registration.hpp"
 
 #include <ros/console.h>
 #include <ros/init.h>
@@ -31,35 +31,35 @@ std::string lookUp(const std::string& method, const std::string& name) {
 
 }  // namespace
 
-void Registration::addTopic(const std::string& topic, const std::string& type) {
+void MasterRegistration::addTopic(const std::string& topic, const std::string& type) {
   topics_.push_back({topic, type});
 }
 
-void Registration::addService(const std::string& service) {
+void MasterRegistration::addService(const std::string& service) {
   services_.push_back({service, lookUp("lookupService", service)});
 }
 
-void Registration::keep() {
+void MasterRegistration::keep() {
   node_uri_ = lookUp("lookupNode", ros::this_node::getName());
   if (!node_uri_.empty()) thread_ = std::thread([this] { watch(); });
 }
 
-void Registration::stop() {
+void MasterRegistration::stop() {
   stopping_ = true;
   if (thread_.joinable()) thread_.join();
 }
 
-void Registration::watch() {
-  ros::WallTime next_question = ros::WallTime::now() + ros::WallDuration(kInterval);
+void MasterRegistration::watch() {
+  ros::SteadyTime next_question = ros::SteadyTime::now() + ros::WallDuration(kInterval);
   while (!stopping_ && ros::ok()) {
     ros::WallDuration(kNap).sleep();
-    if (ros::WallTime::now() < next_question) continue;
+    if (ros::SteadyTime::now() < next_question) continue;
     if (lookUp("lookupNode", ros::this_node::getName()).empty()) renew();
-    next_question = ros::WallTime::now() + ros::WallDuration(kInterval);
+    next_question = ros::SteadyTime::now() + ros::WallDuration(kInterval);
   }
 }
 
-void Registration::renew() const {
+void MasterRegistration::renew() const {
   const std::string& node = ros::this_node::getName();
   for (const Topic& topic : topics_) {
     if (!ask("registerPublisher", {node, topic.name, topic.type, node_uri_})) return;

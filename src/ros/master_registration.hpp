@@ -14,12 +14,12 @@ namespace spring_pendulum {
 
 /// Asks the master now and then, on a thread of its own, whether it still knows the node, and if
 /// not registers the topics and services again. Connections that exist are not touched.
-class Registration {
+class MasterRegistration {
  public:
-  Registration() = default;
-  ~Registration() { stop(); }
-  Registration(const Registration&) = delete;
-  Registration& operator=(const Registration&) = delete;
+  MasterRegistration() = default;
+  ~MasterRegistration() { stop(); }
+  MasterRegistration(const MasterRegistration&) = delete;
+  MasterRegistration& operator=(const MasterRegistration&) = delete;
 
   void addTopic(const std::string& topic, const std::string& type);
   void addService(const std::string& service);

@@ -1,0 +1,104 @@
+#include "ros/run_log.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/stability_advice.hpp>
+
+#include <fmt/format.h>
+
+#include <ros/console.h>
+
+#include <filesystem>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr int kMostChoices = 5;  ///< changes of Auto's method that are said
+
+bool isFixedStep(const PendulumRun& run) {
+  return findMethod(run.scenario().method).control == StepControl::kFixed;
+}
+
+/// Warns of a display rate above the number of states that a fixed step gives.
+void warnOfDisplayRate(const PendulumRun& run, const NodeOptions& options) {
+  if (!isFixedStep(run) || options.real_time_factor <= 0.0) return;
+  const double states = options.real_time_factor / run.scenario().time_step;
+  if (options.display_rate <= states * (1.0 + 1e-9)) return;
+  ROS_WARN_STREAM(fmt::format(
+      "display_rate is {:g} Hz, but a time step of {:g} s gives only {:.3g} states per second at "
+      "real_time_factor {:g}",
+      options.display_rate, run.scenario().time_step, states, options.real_time_factor));
+}
+
+/// The end of "Taylor-8 for 3.2 s, Rodas5P for 1 s, 1 switch", which changes with every choice.
+std::string switchesOf(const std::string& report) {
+  const std::size_t comma = report.rfind(", ");
+  return comma == std::string::npos ? report : report.substr(comma + 2);
+}
+
+}  // namespace
+
+std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
+                        const Publisher& publisher) {
+  const EnergyEntry entry = run.energyEntry();
+  const std::string report = run.integrator().report();
+  return fmt::format(
+      "{}{}: {} particles, {} frames, {}{} force evaluations, {:.3f} s integrating, {:.3f} s "
+      "writing {} frames, {} marker and {} state messages built, energy error {}, verdict: {}",
+      run.scenario().method, report.empty() ? "" : " (" + report + ")", run.chain().size(),
+      totals.frames, isFixedStep(run) ? fmt::format("{} steps, ", totals.steps) : "",
+      run.integrator().forceEvaluations(), totals.seconds, files.seconds(), files.framesWritten(),
+      publisher.markersBuilt(), publisher.statesBuilt(),
+      entry.relative_residual ? fmt::format("{:.2e}", *entry.relative_residual) : "not tracked",
+      run.verdict().text);
+}
+
+void RunLog::start(const PendulumRun& run, const NodeOptions& options,
+                   const RunFiles& files) const {
+  const Scenario& scenario = run.scenario();
+  ROS_INFO_STREAM(
+      scenario.method << " on "
+                      << std::filesystem::absolute(scenario.particles).lexically_normal().string()
+                      << ", " << files.description());
+  const std::string warning = warnOfInstability(run.chain(), run.start(), scenario);
+  if (!warning.empty()) ROS_WARN_STREAM(warning);
+  warnOfDisplayRate(run, options);
+  if (!options.follow.empty()) {
+    ROS_INFO_STREAM("waiting for states of another node on " << options.follow << " (follow)");
+  }
+}
+
+void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles& files,
+                    const Publisher& publisher) {
+  const Verdict& verdict = run.verdict();
+  if (verdict.kind > said_verdict_) {
+    said_verdict_ = verdict.kind;
+    if (verdict.kind == VerdictKind::kDiverged) {
+      ROS_ERROR_STREAM(verdict.text
+                       << "; " << remedyForDivergence(run.chain(), run.start(), run.scenario()));
+    } else {
+      ROS_WARN_STREAM(verdict.text);
+    }
+  }
+  sayChoice(run);
+  if (!run.isOver() || said_frames_ != 0) return;
+  said_frames_ = totals.frames;
+  ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
+}
+
+void RunLog::finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,
+                    const Publisher& publisher) {
+  if (said_frames_ == totals.frames) return;
+  ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
+}
+
+void RunLog::sayChoice(const PendulumRun& run) {
+  if (choices_said_ == kMostChoices || run.frame() == 0) return;
+  const std::string report = run.integrator().report();
+  const std::string choice = switchesOf(report);
+  if (choice.empty() || choice == said_choice_) return;
+  said_choice_ = choice;
+  ++choices_said_;
+  ROS_INFO_STREAM(run.scenario().method << " chose " << report);
+}
+
+}  // namespace spring_pendulum
