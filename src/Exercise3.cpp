@@ -131,7 +131,6 @@ int run(const Scenario& scenario, const Switches& switches) {
   if (!scenario.no_frames) writer.emplace(scenario.output, scenario.frames);
 
   catchInterruptions();
-  warn(warnOfInstability(chain, particles.state, scenario));
   State state = particles.state;
   const Outputs outputs{writer ? &*writer : nullptr, energy ? &*energy : nullptr};
   const Summary summary = simulate(scenario, state, integrator, judge, outputs);

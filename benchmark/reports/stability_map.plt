@@ -29,7 +29,7 @@ do for [kind in "png svg"] {
   set multiplot layout words(axes), words(methods) margins 0.07, 0.985, 0.06, 0.935 \
       spacing 0.045, 0.05 title "Verdict on ten seconds of a chain of eleven particles: \
 green ok, yellow drift, orange gained energy, red diverged\n\
-line: largest step advised; dashed: what the springs alone would bear"
+line: largest step advised without a trial"
   do for [row = 1:words(axes)] {
     axis = word(axes, row)
     do for [column = 1:words(methods)] {
@@ -43,8 +43,6 @@ line: largest step advised; dashed: what the springs alone would bear"
       set xrange [STATS_min:STATS_max]
       set yrange [-4:0]
       plot select(map, axis, method) using (log10($3)):(log10($4)):6 with image notitle, \
-           select(border, axis, method) using (log10($3)):(log10($5)) with lines \
-               dashtype 2 linewidth 2 linecolor "black" notitle, \
            select(border, axis, method) using (log10($3)):(log10($4)) with lines \
                linewidth 2.5 linecolor "black" notitle
     }

@@ -61,8 +61,8 @@ po::options_description describe(const OptionSet& options) {
       addWithValue(description, name, option.placeholder(), helpFor(option));
     }
   }
-  description.add_options()("check",
-                            "validate the input, print the stability advice, write nothing")(
+  description.add_options()(
+      "check", "try the run, report verdict, errors and the largest step sizes; write nothing")(
       "report-skips", "print what the run leaves out because the scene does not need it")(
       "list-methods", "describe the methods")("version", "show the version")("help,h",
                                                                              "show this help");

@@ -59,8 +59,6 @@ void RunLog::start(const PendulumRun& run, const NodeOptions& options,
       scenario.method << " on "
                       << std::filesystem::absolute(scenario.particles).lexically_normal().string()
                       << ", " << files.description());
-  const std::string warning = warnOfInstability(run.chain(), run.start(), scenario);
-  if (!warning.empty()) ROS_WARN_STREAM(warning);
   warnOfDisplayRate(run, options);
   if (!options.follow.empty()) {
     ROS_INFO_STREAM("waiting for states of another node on " << options.follow << " (follow)");

@@ -49,6 +49,8 @@ std::vector<Option> scenarioOptions(Scenario& s) {
       {"rest_length", Number{&s.rest_length, Range::atLeast(0)}, "m",
        "length L_0 of an unloaded spring"},
       {"gravity", Number{&s.gravity, Range::any()}, "m/s²", "gravity g, pointing down"},
+      {"wanted_error", Number{&s.wanted_error, Range::atLeast(0)}, "m",
+       "with --check: position error to find the cheapest method for; 0: none"},
       {"threads", Count{&s.threads, Range::atLeast(0)}, "",
        "largest number of threads; 0: one per processor core"},
       {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",

@@ -1,10 +1,7 @@
 #include "model/chain_modes.hpp"
-#include "simulation/mode_response.hpp"
-#include <spring_pendulum/model/energy.hpp>
-#include <spring_pendulum/simulation/energy_balance.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
+#include "simulation/trial.hpp"
+#include <spring_pendulum/simulation/reference_run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <fmt/format.h>
 
@@ -15,245 +12,211 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr double kScanStart = 1e-5;  ///< s = h |λ|; below, rounding hides what grows
-constexpr double kSmallStep = 0.1;
-constexpr double kScanEnd = 1e5;          ///< a method that bears this bears everything
-constexpr double kScanRatio = 1.02;       ///< narrower than any gap in a stability region
-constexpr double kSlowestMode = 1e-4;     ///< of the fastest one; slower ones decide nothing
-constexpr double kTensionInMotion = 3.0;  ///< over that at rest
-// Share of the gain the verdict allows that the linear estimate may use up. Measured against
-// bisection: without it the advice is up to 9 times (Euler) and 1.06 times too large.
-constexpr double kFirstOrderShare = 0.07;
-constexpr double kHigherOrderShare = 0.8;
-constexpr double kLeastSwing = 8.0 * 3.14159265358979;  ///< rad; what is gained is gained early
-constexpr double kMostSwingGrowth = 0.05;  ///< also of a swing so small that it may grow more
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// The largest s up to which a growing property of a method stays allowed.
-template <typename IsAllowed>
-double firstCrossing(double most, const IsAllowed& is_allowed) {
-  double s = kScanStart;
-  while (s < most && is_allowed(s)) s *= kScanRatio;
-  if (s >= most) return most;
-  double least = s / kScanRatio;
-  for (int i = 0; i < 20; ++i) {
-    const double middle = 0.5 * (least + s);
-    (is_allowed(middle) ? least : s) = middle;
-  }
-  return least;
+/// Position errors up to this share of the chain's length are `ok`.
+constexpr double kAccurate = 0.01;
+
+/// The linear limit is multiplied by these; the second one is for methods that let undamped swinging
+/// grow. Measured on random scenes: without, up to 1.9 and 2.5 times too large.
+constexpr double kLinearMargin = 0.5;
+constexpr double kSwingingMargin = 0.25;
+/// Steps after which a mode that grows has been noticed.
+constexpr double kStepsOfMode = 2000.0;
+
+/// Work of one trial after a divergence: some 0.02 s.
+constexpr double kRemedyWork = 2e6;
+
+bool isStable(const Trial& trial) {
+  return trial.affordable && trial.verdict.kind < VerdictKind::kGainedEnergy;
 }
 
-/// The same for growth rates that are too large already where the scan starts: they follow a power
-/// law there.
-double crossingOfPowerLaw(const ModeResponse& response, double allowed_rate) {
-  const double rate = response.growthRate(kScanStart);
-  const double power = std::log2(response.growthRate(2.0 * kScanStart) / rate);
-  return kScanStart * std::pow(allowed_rate / rate, 1.0 / power);
+bool isOk(const Trial& trial, double length) {
+  return trial.affordable && trial.verdict.kind == VerdictKind::kOk &&
+         !(trial.position_error > kAccurate * length);
 }
 
-/// Largest s at which a mode grows by at most `allowed_rate` per 1/|λ|.
-double largestStepFor(const ModeResponse& response, double allowed_rate, double most) {
-  if (response.growthRate(kScanStart) > allowed_rate) {
-    return std::min(most, crossingOfPowerLaw(response, allowed_rate));
-  }
-  return firstCrossing(most, [&](double s) { return response.growthRate(s) <= allowed_rate; });
+double stableStep(const TrialBench& bench, const Method& method, double first) {
+  return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
+    return isStable(bench.run(method, step, false, VerdictKind::kGainedEnergy));
+  });
 }
 
-class Advisor {
- public:
-  Advisor(const Method& method, const Chain& chain, const State& start, double duration)
-      : method_(method),
-        chain_(chain),
-        start_(start),
-        duration_(duration),
-        mode_(largestSpringMode(chain)) {
-    const Energy energy = computeEnergy(chain, start);
-    const double scale = EnergyScale(chain, start).at(0.0);
-    if (scale == 0.0) return;
-    free_share_ = (energy.total() + scale - std::max(energy.total(), 0.0)) / scale;
-    loaded_share_ = std::min(energy.spring / scale, free_share_) /
-                    static_cast<double>(std::max<Eigen::Index>(chain.size() - 1, 1));
-  }
+double accurateStep(const TrialBench& bench, const Method& method, double first, double length) {
+  return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
+    return isOk(bench.run(method, step, true, VerdictKind::kDrift), length);
+  });
+}
 
-  StabilityAdvice advise(double time_step) const {
-    StabilityAdvice advice{kNoLimit, kNoLimit, 1.0};
-    if (method_.control != StepControl::kFixed || mode_ == 0.0) return advice;
-    if (!std::isfinite(fasterRoot(chain_.spring(), mode_))) return {0.0, 0.0, kNoLimit};
-    advice.spring_step = springStep();
-    advice.swing_step = swingStep();
-    advice.swing_growth = swingGrowth(time_step);
-    return advice;
-  }
-
- private:
-  double springStep() const {
-    double step = kNoLimit;
-    const double slowest = chain_.size() == 2 ? 1.0 : kSlowestMode;
-    for (double part = 1.0; part >= slowest; part *= 0.5) {
-      step = std::min(step, stepForMode(chain_.spring(), mode_ * part, step));
-    }
-    if (growsUndampedModes()) return step;  // at any step: swingStep() says how much
-    const double swing = fastestSwing(chain_);
-    const double square =
-        std::min(kTensionInMotion * swing * swing, chain_.spring().stiffness * mode_);
-    return std::min(step, stepForMode({square, 0.0, 1.0}, 1.0, step));
-  }
-
-  bool growsUndampedModes() const {
-    return ModeResponse(method_, 0.0).growthRate(kSmallStep) > 0.0;
-  }
-
-  double stepForMode(const SpringLaw& spring, double mode, double known_step) const {
-    const double root = fasterRoot(spring, mode);
-    if (root == 0.0) return kNoLimit;
-    const ModeResponse response(method_, dampingRatio(spring, mode));
-    const double allowed_rate = std::log(1.0 + Judge::kGainThreshold) / (duration_ * root);
-    const double most = std::min(kScanEnd, known_step * root);
-    double s = largestStepFor(response, allowed_rate, most);
-    if (s < most && spring.damping > 0.0 && loaded_share_ > 0.0) {
-      const double allowed_gain = 1.0 + Judge::kGainThreshold / loaded_share_;
-      s = firstCrossing(s, [&](double x) { return response.largestGain(x) <= allowed_gain; });
-    }
-    return s < kScanEnd ? s / root : kNoLimit;
-  }
-
-  /// Growth of the swinging relative to that of an undamped spring of the fastest mode.
-  double swingShare() const {
-    const double swing = slowSwing(chain_);
-    return swing * swing / (chain_.spring().stiffness * mode_);
-  }
-
-  double swingStep() const {
-    const double share = swingShare();
-    if (!(share > 0.0)) return kNoLimit;
-    const double frequency = std::sqrt(chain_.spring().stiffness * mode_);
-    const double part = method_.order == 1 ? kFirstOrderShare : kHigherOrderShare;
-    const double allowed_growth =
-        std::min(std::log(1.0 + part * Judge::kGainThreshold / free_share_), kMostSwingGrowth);
-    const double duration = std::max(duration_, kLeastSwing / slowSwing(chain_));
-    const double allowed_rate = allowed_growth / (share * frequency * duration);
-    const double s = largestStepFor(ModeResponse(method_, 0.0), allowed_rate, kScanEnd);
-    return s < kScanEnd ? s / frequency : kNoLimit;
-  }
-
-  double swingGrowth(double time_step) const {
-    const double share = swingShare();
-    if (!(share > 0.0)) return 1.0;
-    const double frequency = std::sqrt(chain_.spring().stiffness * mode_);
-    const double rate = ModeResponse(method_, 0.0).growthRate(time_step * frequency);
-    return std::exp(share * rate * frequency * duration_);
-  }
-
-  const Method& method_;
-  const Chain& chain_;
-  const State& start_;
-  double duration_;
-  double mode_;
-  double free_share_ = 0.0;    ///< energy above that of the hanging rest, parts of the scale
-  double loaded_share_ = 0.0;  ///< part of it that starts in the springs, for each of their modes
-};
+/// The stable step size for q'' + damping q' + stiffness q = 0.
+double stepForMode(const Method& method, double stiffness, double damping, double duration) {
+  const double rate = std::max(std::sqrt(stiffness), damping);
+  if (!(rate > 0.0) || !std::isfinite(rate)) return rate > 0.0 ? 0.0 : kUnlimited;
+  const Chain chain(Eigen::Vector2d::Ones(), {stiffness, damping, 1.0}, 0.0);
+  State start(2);
+  start.x()[1] = 1.125;
+  start.vx()[1] = 0.125 * rate;
+  const double tried = std::min(duration, kStepsOfMode / rate);
+  const TrialBench bench(chain, start, tried, tried / 100.0);
+  return stableStep(bench, method, 1.0 / rate);
+}
 
 double durationOf(const Scenario& scenario) {
   const FrameSteps step = frameSteps(scenario);
   return std::max(step.timeOfFrame(scenario.frames - 1), step.time_step);
 }
 
-StabilityAdvice adviseOn(const Method& method, const Chain& chain, const State& start,
-                         const Scenario& scenario) {
-  return adviseOnStability(method, chain, start, scenario.time_step, durationOf(scenario));
+TrialBench benchFor(const Chain& chain, const State& start, const Scenario& scenario,
+                    double most_work = TrialBench::kMostWork) {
+  return {chain, start, durationOf(scenario), frameSteps(scenario).timeOfFrame(1), most_work};
 }
 
 std::string stepText(double step) {
-  return std::isinf(step) ? "any step" : fmt::format("steps up to {:.3g} s", step);
+  if (step == 0.0) return "none that could be tried";
+  return std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", step);
 }
 
-std::string suggestion(const Chain& chain, const State& start, const Scenario& scenario) {
-  const std::string method = methodThatHolds(chain, start, scenario);
-  if (method.empty()) return "";
-  if (findMethod(method).control == StepControl::kErrorControlled) {
-    return fmt::format("; {} holds, which chooses its own steps", method);
-  }
-  return fmt::format("; {} holds with {} s", method, scenario.time_step);
+std::string errorText(const Trial& trial) {
+  const std::string position =
+      std::isnan(trial.position_error)
+          ? "position error unknown (the motion is too sensitive or too costly to follow)"
+          : fmt::format("largest position error {:.2g} m", trial.position_error);
+  return fmt::format("{}, largest energy error {:.2g} % of the energy scale", position,
+                     100.0 * trial.energy_error);
 }
 
-/// What is wrong with the scenario's step, empty if nothing is.
-std::string objection(const StabilityAdvice& advice, const Scenario& scenario) {
-  const double step = scenario.time_step;
-  if (step > advice.spring_step) {
-    return fmt::format("a step of {} s is too large for the springs: {} bears {} here", step,
-                       scenario.method, stepText(advice.largestStep()));
+std::string linearText(const Method& method, const Chain& chain, double duration) {
+  return fmt::format(
+      "{}: too many particles and steps to try; linear stability limit with margin: "
+      "{}\n",
+      method.name, stepText(linearStepLimit(method, chain, duration)));
+}
+
+/// A way to compute the motion with a wished error.
+struct Candidate {
+  const Method* method = nullptr;
+  double step = 0.0;  ///< s, or the tolerance in m
+  std::int64_t evaluations = std::numeric_limits<std::int64_t>::max();
+};
+
+Candidate cheapestStep(const TrialBench& bench, const Method& method, double first, double wanted,
+                       std::int64_t most_evaluations) {
+  Candidate candidate{&method, 0.0};
+  const double least = std::max(bench.leastStep(method), bench.duration() * method.stages /
+                                                             static_cast<double>(most_evaluations));
+  const auto isAccurate = [&](const Trial& trial) {
+    return isStable(trial) && trial.position_error <= wanted;
+  };
+  if (method.control == StepControl::kErrorControlled) {
+    for (double tolerance = 10.0 * wanted; tolerance > 0.005 * wanted; tolerance *= 0.1) {
+      const Trial trial = bench.run(method, tolerance, true, VerdictKind::kGainedEnergy);
+      if (!trial.affordable || isAccurate(trial)) {
+        if (trial.affordable) candidate = {&method, tolerance, trial.evaluations};
+        break;
+      }
+    }
+    return candidate;
   }
-  if (step > advice.swing_step) {
-    return fmt::format(
-        "{} lets the swinging gain energy at every step size: the slow swing up to {:.3g} % in "
-        "this run at {} s, for sure under {:.2g} % only with {}",
-        scenario.method, 100.0 * (advice.swing_growth - 1.0), step, 100.0 * Judge::kGainThreshold,
-        stepText(advice.swing_step));
+  candidate.step = largestPassingStep(first, least, bench.duration(), [&](double step) {
+    return isAccurate(bench.run(method, step, true, VerdictKind::kGainedEnergy));
+  });
+  if (candidate.step > 0.0 && std::isfinite(candidate.step)) {
+    candidate.evaluations = std::llround(bench.duration() / candidate.step * method.stages);
   }
-  return "";
+  return candidate;
+}
+
+std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
+  Candidate best;
+  const double wanted = scenario.wanted_error;
+  for (const StepControl control : {StepControl::kErrorControlled, StepControl::kFixed}) {
+    for (const Method& method : methodTable()) {
+      if (method.control != control) continue;
+      const Candidate candidate =
+          cheapestStep(bench, method, scenario.time_step, wanted, best.evaluations);
+      if (candidate.evaluations < best.evaluations) best = candidate;
+    }
+  }
+  if (best.method == nullptr) {
+    return fmt::format("position error of at most {:.3g} m: no method tried reaches it\n", wanted);
+  }
+  const bool fixed = best.method->control == StepControl::kFixed;
+  return fmt::format(
+      "position error of at most {:.3g} m: {} with a {} of {:.3g} {}, {} force "
+      "evaluations\n",
+      wanted, best.method->name, fixed ? "step size" : "tolerance", best.step, fixed ? "s" : "m",
+      best.evaluations);
 }
 
 }  // namespace
 
-StabilityAdvice adviseOnStability(const Method& method, const Chain& chain, const State& start,
-                                  double time_step, double duration) {
-  return Advisor(method, chain, start, duration).advise(time_step);
+StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
+                          double first, double duration, double frame_interval) {
+  const TrialBench bench(chain, start, duration, frame_interval);
+  StepLimits limits;
+  limits.stable = stableStep(bench, method, first);
+  if (limits.stable == 0.0) return limits;
+  limits.accurate =
+      accurateStep(bench, method, std::min(first, limits.stable), chainLength(chain, start));
+  return limits;
 }
 
-std::string methodThatHolds(const Chain& chain, const State& start, const Scenario& scenario) {
-  const Method& given = findMethod(scenario.method);
-  const Method* best = nullptr;
-  const Method* error_controlled = nullptr;
-  for (const Method& method : methodTable()) {
-    if (method.control == StepControl::kErrorControlled) {
-      if (error_controlled == nullptr || method.name == "Auto") error_controlled = &method;
-      continue;
-    }
-    if (method.order < given.order || (best != nullptr && method.stages >= best->stages)) continue;
-    if (scenario.time_step <= adviseOn(method, chain, start, scenario).largestStep()) {
-      best = &method;
-    }
+double linearStepLimit(const Method& method, const Chain& chain, double duration) {
+  const double mode = largestSpringMode(chain);
+  if (method.control != StepControl::kFixed || mode == 0.0) return kUnlimited;
+  const SpringLaw& spring = chain.spring();
+  const double damped =
+      stepForMode(method, spring.stiffness * mode, spring.damping * mode, duration);
+  if (method.imaginary_stability_limit == 0.0) {
+    const double swing = slowSwing(chain);
+    return kSwingingMargin * std::min(damped, stepForMode(method, swing * swing, 0.0, duration));
   }
-  if (best == nullptr || given.control == StepControl::kErrorControlled) best = error_controlled;
-  return best == nullptr || best == &given ? "" : std::string(best->name);
+  // Sideways nothing damps; the tension acts as a stiffness below k_s there.
+  return kLinearMargin *
+         std::min(damped, stepForMode(method, spring.stiffness * mode, 0.0, duration));
 }
 
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
   const Method& method = findMethod(scenario.method);
-  std::string text = fmt::format(
-      "fastest spring mode {:.3g} 1/s, fastest swing {:.3g} rad/s, slow swing {:.3g} rad/s\n",
-      fasterRoot(chain.spring(), largestSpringMode(chain)), fastestSwing(chain), slowSwing(chain));
-  if (method.control == StepControl::kErrorControlled) {
-    return text + fmt::format("{} chooses its own steps\n", method.name);
+  const bool fixed = method.control == StepControl::kFixed;
+  const TrialBench bench = benchFor(chain, start, scenario);
+  const double duration = bench.duration();
+  const Trial trial = bench.run(method, scenario.tolerance, frameSteps(scenario),
+                                std::max<std::int64_t>(scenario.frames - 1, 1), true);
+  if (!trial.affordable) {
+    return fixed ? linearText(method, chain, duration)
+                 : fmt::format("{}: too costly to try\n", method.name);
   }
-  const StabilityAdvice advice = adviseOn(method, chain, start, scenario);
-  text += fmt::format("{}: the springs bear {}", method.name, stepText(advice.spring_step));
-  if (advice.swing_step < advice.spring_step) {
-    text += fmt::format(", the swinging surely {}", stepText(advice.swing_step));
+  std::string text = fmt::format("{} with a {} of {} {} over {:.4g} s: {}, {}\n", method.name,
+                                 fixed ? "step size" : "tolerance",
+                                 fixed ? scenario.time_step : scenario.tolerance, fixed ? "s" : "m",
+                                 duration, trial.verdict.text, errorText(trial));
+  if (fixed) {
+    const StepLimits limits = findStepLimits(method, chain, start, scenario.time_step, duration,
+                                             frameSteps(scenario).timeOfFrame(1));
+    text += fmt::format("largest stable step size: {}; largest accurate step size: {}\n",
+                        stepText(limits.stable), stepText(limits.accurate));
   }
-  const std::string wrong = objection(advice, scenario);
-  text += wrong.empty() ? fmt::format("; a step of {} s holds\n", scenario.time_step)
-                        : fmt::format("\n{}{}\n", wrong, suggestion(chain, start, scenario));
+  if (scenario.wanted_error > 0.0) text += cheapestFor(bench, scenario);
   return text;
-}
-
-std::string warnOfInstability(const Chain& chain, const State& start, const Scenario& scenario) {
-  const Method& method = findMethod(scenario.method);
-  if (method.control == StepControl::kErrorControlled) return "";
-  const std::string wrong = objection(adviseOn(method, chain, start, scenario), scenario);
-  return wrong.empty() ? "" : wrong + suggestion(chain, start, scenario);
 }
 
 std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario) {
   const Method& method = findMethod(scenario.method);
-  if (method.control == StepControl::kErrorControlled) {
-    return fmt::format("a tolerance below {} m may hold{}", scenario.tolerance,
-                       suggestion(chain, start, scenario));
+  const TrialBench bench = benchFor(chain, start, scenario, kRemedyWork);
+  std::string text;
+  if (method.control == StepControl::kFixed) {
+    const double tried = stableStep(bench, method, 0.5 * scenario.time_step);
+    const double step = tried > 0.0 ? tried : linearStepLimit(method, chain, bench.duration());
+    text = fmt::format("largest stable step for {}: {}{}", method.name, stepText(step),
+                       tried > 0.0 ? "" : " (linear estimate)");
+  } else {
+    text = fmt::format("try a tolerance below {} m", scenario.tolerance);
   }
-  const StabilityAdvice advice = adviseOn(method, chain, start, scenario);
-  const double step = std::min(advice.largestStep(), 0.5 * scenario.time_step);
-  return fmt::format("{} bears {} here{}", method.name, stepText(step),
-                     suggestion(chain, start, scenario));
+  const Method& other = findMethod("Auto");
+  if (&other == &method) return text;
+  const bool works = isStable(bench.run(other, scenario.tolerance, false));
+  return works ? fmt::format("{}; {} would do", text, other.name) : text;
 }
 
 }  // namespace spring_pendulum

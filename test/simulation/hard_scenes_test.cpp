@@ -20,12 +20,11 @@ using test::horizontalChain;
 using test::Scene;
 using test::straightLine;
 
-/// 300 steps of 0.8 times the step advised.
+/// 300 steps of the size advised.
 VerdictKind kindWithAdvisedStep(const Scene& scene) {
   const Method& method = findMethod("Runge-Kutta-4");
-  const double largest =
-      adviseOnStability(method, scene.chain, scene.start, 0.01, 50.0).largestStep();
-  const double step = std::isinf(largest) ? 0.01 : 0.8 * largest;
+  const double largest = linearStepLimit(method, scene.chain, 50.0);
+  const double step = std::isinf(largest) ? 0.01 : largest;
   return test::verdictOfRun(scene, method, step, 300.0 * step, false).kind;
 }
 

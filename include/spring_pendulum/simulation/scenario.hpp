@@ -30,6 +30,8 @@ struct Scenario {
   double rest_length = SpringLaw{}.rest_length;  ///< m
   double gravity = 9.81;                         ///< m/s²
 
+  double wanted_error = 0.0;  ///< m, for which the check finds the cheapest method; 0: none
+
   std::int64_t threads = 0;  ///< at most; 0: as many as the processor runs at once
   double sleep = 0.0;        ///< speed below which a chain is at rest, m/s; 0: never
 

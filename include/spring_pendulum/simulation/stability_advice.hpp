@@ -1,17 +1,12 @@
-// Advice before the first step: which step will this motion bear?
+// Advice on the step size: a run is tried, and what happened is reported.
 //
-// A step holds if no mode of the linearised chain gains more energy in the whole run than the
-// verdict allows. The modes are those of model/chain_modes.hpp; what the method makes of each is
-// measured (mode_response.hpp), so its full stability region counts, not only the limits on the
-// axes. Three things go beyond the linear chain at rest:
-// - in motion the springs pull harder than at rest: three times the tension is allowed for;
-// - springs that start stretched may gain energy before they lose it, also with a stable method;
-// - a method that lets undamped modes grow (Euler, Runge-Kutta-2) lets the swinging grow, as a
-// share
-//   of what it would do to an undamped spring: (slow swing / fastest spring)², counted over four
-//   swings at least. The springs damp fast swinging in turn, by a coupling that no linear analysis
-//   sees. So for these methods the advice is on the safe side, and exact only where the springs
-//   decide.
+// A trial costs milliseconds, so `--check` makes the run that it speaks of, measures its position
+// error against a reference run and its energy balance, and searches for the largest step size that
+// still passes. The work of a trial is bounded by a count, not by a clock.
+//
+// A chain too large to be tried gets the stability limit of its linearised motion, which is found
+// by trying a single spring that is as fast as the chain's fastest mode, and a pendulum as slow as
+// the chain.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -23,30 +18,25 @@
 
 namespace spring_pendulum {
 
-struct StabilityAdvice {
-  double spring_step = 0.0;   ///< s, largest step the modes of springs and tension bear
-  double swing_step = 0.0;    ///< s, largest step that surely does not swing the chain up
-  double swing_growth = 0.0;  ///< energy of the slow swing at the end over that at the start
-
-  /// s; infinite for methods that bear any step or choose their own.
-  double largestStep() const { return spring_step < swing_step ? spring_step : swing_step; }
+/// Step sizes in s; 0 where even the smallest affordable one fails, infinite where all pass.
+struct StepLimits {
+  double stable = 0.0;    ///< largest without divergence or gain of energy
+  double accurate = 0.0;  ///< largest with the verdict `ok`
 };
 
-/// \param time_step s, for `swing_growth`
-/// \param duration  of the run, s
-StabilityAdvice adviseOnStability(const Method& method, const Chain& chain, const State& start,
-                                  double time_step, double duration);
+/// Finds the limits of a fixed-step method by trying, within 4 %: every smaller step size that was
+/// tried passed too.
+/// \param first          step size in s to start at
+/// \param duration       of the run, s
+/// \param frame_interval s
+StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
+                          double first, double duration, double frame_interval);
 
-/// A method that holds with the scenario's frames: of those with a fixed step that bear `time_step`
-/// without letting the swinging grow the one of fewest stages, else an error-controlled one; empty
-/// if there is none.
-std::string methodThatHolds(const Chain& chain, const State& start, const Scenario& scenario);
+/// Largest stable step size in s of the linearised chain with a margin; infinite without springs.
+double linearStepLimit(const Method& method, const Chain& chain, double duration);
 
 /// What `--check` prints: one or several lines.
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario);
-
-/// A line of warning if the run is not going to hold, else empty.
-std::string warnOfInstability(const Chain& chain, const State& start, const Scenario& scenario);
 
 /// What to do about a motion that diverged, one line.
 std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario);

@@ -1,0 +1,156 @@
+#include "simulation/trial.hpp"
+
+#include "integration/error_control/error_controlled.hpp"
+#include <spring_pendulum/simulation/reference_run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kRatio = 1.04;  ///< from one step size of the grid to the next
+constexpr int kStride = 8;       ///< of the coarse search, in points of the grid
+constexpr int kLookBack = 3;     ///< points below the result that have to pass as well
+
+/// A chain costs as if it had this many particles more.
+constexpr double kOverhead = 4.0;
+
+double weight(const Chain& chain) {
+  return static_cast<double>(chain.size()) + kOverhead;
+}
+
+/// Advances by one frame, or until the force has been evaluated `most` times.
+/// \returns whether the frame was finished
+bool advanceWithin(Integrator& integrator, State& state, const FrameSteps& frame,
+                   std::int64_t most) {
+  if (auto* controlled = dynamic_cast<ErrorControlled*>(&integrator)) {
+    return controlled->advanceWithin(state, frame.time_step, frame.steps, most);
+  }
+  integrator.advance(state, frame.time_step, frame.steps);
+  return true;
+}
+
+/// Whether a step size passes, by its place on a geometric grid. Tries each only once.
+class Grid {
+ public:
+  Grid(double first, double least, double most, const std::function<bool(double)>& passes)
+      : first_(first), least_(least), most_(most), passes_(passes) {}
+
+  double step(int i) const {
+    double step = first_;
+    for (; i > 0; --i) step *= kRatio;
+    for (; i < 0; ++i) step /= kRatio;
+    return step;
+  }
+  bool isTooSmall(int i) const { return step(i) < least_; }
+  bool isTooLarge(int i) const { return step(i) > most_; }
+  bool passes(int i) {
+    const auto known = known_.find(i);
+    if (known != known_.end()) return known->second;
+    return known_[i] = passes_(step(i));
+  }
+
+  /// The first point at or below `i`, in strides, that passes.
+  std::optional<int> descend(int i) {
+    while (!isTooSmall(i) && !passes(i)) i -= kStride;
+    return isTooSmall(i) ? std::nullopt : std::optional<int>(i);
+  }
+
+  /// The last point before one that fails, given one that passes and one that fails above it.
+  int bisect(int good, int bad) {
+    while (bad - good > 1) {
+      const int middle = good + (bad - good) / 2;
+      (passes(middle) ? good : bad) = middle;
+    }
+    return good;
+  }
+
+  /// The highest of the points just below `good` that fails.
+  std::optional<int> failureBelow(int good) {
+    for (int i = good - 1; i >= good - kLookBack && !isTooSmall(i); --i) {
+      if (!passes(i)) return i;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double first_;
+  double least_;
+  double most_;
+  const std::function<bool(double)>& passes_;
+  std::map<int, bool> known_;
+};
+
+}  // namespace
+
+Trial TrialBench::run(const Method& method, double tolerance, const FrameSteps& frame,
+                      std::int64_t frames, bool with_reference, VerdictKind enough) const {
+  const auto integrator = makeIntegrator(method.name, chain_, {tolerance, true, 1});
+  Judge judge(chain_, start_, true);
+  ReferenceRun reference(chain_, start_);
+  State state = start_;
+  Trial trial;
+  if (with_reference) trial.position_error = 0.0;
+  const auto most = static_cast<std::int64_t>(most_work_ / weight(chain_));
+  if (method.control == StepControl::kFixed) {
+    const double steps = static_cast<double>(frames) * static_cast<double>(frame.steps);
+    trial.affordable = steps * method.stages <= static_cast<double>(most);
+  }
+  for (std::int64_t n = 1; n <= frames && trial.affordable; ++n) {
+    trial.affordable = advanceWithin(*integrator, state, frame, most);
+    judge.judge(frame.timeOfFrame(n), state, integrator->dissipatedEnergy());
+    trial.energy_error =
+        std::max(trial.energy_error, std::abs(judge.entry().relative_residual.value_or(0.0)));
+    trial.evaluations = integrator->forceEvaluations();
+    if (with_reference) {
+      reference.advance(frame.time_step, frame.steps, trial.evaluations);
+      const double error = reference.errorOf(state);
+      if (!(error <= trial.position_error)) trial.position_error = error;
+    }
+    if (judge.latest().kind >= enough) break;
+  }
+  trial.verdict = judge.worst();
+  return trial;
+}
+
+Trial TrialBench::run(const Method& method, double step, bool with_reference,
+                      VerdictKind enough) const {
+  if (method.control == StepControl::kErrorControlled) {
+    const double frames = std::ceil(duration_ / frame_interval_ * (1.0 - 1e-9));
+    return run(method, step, {frame_interval_, 1}, static_cast<std::int64_t>(frames),
+               with_reference, enough);
+  }
+  const FrameSteps frame{step, std::max<std::int64_t>(1, std::llround(frame_interval_ / step))};
+  const double frames = std::ceil(duration_ / frame.timeOfFrame(1) * (1.0 - 1e-9));
+  return run(method, 0.0, frame, static_cast<std::int64_t>(frames), with_reference, enough);
+}
+
+double TrialBench::leastStep(const Method& method) const {
+  return duration_ * method.stages * weight(chain_) / most_work_;
+}
+
+double largestPassingStep(double first, double least, double most,
+                          const std::function<bool(double)>& passes) {
+  if (least > most) return 0.0;
+  Grid grid(std::clamp(first, least, most), least, most, passes);
+  std::optional<int> good = grid.descend(0);
+  for (const int i : {-kStride, -2 * kStride}) {
+    if (good == 0 && !grid.isTooSmall(i) && !grid.passes(i)) good = grid.descend(i);
+  }
+  if (!good) return 0.0;
+  int bad = *good + kStride;
+  while (!grid.isTooLarge(bad) && grid.passes(bad)) bad += kStride;
+  if (grid.isTooLarge(bad)) return std::numeric_limits<double>::infinity();
+  good = grid.bisect(bad - kStride, bad);
+  while (const std::optional<int> failure = grid.failureBelow(*good)) {
+    const std::optional<int> lower = grid.descend(*failure);
+    if (!lower) return 0.0;
+    good = grid.bisect(*lower, *failure);
+  }
+  return grid.step(*good);
+}
+
+}  // namespace spring_pendulum

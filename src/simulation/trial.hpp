@@ -1,0 +1,68 @@
+// A run made only to see how it ends, and the search for the largest step size that still passes.
+#pragma once
+
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+namespace spring_pendulum {
+
+struct Trial {
+  bool affordable = true;  ///< whether it ended within the work allowed
+  Verdict verdict;
+  double energy_error = 0.0;  ///< largest residual of the energy balance in energy scales
+  /// Largest position error, m; NaN if the reference could not follow to the end.
+  double position_error = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t evaluations = 0;  ///< of the force, without those of the reference
+};
+
+/// What is tried: a chain, a start and a time, with any method and step size.
+class TrialBench {
+ public:
+  /// Work of one trial in force evaluations times particles, without the reference's: some 0.2 s.
+  static constexpr double kMostWork = 2e7;
+
+  /// \param duration       s
+  /// \param frame_interval s, about the time from one look at the state to the next
+  TrialBench(const Chain& chain, const State& start, double duration, double frame_interval,
+             double most_work = kMostWork)
+      : chain_(chain),
+        start_(start),
+        duration_(duration),
+        frame_interval_(frame_interval),
+        most_work_(most_work) {}
+
+  /// Runs frame by frame to the end, or until the verdict reaches `enough`.
+  Trial run(const Method& method, double tolerance, const FrameSteps& frame, std::int64_t frames,
+            bool with_reference, VerdictKind enough = VerdictKind::kDiverged) const;
+
+  /// The same with frames of about the interval. With an error-controlled method `step` is the
+  /// tolerance.
+  Trial run(const Method& method, double step, bool with_reference,
+            VerdictKind enough = VerdictKind::kDiverged) const;
+
+  /// Smallest step size whose trial is affordable, s.
+  double leastStep(const Method& method) const;
+
+  double duration() const { return duration_; }
+
+ private:
+  const Chain& chain_;
+  const State& start_;
+  double duration_;
+  double frame_interval_;
+  double most_work_;
+};
+
+/// The largest step size that passes, within 4 %. Every smaller one that was tried passes too:
+/// those of 4, 8 and 11 % less, and of 27 and 47 % less than `first`.
+/// \returns 0 if none of at least `least` s passes; infinity if all up to `most` s do
+double largestPassingStep(double first, double least, double most,
+                          const std::function<bool(double)>& passes);
+
+}  // namespace spring_pendulum
