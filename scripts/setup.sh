@@ -8,6 +8,7 @@
 #   film       what scripts/film.sh needs to film rviz
 #   lint       clang-format, clang-tidy, catkin_lint
 #   sanitize   clang's sanitizers and fuzzer, coverage
+#   releases   what scripts/test_releases.sh needs
 #   benchmark  the solvers to compare with, all optional
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -32,6 +33,7 @@ packages_of() {
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev gcovr ;;
+    releases) echo debootstrap git ;;
     benchmark)
       echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev python3 ;;
     *) die "setup.sh: unknown component '$1'" ;;
