@@ -1,17 +1,19 @@
 #include "integration/automatic/auto_stepper.hpp"
-#include "integration/embedded/embedded_runge_kutta.hpp"
-#include "integration/error_control/error_controlled.hpp"
+#include "integration/embedded/embedded_runge_kutta_stepper.hpp"
+#include "integration/error_control/dense_output_integrator.hpp"
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include "integration/fixed_step/symplectic.hpp"
 #include "integration/implicit/rosenbrock.hpp"
-#include "integration/taylor/stabilized_taylor.hpp"
-#include "integration/taylor/taylor_series.hpp"
+#include "integration/taylor/stabilized_taylor_stepper.hpp"
+#include "integration/taylor/taylor_stepper.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -26,40 +28,42 @@ std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const C
   return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, engine);
 }
 
-std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,
-                                        const IntegratorOptions& options) {
-  return std::make_unique<ErrorControlled>(
-      std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options));
-}
-
 template <typename SymplecticMethod>
 std::unique_ptr<Integrator> makeSymplectic(const Method&, const Chain& chain,
                                            const IntegratorOptions& options) {
   return std::make_unique<SymplecticMethod>(chain, options.track_dissipation);
 }
 
+template <typename Stepper, typename... Arguments>
+std::unique_ptr<Integrator> makeErrorControlled(const Chain& chain,
+                                                const IntegratorOptions& options,
+                                                Arguments&&... arguments) {
+  return std::make_unique<DenseOutputIntegrator>(
+      std::make_unique<Stepper>(chain, std::forward<Arguments>(arguments)..., options.tolerance),
+      options.track_dissipation ? std::make_optional(chain) : std::nullopt);
+}
+
 template <const EmbeddedPair& kPair>
 std::unique_ptr<Integrator> makeEmbeddedPair(const Method&, const Chain& chain,
                                              const IntegratorOptions& options) {
-  return std::make_unique<ErrorControlled>(
-      std::make_unique<EmbeddedRungeKutta>(chain, kPair, options));
+  return makeErrorControlled<EmbeddedRungeKuttaStepper>(chain, options, kPair);
 }
 
-std::unique_ptr<Integrator> makeTaylorSeries(const Method& method, const Chain& chain,
-                                             const IntegratorOptions& options) {
-  return std::make_unique<ErrorControlled>(
-      std::make_unique<TaylorSeries>(chain, method.order, options));
+/// \tparam Stepper made from a chain, an order and a tolerance
+template <typename Stepper>
+std::unique_ptr<Integrator> makeTaylor(const Method& method, const Chain& chain,
+                                       const IntegratorOptions& options) {
+  return makeErrorControlled<Stepper>(chain, options, method.order);
 }
 
-std::unique_ptr<Integrator> makeStabilizedTaylor(const Method& method, const Chain& chain,
-                                                 const IntegratorOptions& options) {
-  return std::make_unique<ErrorControlled>(
-      std::make_unique<StabilizedTaylor>(chain, method.order, options));
+std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,
+                                        const IntegratorOptions& options) {
+  return makeErrorControlled<RosenbrockStepper>(chain, options, kRodas5PTableau);
 }
 
 std::unique_ptr<Integrator> makeAuto(const Method&, const Chain& chain,
                                      const IntegratorOptions& options) {
-  return std::make_unique<ErrorControlled>(std::make_unique<AutoStepper>(chain, options));
+  return makeErrorControlled<AutoStepper>(chain, options);
 }
 
 const std::vector<Method> kMethodTable{
@@ -96,21 +100,21 @@ const std::vector<Method> kMethodTable{
     {"Taylor-8", 8, 8, StepControl::kErrorControlled, 4.313627227774381, 3.3951402205749246,
      "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
      "the fastest for tolerances down to 1e-6 m, as long as no particle is very light", nullptr,
-     makeTaylorSeries},
+     makeTaylor<TaylorStepper>},
     {"Taylor-12", 12, 12, StepControl::kErrorControlled, 5.8227790681937215, 3.3793773141575327,
      "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
      "the fastest for tighter tolerances, as long as no particle is very light", nullptr,
-     makeTaylorSeries},
+     makeTaylor<TaylorStepper>},
     {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
      "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
      "doi:10.2140/camcos.2012.7.247",
      "4 to 10 terms a step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse tolerances",
-     nullptr, makeStabilizedTaylor},
+     nullptr, makeTaylor<StabilizedTaylorStepper>},
     {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
      "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
      "doi:10.2140/camcos.2012.7.247",
      "8 to 14 terms a step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
-     nullptr, makeStabilizedTaylor},
+     nullptr, makeTaylor<StabilizedTaylorStepper>},
     {"Rodas5P", 5, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
      "G. Steinebach, BIT Numer. Math. 63 (2023) 27, doi:10.1007/s10543-023-00967-x",
      "linearly implicit: for very light particles (k_d/m beyond 1e5/s) and coarse tolerances",

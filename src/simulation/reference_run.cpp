@@ -1,4 +1,4 @@
-#include "integration/error_control/error_controlled.hpp"
+#include "integration/error_control/dense_output_integrator.hpp"
 #include "model/chain_modes.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
@@ -83,7 +83,7 @@ struct ReferenceRun::Trajectory {
   Trajectory(std::string_view method, const Chain& chain, const State& start, double tolerance)
       : integrator(makeIntegrator(method, chain, {tolerance, false, 1})), state(start) {}
 
-  ErrorControlled& controlled() { return dynamic_cast<ErrorControlled&>(*integrator); }
+  DenseOutputIntegrator& controlled() { return dynamic_cast<DenseOutputIntegrator&>(*integrator); }
 
   std::unique_ptr<Integrator> integrator;
   State state;

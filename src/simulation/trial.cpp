@@ -1,6 +1,6 @@
 #include "simulation/trial.hpp"
 
-#include "integration/error_control/error_controlled.hpp"
+#include "integration/error_control/dense_output_integrator.hpp"
 #include <spring_pendulum/simulation/reference_run.hpp>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ double weight(const Chain& chain) {
 /// \returns whether the frame was finished
 bool advanceWithin(Integrator& integrator, State& state, const FrameSteps& frame,
                    std::int64_t most) {
-  if (auto* controlled = dynamic_cast<ErrorControlled*>(&integrator)) {
+  if (auto* controlled = dynamic_cast<DenseOutputIntegrator*>(&integrator)) {
     return controlled->advanceWithin(state, frame.time_step, frame.steps, most);
   }
   integrator.advance(state, frame.time_step, frame.steps);

@@ -1,5 +1,5 @@
 // What every error-controlled method of the table promises, whatever it is made of.
-#include "integration/error_control/error_controlled.hpp"
+#include "integration/error_control/dense_output_integrator.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/energy.hpp>
 
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, ErrorControlledMethod,
 constexpr double kTolerances[] = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
 StepStatistics statisticsOf(const Integrator& integrator) {
-  return dynamic_cast<const ErrorControlled&>(integrator).statistics();
+  return dynamic_cast<const DenseOutputIntegrator&>(integrator).statistics();
 }
 
 /// The largest error at the times, in tolerances.
@@ -171,7 +171,7 @@ TEST_P(ErrorControlledMethod, TakesLongStepsAtRest) {
 }
 
 // Of the energy the chain has lost, all is in the dashpots.
-TEST_P(ErrorControlledMethod, CountsTheHeatOnlyIfAskedTo) {
+TEST_P(ErrorControlledMethod, CountsTheDissipatedEnergyOnlyIfAskedTo) {
   const Scene scene = referenceScene("horizontal_11");
   const double tolerance = 1e-6;
   const auto tracking = make(scene, tolerance, true);

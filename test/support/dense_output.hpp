@@ -1,7 +1,7 @@
 // How exactly a stepper knows the motion inside a step.
 #pragma once
 
-#include "integration/error_control/adaptive_stepper.hpp"
+#include "integration/error_control/dense_output_stepper.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct InsideOfStep {
   double step;
 };
 
-inline InsideOfStep insideOfStep(AdaptiveStepper& stepper, const Scene& scene) {
+inline InsideOfStep insideOfStep(DenseOutputStepper& stepper, const Scene& scene) {
   stepper.start(scene.start);
   for (double time = 0.0; time < 0.5;) time += stepper.step();
   const double step = stepper.statistics().last_step;

@@ -1,9 +1,10 @@
 #include "integration/automatic/auto_stepper.hpp"
 
 #include "integration/implicit/rosenbrock.hpp"
-#include "integration/taylor/stabilized_taylor.hpp"
-#include "integration/taylor/taylor_series.hpp"
+#include "integration/taylor/stabilized_taylor_stepper.hpp"
+#include "integration/taylor/taylor_stepper.hpp"
 #include "model/chain_modes.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
 
@@ -60,23 +61,24 @@ bool AutoStepper::Pace::isFasterThan(const Pace& other) const {
   return time * other.work > kHysteresis * other.time * work;
 }
 
-AutoStepper::AutoStepper(const Chain& chain, const IntegratorOptions& options)
+AutoStepper::AutoStepper(const Chain& chain, double tolerance)
     : fastest_rate_(fastestDampingRate(chain)), state_(chain.size()) {
-  const Method& method = explicitMethod(chain, options.tolerance);
+  const Method& method = explicitMethod(chain, tolerance);
   explicit_limit_ = method.real_stability_limit;
   successor_is_better_ = method.order == 8;
   candidates_.push_back(
-      {method.name, kTaylorWork, std::make_unique<TaylorSeries>(chain, method.order, options)});
+      {method.name, kTaylorWork, std::make_unique<TaylorStepper>(chain, method.order, tolerance)});
   const auto add_stabilized = [&](std::string_view name, double work, int order) {
-    candidates_.push_back({name, work,
-                           std::make_unique<StabilizedTaylor>(
-                               chain, order, options, StabilizedTaylor::kShareOfToleranceIfStiff)});
+    candidates_.push_back(
+        {name, work,
+         std::make_unique<StabilizedTaylorStepper>(
+             chain, order, tolerance, StabilizedTaylorStepper::kShareOfToleranceIfStiff)});
   };
   add_stabilized("Stabilized-Taylor-8", kStabilizedTaylor8Work, 8);
   add_stabilized("Stabilized-Taylor-4", kStabilizedTaylor4Work, 4);
   if (fastest_rate_ < kRateForImplicit) return;
   candidates_.push_back({"Rodas5P", kRodas5PWork,
-                         std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options)});
+                         std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, tolerance)});
 }
 
 void AutoStepper::start(const State& state) {
@@ -84,12 +86,14 @@ void AutoStepper::start(const State& state) {
   recent_ = {};
   recent_steps_ = 0;
   work_before_race_ = kWorkBeforeFirstRace;
+  last_step_ = 0.0;
   candidates_[0].stepper->start(state);
 }
 
-double AutoStepper::workOf(const Candidate& candidate) {
+// The work is computed from the difference, which does not depend on what was counted before.
+double AutoStepper::workSince(const Candidate& candidate, std::int64_t evaluations) {
   return candidate.work_per_evaluation *
-         static_cast<double>(candidate.stepper->statistics().force_evaluations);
+         static_cast<double>(evaluationsOf(candidate) - evaluations);
 }
 
 bool AutoStepper::isStiff() const {
@@ -106,9 +110,9 @@ double AutoStepper::step() {
     }
   }
   Candidate& candidate = candidates_[active_];
-  const double before = workOf(candidate);
+  const std::int64_t before = evaluationsOf(candidate);
   last_step_ = candidate.stepper->step();
-  recent_.work += workOf(candidate) - before;
+  recent_.work += workSince(candidate, before);
   recent_.time += last_step_;
   ++recent_steps_;
   ++steps_;
@@ -122,13 +126,13 @@ AutoStepper::Pace AutoStepper::paceOf(Candidate& candidate, const State& state) 
     if (!(candidate.stepper->step() > 0.0)) return {};
   }
   Pace pace;
-  const double before = workOf(candidate);
+  const std::int64_t before = evaluationsOf(candidate);
   for (int i = 0; i < kCounted; ++i) {
     const double covered = candidate.stepper->step();
     if (!(covered > 0.0)) return {};
     pace.time += covered;
   }
-  pace.work = workOf(candidate) - before;
+  pace.work = workSince(candidate, before);
   return pace;
 }
 
@@ -139,9 +143,9 @@ void AutoStepper::race() {
   Pace best = recent_;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (i == active_) continue;
-    const double before = workOf(candidates_[i]);
+    const std::int64_t before = evaluationsOf(candidates_[i]);
     const Pace pace = paceOf(candidates_[i], state_);
-    work += workOf(candidates_[i]) - before;
+    work += workSince(candidates_[i], before);
     if (pace.isFasterThan(best)) {
       fastest = i;
       best = pace;

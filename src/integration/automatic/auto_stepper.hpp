@@ -17,11 +17,11 @@
 // doi:10.1137/0904010.
 #pragma once
 
-#include "integration/error_control/adaptive_stepper.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
+#include "integration/error_control/dense_output_stepper.hpp"
 #include <spring_pendulum/model/chain.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -29,17 +29,14 @@
 
 namespace spring_pendulum {
 
-class AutoStepper final : public AdaptiveStepper {
+class AutoStepper final : public DenseOutputStepper {
  public:
-  AutoStepper(const Chain& chain, const IntegratorOptions& options);
+  AutoStepper(const Chain& chain, double tolerance);
 
   void start(const State& state) override;
   double step() override;
   void interpolate(double fraction, State& state) const override {
     active().stepper->interpolate(fraction, state);
-  }
-  double dissipated(double fraction) const override {
-    return active().stepper->dissipated(fraction);
   }
   StepStatistics statistics() const override;
 
@@ -53,7 +50,7 @@ class AutoStepper final : public AdaptiveStepper {
   struct Candidate {
     std::string_view name;
     double work_per_evaluation;  ///< in force evaluations of Taylor-8
-    std::unique_ptr<AdaptiveStepper> stepper;
+    std::unique_ptr<DenseOutputStepper> stepper;
     double covered = 0.0;  ///< time integrated with it, s
   };
   /// Time covered and the work it took.
@@ -64,7 +61,10 @@ class AutoStepper final : public AdaptiveStepper {
   };
 
   const Candidate& active() const { return candidates_[active_]; }
-  static double workOf(const Candidate& candidate);
+  static std::int64_t evaluationsOf(const Candidate& candidate) {
+    return candidate.stepper->statistics().force_evaluations;
+  }
+  static double workSince(const Candidate& candidate, std::int64_t evaluations);
   static Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
   void race();

@@ -26,9 +26,9 @@ class Terms {
 }  // namespace
 
 RosenbrockStepper::RosenbrockStepper(const Chain& chain, const RosenbrockTableau& tableau,
-                                     const IntegratorOptions& options, const ChainKernels& kernels)
-    : ControlledStepper(chain, options, kShareOfTolerance * options.tolerance,
-                        tableau.embedded_order + 1, kernels),
+                                     double tolerance, const ChainKernels& kernels)
+    : ErrorEstimatingStepper(chain, kShareOfTolerance * tolerance, tableau.embedded_order + 1,
+                             kernels),
       tableau_(tableau),
       jacobian_(chain.size() - 1),
       solver_(chain),

@@ -6,7 +6,7 @@
 // is stiff, an explicit method does a step for much less.
 #pragma once
 
-#include "integration/error_control/controlled_stepper.hpp"
+#include "integration/error_control/error_estimating_stepper.hpp"
 #include "integration/implicit/chain_solver.hpp"
 #include "integration/implicit/rosenbrock_tableau.hpp"
 #include "model/jacobian.hpp"
@@ -16,10 +16,9 @@
 
 namespace spring_pendulum {
 
-class RosenbrockStepper final : public ControlledStepper {
+class RosenbrockStepper final : public ErrorEstimatingStepper {
  public:
-  RosenbrockStepper(const Chain& chain, const RosenbrockTableau& tableau,
-                    const IntegratorOptions& options,
+  RosenbrockStepper(const Chain& chain, const RosenbrockTableau& tableau, double tolerance,
                     const ChainKernels& kernels = fastestChainKernels());
 
   void interpolate(double fraction, State& state) const override;

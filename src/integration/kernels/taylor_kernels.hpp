@@ -1,4 +1,4 @@
-// Kernels of the Taylor series method. The recursion is derived in taylor_series.hpp; u, L, d and T
+// Kernels of the Taylor series method. The recursion is derived in taylor_stepper.hpp; u, L, d and T
 // below are the quantities of that derivation.
 #pragma once
 

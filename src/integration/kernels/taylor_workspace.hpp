@@ -1,5 +1,5 @@
 // The numbers that the kernels of the Taylor series method work on. The method itself is explained
-// in taylor_series.hpp.
+// in taylor_stepper.hpp.
 #pragma once
 
 #include <spring_pendulum/model/spring_law.hpp>

@@ -1,6 +1,7 @@
 #include "integration/automatic/auto_stepper.hpp"
 
-#include "integration/error_control/error_controlled.hpp"
+#include "integration/error_control/dense_output_integrator.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace {
 
 // The method that Auto works with after `seconds`.
 std::string methodAfter(const test::Scene& scene, double tolerance, double seconds) {
-  AutoStepper stepper(scene.chain, IntegratorOptions{tolerance, false, 1});
+  AutoStepper stepper(scene.chain, tolerance);
   stepper.start(scene.start);
   for (double time = 0.0; time < seconds;) {
     const double h = stepper.step();
@@ -39,7 +40,7 @@ TEST(Auto, PicksByTolerance) {
 // Springs make the light chain stiff; the error allowed makes long steps of low order cheaper.
 TEST(Auto, ChangesTheMethodWithTheMotion) {
   const test::Scene scene = test::referenceScene("lighter_100");
-  AutoStepper stepper(scene.chain, IntegratorOptions{1e-3, false, 1});
+  AutoStepper stepper(scene.chain, 1e-3);
   stepper.start(scene.start);
   std::vector<std::string> used;
   for (double time = 0.0; time < 5.0; time += stepper.step()) {

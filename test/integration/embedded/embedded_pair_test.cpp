@@ -1,6 +1,6 @@
 #include "integration/embedded/embedded_pair.hpp"
 
-#include "integration/embedded/embedded_runge_kutta.hpp"
+#include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>
@@ -132,7 +132,7 @@ TEST(EmbeddedPair, StabilityLimitsAreThoseOfTheTable) {
 
 TEST(EmbeddedPair, ExtraSlopesCostOnlyWhereSomebodyLooks) {
   const Scene scene = referenceScene("two_masses_45deg");
-  EmbeddedRungeKutta stepper(scene.chain, kDormandPrince8, {1e-6, false});
+  EmbeddedRungeKuttaStepper stepper(scene.chain, kDormandPrince8, 1e-6);
   stepper.start(scene.start);
   while (stepper.statistics().accepted < 3) ASSERT_GT(stepper.step(), 0.0);
   const std::int64_t before = stepper.statistics().force_evaluations;

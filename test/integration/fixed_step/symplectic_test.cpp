@@ -135,7 +135,7 @@ TEST(Symplectic, EvaluatesTheForcesOnceOrWithDampingTwiceAStep) {
   EXPECT_EQ(evaluations("Velocity-Verlet", damped), 200);
 }
 
-TEST(Symplectic, HeatClosesTheEnergyBalance) {
+TEST(Symplectic, DissipatedEnergyClosesTheBalance) {
   const Scene scene = referenceScene("horizontal_11");
   for (const char* name : kNames) {
     const auto integrator = makeIntegrator(name, scene.chain, {1e-6, true});

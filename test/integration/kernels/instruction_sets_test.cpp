@@ -1,8 +1,8 @@
 // The error-controlled methods have the same bits whatever instruction set their kernels are for.
-#include "integration/embedded/embedded_runge_kutta.hpp"
+#include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 #include "integration/implicit/rosenbrock.hpp"
-#include "integration/taylor/stabilized_taylor.hpp"
-#include "integration/taylor/taylor_series.hpp"
+#include "integration/taylor/stabilized_taylor_stepper.hpp"
+#include "integration/taylor/taylor_stepper.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,33 +17,31 @@ namespace {
 
 struct Maker {
   const char* name;
-  std::unique_ptr<AdaptiveStepper> (*make)(const Chain&, const IntegratorOptions&,
-                                           const ChainKernels&);
+  std::unique_ptr<DenseOutputStepper> (*make)(const Chain&, double, const ChainKernels&);
 };
 
 template <int order>
-std::unique_ptr<AdaptiveStepper> makeTaylor(const Chain& chain, const IntegratorOptions& options,
-                                            const ChainKernels& kernels) {
-  return std::make_unique<TaylorSeries>(chain, order, options, kernels);
+std::unique_ptr<DenseOutputStepper> makeTaylor(const Chain& chain, double tolerance,
+                                               const ChainKernels& kernels) {
+  return std::make_unique<TaylorStepper>(chain, order, tolerance, kernels);
 }
 
 template <int order>
-std::unique_ptr<AdaptiveStepper> makeStabilized(const Chain& chain,
-                                                const IntegratorOptions& options,
-                                                const ChainKernels& kernels) {
-  return std::make_unique<StabilizedTaylor>(chain, order, options,
-                                            StabilizedTaylor::kShareOfTolerance, kernels);
+std::unique_ptr<DenseOutputStepper> makeStabilized(const Chain& chain, double tolerance,
+                                                   const ChainKernels& kernels) {
+  return std::make_unique<StabilizedTaylorStepper>(
+      chain, order, tolerance, StabilizedTaylorStepper::kShareOfTolerance, kernels);
 }
 
 template <const EmbeddedPair& kPair>
-std::unique_ptr<AdaptiveStepper> makePair(const Chain& chain, const IntegratorOptions& options,
-                                          const ChainKernels& kernels) {
-  return std::make_unique<EmbeddedRungeKutta>(chain, kPair, options, kernels);
+std::unique_ptr<DenseOutputStepper> makePair(const Chain& chain, double tolerance,
+                                             const ChainKernels& kernels) {
+  return std::make_unique<EmbeddedRungeKuttaStepper>(chain, kPair, tolerance, kernels);
 }
 
-std::unique_ptr<AdaptiveStepper> makeRodas5P(const Chain& chain, const IntegratorOptions& options,
-                                             const ChainKernels& kernels) {
-  return std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, options, kernels);
+std::unique_ptr<DenseOutputStepper> makeRodas5P(const Chain& chain, double tolerance,
+                                                const ChainKernels& kernels) {
+  return std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, tolerance, kernels);
 }
 
 constexpr Maker kMakers[] = {{"Taylor-7", makeTaylor<7>},
@@ -55,7 +53,7 @@ constexpr Maker kMakers[] = {{"Taylor-7", makeTaylor<7>},
                              {"Rodas5P", makeRodas5P}};
 
 State stateAfterSteps(const test::Scene& scene, const Maker& maker, const ChainKernels& kernels) {
-  const auto stepper = maker.make(scene.chain, {1e-5, false, 1}, kernels);
+  const auto stepper = maker.make(scene.chain, 1e-5, kernels);
   stepper->start(scene.start);
   for (int n = 0; n < 100; ++n) EXPECT_GT(stepper->step(), 0.0);
   State state(scene.start.size());

@@ -6,19 +6,18 @@
 #pragma once
 
 #include "integration/embedded/embedded_pair.hpp"
-#include "integration/error_control/controlled_stepper.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
+#include "integration/error_control/error_estimating_stepper.hpp"
 
 #include <array>
 #include <vector>
 
 namespace spring_pendulum {
 
-class EmbeddedRungeKutta final : public ControlledStepper {
+class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
  public:
   /// \param pair must outlive the stepper
-  EmbeddedRungeKutta(const Chain& chain, const EmbeddedPair& pair, const IntegratorOptions& options,
-                     const ChainKernels& kernels = fastestChainKernels());
+  EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair& pair, double tolerance,
+                            const ChainKernels& kernels = fastestChainKernels());
 
   void interpolate(double fraction, State& state) const override;
   StepStatistics statistics() const override;

@@ -1,4 +1,4 @@
-#include "integration/error_control/step_controller.hpp"
+#include "integration/error_control/step_size_controller.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,9 @@ TEST(Root, IsTheRoot) {
   }
 }
 
-TEST(StepController, SettlesWhereTheErrorIsJustBelowTheAllowedOne) {
+TEST(StepSizeController, SettlesWhereTheErrorIsJustBelowTheAllowedOne) {
   for (const int k : {3, 5, 8}) {
-    StepController controller(k);
+    StepSizeController controller(k);
     double h = 1.0;
     double error = 0.0;
     for (int n = 0; n < 60; ++n) {
@@ -32,15 +32,15 @@ TEST(StepController, SettlesWhereTheErrorIsJustBelowTheAllowedOne) {
   }
 }
 
-TEST(StepController, DoesNotGrowRightAfterARejection) {
-  StepController controller(5);
+TEST(StepSizeController, DoesNotGrowRightAfterARejection) {
+  StepSizeController controller(5);
   EXPECT_LT(controller.next(1.0, 2.0), 1.0);
   EXPECT_LE(controller.next(0.5, 1e-9), 0.5);
   EXPECT_GT(controller.next(0.5, 1e-9), 0.5);
 }
 
-TEST(StepController, CutsTheStepForWhatIsNoNumber) {
-  StepController controller(5);
+TEST(StepSizeController, CutsTheStepForWhatIsNoNumber) {
+  StepSizeController controller(5);
   EXPECT_LT(controller.next(1.0, std::numeric_limits<double>::quiet_NaN()), 0.5);
   EXPECT_LT(controller.next(1.0, std::numeric_limits<double>::infinity()), 0.5);
 }

@@ -18,10 +18,10 @@ namespace spring_pendulum {
 /// machine: it uses no function of the C library but the square root.
 double root(double x, int k);
 
-class StepController {
+class StepSizeController {
  public:
   /// \param error_order k above, 1..32
-  explicit StepController(int error_order) : error_order_(error_order) {}
+  explicit StepSizeController(int error_order) : error_order_(error_order) {}
 
   /// Forgets all earlier steps.
   void restart() {

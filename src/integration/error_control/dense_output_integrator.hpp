@@ -1,21 +1,26 @@
-// The integrator made of an error-controlled method: lets the method run ahead in steps of its own
-// and reads the states at the output times out of them (dense output). No step is ever shortened
-// for an output time, so how often a motion is sampled changes neither its cost nor its bits.
+// The integrator around every error-controlled method. The stepper runs ahead with steps of its own
+// length; the states at the output times, and the energy dissipated until then, come from its dense
+// output. No step is shortened for an output time, so how often a motion is sampled changes neither
+// its cost nor its bits.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
 // ed., Springer 1993, section II.6 (dense output).
 #pragma once
 
-#include "integration/error_control/adaptive_stepper.hpp"
+#include "integration/error_control/dense_output_stepper.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
+#include <spring_pendulum/model/chain.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace spring_pendulum {
 
-class ErrorControlled final : public Integrator {
+class DenseOutputIntegrator final : public Integrator {
  public:
-  explicit ErrorControlled(std::unique_ptr<AdaptiveStepper> stepper);
+  /// \param dissipating the chain, if its dissipated energy is to be tracked
+  explicit DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
+                                 std::optional<Chain> dissipating = {});
 
   /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
   /// as often with half the time_step gives the same bits at the common times. With another
@@ -31,7 +36,7 @@ class ErrorControlled final : public Integrator {
   bool advanceWithin(State& state, double time_step, std::int64_t steps,
                      std::int64_t most_evaluations);
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
-  double dissipatedEnergy() const override { return heat_before_step_ + heat_in_step_; }
+  double dissipatedEnergy() const override { return dissipated_before_step_ + dissipated_in_step_; }
   void restart() override;
   std::string report() const override { return stepper_->report(); }
 
@@ -39,19 +44,23 @@ class ErrorControlled final : public Integrator {
 
  private:
   void takeStep();
+  /// Energy dissipated from the beginning of the last step to `fraction` of it, J.
+  double dissipated(double fraction);
 
-  std::unique_ptr<AdaptiveStepper> stepper_;
+  std::unique_ptr<DenseOutputStepper> stepper_;
+  std::optional<Chain> dissipating_;
+  State sample_;  ///< workspace of `dissipated`
   bool started_ = false;
   bool diverged_ = false;
-  double output_origin_ =
-      0.0;                    ///< s since the start; outputs lie at output_origin_ + n * time_step
-  double output_step_ = 0.0;  ///< time_step of the last call
-  std::int64_t outputs_ = 0;  ///< n
-  double step_begin_ = 0.0;   ///< s since the start
-  double step_length_ = 0.0;  ///< s
-  double step_end_ = 0.0;     ///< s since the start
-  double heat_before_step_ = 0.0;
-  double heat_in_step_ = 0.0;  ///< until the last output time
+  int shortest_steps_ = 0;      ///< taken in a row until now
+  double output_origin_ = 0.0;  ///< s since the start; outputs are n * time_step later
+  double output_step_ = 0.0;    ///< time_step of the last call
+  std::int64_t outputs_ = 0;    ///< n
+  double step_begin_ = 0.0;     ///< s since the start
+  double step_length_ = 0.0;    ///< s
+  double step_end_ = 0.0;       ///< s since the start
+  double dissipated_before_step_ = 0.0;
+  double dissipated_in_step_ = 0.0;  ///< until the last output time
 };
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-#include "integration/taylor/stabilized_taylor.hpp"
+#include "integration/taylor/stabilized_taylor_stepper.hpp"
 
 #include "model/chain_modes.hpp"
 
@@ -40,9 +40,10 @@ TaylorWeights errorOf(const StabilizedPolynomial& polynomial, double time) {
 
 }  // namespace
 
-StabilizedTaylor::StabilizedTaylor(const Chain& chain, int order, const IntegratorOptions& options,
-                                   double share_of_tolerance, const ChainKernels& kernels)
-    : ControlledStepper(chain, options, share_of_tolerance * options.tolerance, order, kernels),
+StabilizedTaylorStepper::StabilizedTaylorStepper(const Chain& chain, int order, double tolerance,
+                                                 double share_of_tolerance,
+                                                 const ChainKernels& kernels)
+    : ErrorEstimatingStepper(chain, share_of_tolerance * tolerance, order, kernels),
       fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
       polynomials_(stabilizedPolynomials(order)),
       polynomial_(polynomials_.begin()),
@@ -50,11 +51,11 @@ StabilizedTaylor::StabilizedTaylor(const Chain& chain, int order, const Integrat
       change_(chain.size()),
       inside_(chain.size()) {}
 
-void StabilizedTaylor::prepare(bool /*restarted*/) {
+void StabilizedTaylorStepper::prepare(bool /*restarted*/) {
   known_terms_ = 0;
 }
 
-double StabilizedTaylor::admissible(double h) {
+double StabilizedTaylorStepper::admissible(double h) {
   polynomial_ = polynomials_.begin();
   if (fastest_rate_ == 0.0) return h;
   h = std::min(h, longestStep(*(polynomials_.end() - 1), fastest_rate_));
@@ -68,7 +69,7 @@ double StabilizedTaylor::admissible(double h) {
   return shorter;
 }
 
-double StabilizedTaylor::attempt(double h) {
+double StabilizedTaylorStepper::attempt(double h) {
   TaylorWorkspace& work = expansion_.work();
   // A step that is tried again is shorter, and needs no more terms.
   if (known_terms_ < polynomial_->terms) {
@@ -80,7 +81,7 @@ double StabilizedTaylor::attempt(double h) {
   kernels().taylorState(work, begin().data(), carry().data(), sumOf(*polynomial_, h),
                         change_.data());
   setEnd(change_, {});
-  // The series follows a spring whose ends meet to negative lengths; see TaylorSeries::step.
+  // The series follows a spring whose ends meet to negative lengths; see TaylorStepper::step.
   if (h > kShortestStep &&
       kernels().springsChangeMuch(work.size, work.pitch, begin().data(), end().data())) {
     return std::numeric_limits<double>::infinity();
@@ -88,7 +89,7 @@ double StabilizedTaylor::attempt(double h) {
   return kernels().taylorLargestSum(work, errorOf(*polynomial_, h)).position;
 }
 
-void StabilizedTaylor::interpolate(double fraction, State& state) const {
+void StabilizedTaylorStepper::interpolate(double fraction, State& state) const {
   const StateBuffer* result = &end();
   if (fraction < 1.0) {
     const double time = fraction * statistics().last_step;

@@ -1,4 +1,4 @@
-#include "integration/embedded/embedded_runge_kutta.hpp"
+#include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double kVelocityTime = 0.1;
 
 }  // namespace
 
-class EmbeddedRungeKutta::Sum {
+class EmbeddedRungeKuttaStepper::Sum {
  public:
   Sum(double h, const EmbeddedPair::Weights& weights, const std::vector<StateBuffer>& slopes) {
     for (std::size_t i = 0; i < slopes.size(); ++i) {
@@ -31,11 +31,9 @@ class EmbeddedRungeKutta::Sum {
   std::size_t count_ = 0;
 };
 
-EmbeddedRungeKutta::EmbeddedRungeKutta(const Chain& chain, const EmbeddedPair& pair,
-                                       const IntegratorOptions& options,
-                                       const ChainKernels& kernels)
-    : ControlledStepper(chain, options, pair.share_of_tolerance * options.tolerance,
-                        pair.error_order, kernels),
+EmbeddedRungeKuttaStepper::EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair& pair,
+                                                     double tolerance, const ChainKernels& kernels)
+    : ErrorEstimatingStepper(chain, pair.share_of_tolerance * tolerance, pair.error_order, kernels),
       pair_(pair),
       inside_(chain.size()) {
   for (std::size_t i = 0; i < std::max(pair.dense_slopes, pair.tableau.stages + 1); ++i) {
@@ -43,7 +41,7 @@ EmbeddedRungeKutta::EmbeddedRungeKutta(const Chain& chain, const EmbeddedPair& p
   }
 }
 
-void EmbeddedRungeKutta::prepare(bool restarted) {
+void EmbeddedRungeKuttaStepper::prepare(bool restarted) {
   extra_slopes_known_ = false;
   if (!restarted) {
     std::swap(slopes_[0], slopes_[pair_.tableau.stages]);
@@ -53,7 +51,7 @@ void EmbeddedRungeKutta::prepare(bool restarted) {
   ++counters().force_evaluations;
 }
 
-double EmbeddedRungeKutta::attempt(double h) {
+double EmbeddedRungeKuttaStepper::attempt(double h) {
   const ButcherTableau& tableau = pair_.tableau;
   for (std::size_t i = 1; i < tableau.stages; ++i) {
     kernels().stageSlope(kernelChain(), begin().data(), Sum(h, tableau.a[i], slopes_),
@@ -68,7 +66,7 @@ double EmbeddedRungeKutta::attempt(double h) {
   return error * (error / std::sqrt(error * error + 0.01 * coarse * coarse));
 }
 
-double EmbeddedRungeKutta::errorOf(const EmbeddedPair::Weights& weights, double h) const {
+double EmbeddedRungeKuttaStepper::errorOf(const EmbeddedPair::Weights& weights, double h) const {
   const LargestChange change =
       kernels().largestChange(begin().size(), begin().pitch(), Sum(h, weights, slopes_));
   // NaN in either must not be lost.
@@ -76,7 +74,7 @@ double EmbeddedRungeKutta::errorOf(const EmbeddedPair::Weights& weights, double 
          0.0 * (change.position + change.velocity);
 }
 
-void EmbeddedRungeKutta::makeExtraSlopes() const {
+void EmbeddedRungeKuttaStepper::makeExtraSlopes() const {
   if (extra_slopes_known_) return;
   for (std::size_t i = pair_.tableau.stages + 1; i < pair_.dense_slopes; ++i) {
     const Sum sum(statistics().last_step, pair_.tableau.a[i], slopes_);
@@ -86,7 +84,7 @@ void EmbeddedRungeKutta::makeExtraSlopes() const {
   extra_slopes_known_ = true;
 }
 
-void EmbeddedRungeKutta::interpolate(double fraction, State& state) const {
+void EmbeddedRungeKuttaStepper::interpolate(double fraction, State& state) const {
   if (fraction == 1.0) {
     state.values() = end().values();
     return;
@@ -97,8 +95,8 @@ void EmbeddedRungeKutta::interpolate(double fraction, State& state) const {
   state.values() = inside_.values();
 }
 
-StepStatistics EmbeddedRungeKutta::statistics() const {
-  StepStatistics statistics = ControlledStepper::statistics();
+StepStatistics EmbeddedRungeKuttaStepper::statistics() const {
+  StepStatistics statistics = ErrorEstimatingStepper::statistics();
   statistics.force_evaluations += extra_evaluations_;
   return statistics;
 }

@@ -1,4 +1,4 @@
-#include "integration/error_control/error_controlled.hpp"
+#include "integration/error_control/dense_output_integrator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@ namespace spring_pendulum {
 namespace {
 
 // A motion known at all times, x(t) = t + s of the start, in steps of 0.3 s; it diverges after a
-// number of steps and heats with 2 W.
-class UniformMotion : public AdaptiveStepper {
+// number of steps and dissipates 2 W in a chain of 2 N·s/m.
+class UniformMotion : public DenseOutputStepper {
  public:
   explicit UniformMotion(int steps_until_divergence = 1000) : left_(steps_until_divergence) {}
   void start(const State& state) override { begin_ = end_ = state.x()[1]; }
@@ -22,8 +22,8 @@ class UniformMotion : public AdaptiveStepper {
   }
   void interpolate(double fraction, State& state) const override {
     state.x()[1] = begin_ + fraction * kLength;
+    state.vx()[1] = 1.0;
   }
-  double dissipated(double fraction) const override { return 2.0 * fraction * kLength; }
   StepStatistics statistics() const override { return statistics_; }
 
  private:
@@ -34,8 +34,12 @@ class UniformMotion : public AdaptiveStepper {
   StepStatistics statistics_;
 };
 
-TEST(ErrorControlled, ReadsTheOutputTimesOutOfItsOwnSteps) {
-  ErrorControlled integrator(std::make_unique<UniformMotion>());
+std::optional<Chain> dampedChain() {
+  return Chain(Eigen::VectorXd::Ones(2), SpringLaw{50.0, 2.0, 1.0}, 9.81);
+}
+
+TEST(DenseOutputIntegrator, ReadsTheOutputTimesOutOfItsOwnSteps) {
+  DenseOutputIntegrator integrator(std::make_unique<UniformMotion>(), dampedChain());
   State state(2);
   state.x()[1] = 10.0;
   integrator.advance(state, 0.05, 0);
@@ -49,16 +53,16 @@ TEST(ErrorControlled, ReadsTheOutputTimesOutOfItsOwnSteps) {
   EXPECT_EQ(integrator.statistics().accepted, 4);  // 4 * 0.3 s > 1 s: none was shortened
 }
 
-TEST(ErrorControlled, GoesOnFromTheLastOutputTimeWithAnotherTimeStep) {
-  ErrorControlled integrator(std::make_unique<UniformMotion>());
+TEST(DenseOutputIntegrator, GoesOnFromTheLastOutputTimeWithAnotherTimeStep) {
+  DenseOutputIntegrator integrator(std::make_unique<UniformMotion>(), dampedChain());
   State state(2);
   integrator.advance(state, 0.25, 3);
   integrator.advance(state, 0.1, 2);
   EXPECT_NEAR(state.x()[1], 0.95, 1e-14);
 }
 
-TEST(ErrorControlled, RestartsFromANewState) {
-  ErrorControlled integrator(std::make_unique<UniformMotion>());
+TEST(DenseOutputIntegrator, RestartsFromANewState) {
+  DenseOutputIntegrator integrator(std::make_unique<UniformMotion>(), dampedChain());
   State state(2);
   integrator.advance(state, 0.25, 3);
   integrator.restart();
@@ -69,8 +73,8 @@ TEST(ErrorControlled, RestartsFromANewState) {
   EXPECT_NEAR(integrator.dissipatedEnergy(), 1.5, 1e-14);
 }
 
-TEST(ErrorControlled, ShowsADivergedMotionInTheStateFromThenOn) {
-  ErrorControlled integrator(std::make_unique<UniformMotion>(2));
+TEST(DenseOutputIntegrator, ShowsADivergedMotionInTheStateFromThenOn) {
+  DenseOutputIntegrator integrator(std::make_unique<UniformMotion>(2));
   State state(2);
   integrator.advance(state, 0.5, 1);
   EXPECT_NEAR(state.x()[1], 0.5, 1e-14);
@@ -78,6 +82,36 @@ TEST(ErrorControlled, ShowsADivergedMotionInTheStateFromThenOn) {
   EXPECT_TRUE(std::isnan(state.x()[1]));
   EXPECT_EQ(state.x()[0], 0.0);
   integrator.advance(state, 0.5, 1);
+  EXPECT_TRUE(std::isnan(state.x()[1]));
+}
+
+// Takes some of the shortest steps in a row, as through a collision, between steps of 0.1 s.
+class Collisions : public DenseOutputStepper {
+ public:
+  explicit Collisions(int in_a_row) : in_a_row_(in_a_row) {}
+  void start(const State&) override {}
+  double step() override { return count_++ % (in_a_row_ + 1) < in_a_row_ ? kShortestStep : 0.1; }
+  void interpolate(double, State&) const override {}
+  StepStatistics statistics() const override { return {}; }
+
+ private:
+  int in_a_row_;
+  int count_ = 0;
+};
+
+TEST(DenseOutputIntegrator, ShortestStepsAreNoDivergence) {
+  for (const double time_step : {0.01, 1.0, 1e3}) {
+    DenseOutputIntegrator integrator(std::make_unique<Collisions>(50));
+    State state(2);
+    integrator.advance(state, time_step, 2);
+    EXPECT_EQ(state.x()[1], 0.0) << time_step;
+  }
+}
+
+TEST(DenseOutputIntegrator, EndlessShortestStepsAreADivergence) {
+  DenseOutputIntegrator integrator(std::make_unique<Collisions>(1000000));
+  State state(2);
+  integrator.advance(state, 1.0, 1);
   EXPECT_TRUE(std::isnan(state.x()[1]));
 }
 

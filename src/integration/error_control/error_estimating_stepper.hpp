@@ -1,5 +1,5 @@
-// What one-step methods with an error estimate share: repeating a step until its error is small
-// enough, choosing the next length, and the heat of a step.
+// The common part of one-step methods that estimate the error of a step: repeats a step until its
+// error is small enough and chooses the length of the next one.
 //
 // Steps are added up so that nothing is lost to rounding: what a sum cuts off its last term is
 // carried into the next step. Otherwise the rounding of very many steps would show at the tightest
@@ -9,29 +9,26 @@
 // section 4.3 (compensated summation).
 #pragma once
 
-#include "integration/error_control/adaptive_stepper.hpp"
-#include "integration/error_control/step_controller.hpp"
+#include "integration/error_control/dense_output_stepper.hpp"
+#include "integration/error_control/step_size_controller.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
 namespace spring_pendulum {
 
-class ControlledStepper : public AdaptiveStepper {
+class ErrorEstimatingStepper : public DenseOutputStepper {
  public:
   void start(const State& state) final;
   double step() final;
-  /// By Gauss-Legendre quadrature of the dissipated power along the dense output.
-  double dissipated(double fraction) const final;
   StepStatistics statistics() const override { return statistics_; }
 
  protected:
   /// \param allowed_error position error allowed in a step, m
   /// \param error_order   power of h with which the estimated error grows
-  ControlledStepper(const Chain& chain, const IntegratorOptions& options, double allowed_error,
-                    int error_order, const ChainKernels& kernels);
+  ErrorEstimatingStepper(const Chain& chain, double allowed_error, int error_order,
+                         const ChainKernels& kernels);
 
   /// Before the first attempt from the new state that `begin()` holds.
   /// \param restarted whether it is not the `end()` of the last step
@@ -59,12 +56,11 @@ class ControlledStepper : public AdaptiveStepper {
 
  private:
   Chain chain_;
-  bool track_dissipation_;
   double allowed_error_;
   int error_order_;
   KernelConstants constants_;
   const ChainKernels& kernels_;
-  StepController controller_;
+  StepSizeController controller_;
   StateBuffer begin_;
   StateBuffer end_;
   StateBuffer begin_carry_;
@@ -72,7 +68,6 @@ class ControlledStepper : public AdaptiveStepper {
   bool restarted_ = true;
   double next_step_ = 0.0;
   StepStatistics statistics_;
-  mutable State sample_;  ///< workspace of `dissipated`
 };
 
 }  // namespace spring_pendulum

@@ -1,6 +1,7 @@
-#include "integration/taylor/stabilized_taylor.hpp"
+#include "integration/taylor/stabilized_taylor_stepper.hpp"
 
-#include "integration/error_control/error_controlled.hpp"
+#include "integration/error_control/dense_output_integrator.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/energy.hpp>
 
 #include <gtest/gtest.h>
@@ -82,7 +83,7 @@ TEST(StabilizedPolynomials, ErrorEstimatesKeepClearOfFastModes) {
   }
 }
 
-TEST(StabilizedTaylor, TableOfMethodsStatesTheLargestLimitAndTheLeastTerms) {
+TEST(StabilizedTaylorStepper, TableOfMethodsStatesTheLargestLimitAndTheLeastTerms) {
   for (const int order : {4, 8}) {
     const StabilizedPolynomials all = stabilizedPolynomials(order);
     EXPECT_EQ(rowOf(order).real_stability_limit, (all.end() - 1)->real_stability_limit);
@@ -90,9 +91,8 @@ TEST(StabilizedTaylor, TableOfMethodsStatesTheLargestLimitAndTheLeastTerms) {
   }
 }
 
-ErrorControlled stabilized(const Chain& chain, int order, double tolerance) {
-  return ErrorControlled(
-      std::make_unique<StabilizedTaylor>(chain, order, IntegratorOptions{tolerance, false, 1}));
+DenseOutputIntegrator stabilized(const Chain& chain, int order, double tolerance) {
+  return DenseOutputIntegrator(std::make_unique<StabilizedTaylorStepper>(chain, order, tolerance));
 }
 
 struct Measured {
@@ -103,7 +103,7 @@ struct Measured {
 
 Measured measured(const char* name, int order, double tolerance) {
   test::Scene scene = test::referenceScene(name);
-  ErrorControlled integrator = stabilized(scene.chain, order, tolerance);
+  DenseOutputIntegrator integrator = stabilized(scene.chain, order, tolerance);
   integrator.advance(scene.start, 1.0, 1);
   const auto steps = static_cast<double>(integrator.statistics().accepted);
   return {test::positionError(scene.start, test::referenceSolution(name, 1)), steps,
@@ -114,7 +114,7 @@ double measuredOrder(const Measured& a, const Measured& b) {
   return std::log(a.error / b.error) / std::log(b.steps / a.steps);
 }
 
-TEST(StabilizedTaylor, ErrorsFallWithTheOrder) {
+TEST(StabilizedTaylorStepper, ErrorsFallWithTheOrder) {
   const auto order_of = [](int order) {
     const Measured coarse = measured("horizontal_11", order, 1e-4);
     const Measured fine = measured("horizontal_11", order, 1e-8);
@@ -127,7 +127,7 @@ TEST(StabilizedTaylor, ErrorsFallWithTheOrder) {
 }
 
 // The weights make the order, not the number of terms.
-TEST(StabilizedTaylor, ErrorsFallWithTheOrderWhereTermsAreAdded) {
+TEST(StabilizedTaylorStepper, ErrorsFallWithTheOrderWhereTermsAreAdded) {
   const Measured coarse4 = measured("lighter_100", 4, 1e-2);
   const Measured fine4 = measured("lighter_100", 4, 1e-4);
   EXPECT_GT(fine4.terms, 6.0);                           // 9.7 and 6.4
@@ -139,18 +139,17 @@ TEST(StabilizedTaylor, ErrorsFallWithTheOrderWhereTermsAreAdded) {
   EXPECT_LT(measuredOrder(coarse8, fine8), 10.0);
 }
 
-TEST(StabilizedTaylor, DenseOutputHasTheOrderOfTheMethod) {
+TEST(StabilizedTaylorStepper, DenseOutputHasTheOrderOfTheMethod) {
   const test::Scene scene = test::referenceScene("horizontal_11");
   for (const int order : {4, 8}) {
     const double found = test::denseOutputOrder(scene, 1.0, 1e-3, [&](double tolerance) {
-      return std::make_unique<StabilizedTaylor>(scene.chain, order,
-                                                IntegratorOptions{tolerance, false, 1});
+      return std::make_unique<StabilizedTaylorStepper>(scene.chain, order, tolerance);
     });
     EXPECT_NEAR(found, order, 0.1 * order);  // 3.97, 7.76
   }
 }
 
-TEST(StabilizedTaylor, NeedsAFractionOfTheEvaluationsThatStabilityAsksOfOthers) {
+TEST(StabilizedTaylorStepper, NeedsAFractionOfTheEvaluationsThatStabilityAsksOfOthers) {
   for (const char* method : {"Stabilized-Taylor-8", "Taylor-8"}) {
     test::Scene scene = test::referenceScene("lighter_100");
     const auto integrator = makeIntegrator(method, scene.chain, {1e-8, false, 1});
@@ -164,7 +163,7 @@ TEST(StabilizedTaylor, NeedsAFractionOfTheEvaluationsThatStabilityAsksOfOthers) 
   }
 }
 
-TEST(StabilizedTaylor, HeatClosesTheEnergyBalance) {
+TEST(StabilizedTaylorStepper, DissipatedEnergyClosesTheBalance) {
   for (const int order : {4, 8}) {
     test::Scene scene = test::referenceScene("light_100");
     const double before = computeEnergy(scene.chain, scene.start).total();

@@ -1,6 +1,7 @@
-#include "integration/taylor/taylor_series.hpp"
+#include "integration/taylor/taylor_stepper.hpp"
 
 #include "integration/kernels/state_buffer.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
 
@@ -20,7 +21,8 @@ using test::referenceScene;
 using test::referenceSolution;
 using test::Scene;
 
-State afterFixedSteps(TaylorSeries& series, const Scene& scene, int seconds, int steps_per_second) {
+State afterFixedSteps(TaylorStepper& series, const Scene& scene, int seconds,
+                      int steps_per_second) {
   series.start(scene.start);
   for (int n = 0; n < seconds * steps_per_second; ++n) series.stepBy(1.0 / steps_per_second);
   State state(scene.start.size());
@@ -33,12 +35,12 @@ struct OrderCase {
   int steps_per_second;  ///< where halving the step shows the order cleanly
 };
 
-TEST(TaylorSeries, OrderIsTheSlopeOfTheErrorFromBothSides) {
+TEST(TaylorStepper, OrderIsTheSlopeOfTheErrorFromBothSides) {
   for (const char* name : {"single_vertical", "two_masses_45deg", "horizontal_11"}) {
     const Scene scene = referenceScene(name);
     const State exact = referenceSolution(name, 2);
     for (const OrderCase& c : {OrderCase{4, 64}, OrderCase{6, 32}, OrderCase{10, 12}}) {
-      TaylorSeries series(scene.chain, c.order, {});
+      TaylorStepper series(scene.chain, c.order, 1e-6);
       const double coarse =
           positionError(afterFixedSteps(series, scene, 2, c.steps_per_second), exact);
       const double fine =
@@ -51,13 +53,13 @@ TEST(TaylorSeries, OrderIsTheSlopeOfTheErrorFromBothSides) {
 }
 
 // The local error of the dense output is of order K + 1 in the velocities everywhere in the step.
-TEST(TaylorSeries, DenseOutputHasTheOrderToo) {
+TEST(TaylorStepper, DenseOutputHasTheOrderToo) {
   const Scene scene = referenceScene("two_masses_45deg");
   for (const int order : {4, 6}) {
     double errors[2] = {};
     for (int halvings = 0; halvings < 2; ++halvings) {
-      TaylorSeries series(scene.chain, order, {});
-      TaylorSeries fine(scene.chain, 14, {});
+      TaylorStepper series(scene.chain, order, 1e-6);
+      TaylorStepper fine(scene.chain, 14, 1e-6);
       const double h = 0.1 / (1 << halvings);
       series.start(scene.start);
       series.stepBy(h);
@@ -77,9 +79,9 @@ TEST(TaylorSeries, DenseOutputHasTheOrderToo) {
   }
 }
 
-TEST(TaylorSeries, DenseOutputJoinsTheStepsWithoutAGap) {
+TEST(TaylorStepper, DenseOutputJoinsTheStepsWithoutAGap) {
   const Scene scene = referenceScene("horizontal_11");
-  TaylorSeries series(scene.chain, 6, {});
+  TaylorStepper series(scene.chain, 6, 1e-6);
   series.start(scene.start);
   State end = scene.start;
   State begin(scene.start.size());
@@ -94,12 +96,12 @@ TEST(TaylorSeries, DenseOutputJoinsTheStepsWithoutAGap) {
 }
 
 // A step so short that only the first coefficient matters shows the accelerations.
-TEST(TaylorSeries, BeginsWithTheAccelerationsOfTheModel) {
+TEST(TaylorStepper, BeginsWithTheAccelerationsOfTheModel) {
   const Scene scene = referenceScene("horizontal_11");
   const State state = referenceSolution("horizontal_11", 5);
   PlaneVectors expected;
   computeAccelerations(scene.chain, state, expected);
-  TaylorSeries series(scene.chain, 4, {});
+  TaylorStepper series(scene.chain, 4, 1e-6);
   series.start(state);
   const double h = 1e-6;
   series.stepBy(h);
@@ -110,7 +112,7 @@ TEST(TaylorSeries, BeginsWithTheAccelerationsOfTheModel) {
 }
 
 // The stability function of order K is the Taylor polynomial of exp.
-TEST(TaylorSeries, StabilityLimitsOfTheTableAreThoseOfItsPolynomial) {
+TEST(TaylorStepper, StabilityLimitsOfTheTableAreThoseOfItsPolynomial) {
   const auto amplification = [](int order, std::complex<double> z) {
     std::complex<double> sum = 1.0, term = 1.0;
     for (int n = 1; n <= order; ++n) sum += term *= z / static_cast<double>(n);
@@ -131,7 +133,7 @@ TEST(TaylorSeries, StabilityLimitsOfTheTableAreThoseOfItsPolynomial) {
 }
 
 // The kernels over the whole chain, with the lengths of step that the stepper chose.
-TEST(TaylorSeries, LeavingOutTheFreelyFallingEndChangesNoBit) {
+TEST(TaylorStepper, LeavingOutTheFreelyFallingEndChangesNoBit) {
   for (const char* name : {"horizontal_11", "light_100", "horizontal_1000"}) {
     const Scene scene = referenceScene(name);
     const Eigen::Index size = scene.start.size();
@@ -140,7 +142,7 @@ TEST(TaylorSeries, LeavingOutTheFreelyFallingEndChangesNoBit) {
     StateBuffer whole(size);
     whole.values() = scene.start.values();
 
-    TaylorSeries series(scene.chain, 8, {1e-6, false});
+    TaylorStepper series(scene.chain, 8, 1e-6);
     series.start(scene.start);
     State state(size);
     for (int n = 0; n < 40; ++n) {
@@ -156,7 +158,7 @@ TEST(TaylorSeries, LeavingOutTheFreelyFallingEndChangesNoBit) {
 
 // Thrown up through the point it hangs from, a particle feels the spring's force jump there. The
 // series knows nothing of that; the energy shows whether the step control does.
-TEST(TaylorSeries, StopsWhereASpringHasNoLength) {
+TEST(TaylorStepper, StopsWhereASpringHasNoLength) {
   for (const double sideways : {0.0, 1e-9}) {
     const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{50.0, 0.0, 1.0}, 9.81);
     State state(2);
@@ -164,7 +166,7 @@ TEST(TaylorSeries, StopsWhereASpringHasNoLength) {
     state.x()[1] = sideways;
     state.vy()[1] = 12.0;
     const double energy = computeEnergy(chain, state).total();
-    TaylorSeries series(chain, 10, {1e-9, false});
+    TaylorStepper series(chain, 10, 1e-9);
     series.start(state);
     int crossings = 0;
     double time = 0.0;
@@ -181,11 +183,11 @@ TEST(TaylorSeries, StopsWhereASpringHasNoLength) {
   }
 }
 
-TEST(TaylorSeries, ShowsThatItDiverged) {
+TEST(TaylorStepper, ShowsThatItDiverged) {
   const Scene scene = referenceScene("two_masses_45deg");
   State state = scene.start;
   state.vx()[1] = 1e200;
-  TaylorSeries series(scene.chain, 6, {});
+  TaylorStepper series(scene.chain, 6, 1e-6);
   series.start(state);
   EXPECT_EQ(series.step(), 0.0);
 }

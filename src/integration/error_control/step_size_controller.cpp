@@ -1,4 +1,4 @@
-#include "integration/error_control/step_controller.hpp"
+#include "integration/error_control/step_size_controller.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ double root(double x, int k) {
   return y;
 }
 
-double StepController::next(double h, double error) {
+double StepSizeController::next(double h, double error) {
   const double e = error < 1e30 ? error : 1e30;  // catches NaN too
   const double r = std::clamp(root(e, error_order_), kSmallestRoot, 1e3);
   if (!accepts(e)) {

@@ -1,7 +1,6 @@
-// What an error-controlled method has to offer: one accepted step of a length it chooses itself,
-// and the motion inside that step. Everything else - output times, restarts, heat - is the same for
-// all of them and is done by `ErrorControlled`, which owns a stepper. `Auto` is a stepper that owns
-// several.
+// The interface of error-controlled methods: one accepted step of a length that the method chooses,
+// and the motion inside that step. Output times, restarts and the dissipated energy are left to
+// `DenseOutputIntegrator`, which owns a stepper. `Auto` is a stepper that owns several.
 #pragma once
 
 #include <spring_pendulum/model/state.hpp>
@@ -29,15 +28,15 @@ inline constexpr double kShortestStep = 1e-12;  // s
 /// No stepper takes a longer one, not even for a chain at rest.
 inline constexpr double kLongestStep = 1.0;  // s
 
-/// One error-controlled method at work on the chain it was made for. All workspace is allocated
-/// when it is made. Nothing in it depends on output times.
-class AdaptiveStepper {
+/// An error-controlled method for one chain. The workspace is allocated when the stepper is made or
+/// first started, never while stepping. Nothing depends on output times.
+class DenseOutputStepper {
  public:
-  virtual ~AdaptiveStepper() = default;
-  AdaptiveStepper(const AdaptiveStepper&) = delete;
-  AdaptiveStepper& operator=(const AdaptiveStepper&) = delete;
+  virtual ~DenseOutputStepper() = default;
+  DenseOutputStepper(const DenseOutputStepper&) = delete;
+  DenseOutputStepper& operator=(const DenseOutputStepper&) = delete;
 
-  /// Begins anew at `state`; nothing is remembered of what was before, except statistics.
+  /// Begins anew at `state`, with the first particle at rest. Only the statistics go on.
   virtual void start(const State& state) = 0;
 
   /// Takes one step that meets the tolerance, repeating it as needed.
@@ -50,17 +49,13 @@ class AdaptiveStepper {
   /// \param[out] state of the size of the chain
   virtual void interpolate(double fraction, State& state) const = 0;
 
-  /// Heat in J that the dashpots took up in the last step until `fraction` of it; 0 if the stepper
-  /// was not told to track it.
-  virtual double dissipated(double fraction) const = 0;
-
   virtual StepStatistics statistics() const = 0;
 
   /// See Integrator::report.
   virtual std::string report() const { return {}; }
 
  protected:
-  AdaptiveStepper() = default;
+  DenseOutputStepper() = default;
 };
 
 }  // namespace spring_pendulum

@@ -23,16 +23,16 @@
 // would reach further, but within a step rounding errors grow like exp(h|λ|).
 //
 // References: D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271,
-// doi:10.2140/camcos.2012.7.247 (optimal polynomials); taylor_series.hpp (the series).
+// doi:10.2140/camcos.2012.7.247 (optimal polynomials); taylor_stepper.hpp (the series).
 #pragma once
 
-#include "integration/error_control/controlled_stepper.hpp"
+#include "integration/error_control/error_estimating_stepper.hpp"
 #include "integration/taylor/stabilized_polynomials.hpp"
 #include "integration/taylor/taylor_expansion.hpp"
 
 namespace spring_pendulum {
 
-class StabilizedTaylor final : public ControlledStepper {
+class StabilizedTaylorStepper final : public ErrorEstimatingStepper {
  public:
   /// Part of the tolerance that the estimated error of a step may have, measured on the reference
   /// scenes: with the first the position error is at most 7.2 tolerances on them, reached
@@ -41,9 +41,9 @@ class StabilizedTaylor final : public ControlledStepper {
   static constexpr double kShareOfToleranceIfStiff = 1e-3;
 
   /// \param order 4 or 8
-  StabilizedTaylor(const Chain& chain, int order, const IntegratorOptions& options,
-                   double share_of_tolerance = kShareOfTolerance,
-                   const ChainKernels& kernels = fastestChainKernels());
+  StabilizedTaylorStepper(const Chain& chain, int order, double tolerance,
+                          double share_of_tolerance = kShareOfTolerance,
+                          const ChainKernels& kernels = fastestChainKernels());
 
   void interpolate(double fraction, State& state) const override;
 

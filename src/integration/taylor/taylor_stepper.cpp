@@ -1,7 +1,6 @@
-#include "integration/taylor/taylor_series.hpp"
+#include "integration/taylor/taylor_stepper.hpp"
 
-#include "integration/error_control/heat_of_step.hpp"
-#include "integration/error_control/step_controller.hpp"
+#include "integration/error_control/step_size_controller.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,26 +23,24 @@ constexpr double kNoMotion = 1e-200;
 
 }  // namespace
 
-TaylorSeries::TaylorSeries(const Chain& chain, int order, const IntegratorOptions& options,
-                           const ChainKernels& kernels)
+TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
+                             const ChainKernels& kernels)
     : chain_(chain),
-      track_dissipation_(options.track_dissipation),
-      allowed_rate_(kErrorRate * options.tolerance),
+      allowed_rate_(kErrorRate * tolerance),
       kernels_(kernels),
       expansion_(chain, order),
       work_(expansion_.work()),
       begin_(chain.size()),
       end_(chain.size()),
-      inside_(chain.size()),
-      sample_(chain.size()) {}
+      inside_(chain.size()) {}
 
-void TaylorSeries::start(const State& state) {
+void TaylorStepper::start(const State& state) {
   end_.values() = state.values();
   end_.values().row(0).rightCols<2>().setZero();
   work_.size = chain_.size();
 }
 
-bool TaylorSeries::fallsFreely(Eigen::Index spring) const {
+bool TaylorStepper::fallsFreely(Eigen::Index spring) const {
   const auto state = begin_.values();
   const double width = state(spring + 1, 0) - state(spring, 0);
   const double square = width * width;
@@ -53,14 +50,14 @@ bool TaylorSeries::fallsFreely(Eigen::Index spring) const {
 }
 
 // The springs behind the computed part were falling freely at the last step and still are.
-void TaylorSeries::skipFreeEnd() {
+void TaylorStepper::skipFreeEnd() {
   Eigen::Index first = work_.size - 1;
   while (first > 1 && fallsFreely(first - 1)) --first;
   work_.size =
       std::min<Eigen::Index>(chain_.size(), StateBuffer::paddedSize(first + work_.order + 2));
 }
 
-void TaylorSeries::expand() {
+void TaylorStepper::expand() {
   std::swap(begin_, end_);
   skipFreeEnd();
   kernels_.taylorSeries(work_, begin_.data());
@@ -70,7 +67,7 @@ void TaylorSeries::expand() {
 // The first term that is left out of the velocities, |a_K| h^(K+1) / (K+1), may be `allowed_rate_`
 // times h. Its size is extrapolated from the last four coefficients, even and odd ones apart:
 // of a chain let go at rest without damping, all odd ones vanish.
-double TaylorSeries::longestAccurateStep() {
+double TaylorStepper::longestAccurateStep() {
   const auto order = static_cast<int>(work_.order);
   std::array<double, 4> size{};  // of coefficients K-1, K-2, K-3, K-4
   for (std::size_t back = 0; back < size.size(); ++back) {
@@ -88,7 +85,7 @@ double TaylorSeries::longestAccurateStep() {
   return std::clamp(root(allowed_rate_ * (order + 1) / next, order), kShortestStep, kLongestStep);
 }
 
-double TaylorSeries::step() {
+double TaylorStepper::step() {
   expand();
   double h = longestAccurateStep();
   if (h == 0.0) return 0.0;
@@ -106,19 +103,19 @@ double TaylorSeries::step() {
   return h;
 }
 
-void TaylorSeries::stepBy(double h) {
+void TaylorStepper::stepBy(double h) {
   expand();
   sumSeries(h, work_.order);
   ++statistics_.accepted;
 }
 
-void TaylorSeries::sumSeries(double h, std::ptrdiff_t terms) {
+void TaylorStepper::sumSeries(double h, std::ptrdiff_t terms) {
   terms_ = terms;
   sumAt(h, end_);
   statistics_.last_step = h;
 }
 
-void TaylorSeries::sumAt(double time, StateBuffer& out) const {
+void TaylorStepper::sumAt(double time, StateBuffer& out) const {
   kernels_.taylorState(work_, begin_.data(), begin_.data(), taylorWeights(terms_, time),
                        out.data());
   const Eigen::Index falling = chain_.size() - work_.size;
@@ -134,18 +131,13 @@ void TaylorSeries::sumAt(double time, StateBuffer& out) const {
   to.col(3).array() = from.col(3).array() + speed;
 }
 
-void TaylorSeries::interpolate(double fraction, State& state) const {
+void TaylorStepper::interpolate(double fraction, State& state) const {
   const StateBuffer* result = &end_;
   if (fraction < 1.0) {
     sumAt(fraction * statistics_.last_step, inside_);
     result = &inside_;
   }
   state.values() = result->values();
-}
-
-double TaylorSeries::dissipated(double fraction) const {
-  if (!track_dissipation_) return 0.0;
-  return heatOfStep(*this, chain_, statistics_.last_step, fraction, sample_);
 }
 
 }  // namespace spring_pendulum

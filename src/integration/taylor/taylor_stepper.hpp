@@ -28,25 +28,23 @@
 // (choice of the step from the last coefficients).
 #pragma once
 
-#include "integration/error_control/adaptive_stepper.hpp"
+#include "integration/error_control/dense_output_stepper.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/taylor/taylor_expansion.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
 namespace spring_pendulum {
 
-class TaylorSeries final : public AdaptiveStepper {
+class TaylorStepper final : public DenseOutputStepper {
  public:
   /// \param order K in 4..30
-  TaylorSeries(const Chain& chain, int order, const IntegratorOptions& options,
-               const ChainKernels& kernels = fastestChainKernels());
+  TaylorStepper(const Chain& chain, int order, double tolerance,
+                const ChainKernels& kernels = fastestChainKernels());
 
   void start(const State& state) override;
   double step() override;
   void interpolate(double fraction, State& state) const override;
-  double dissipated(double fraction) const override;
   StepStatistics statistics() const override { return statistics_; }
 
   /// Takes a step of this length, whatever its error: what the order is measured with.
@@ -65,7 +63,6 @@ class TaylorSeries final : public AdaptiveStepper {
   double longestAccurateStep();
 
   Chain chain_;
-  bool track_dissipation_;
   double allowed_rate_;  ///< of the error of the velocities, m/s²
   const ChainKernels& kernels_;
   TaylorExpansion expansion_;
@@ -74,7 +71,6 @@ class TaylorSeries final : public AdaptiveStepper {
   StateBuffer begin_;
   StateBuffer end_;
   mutable StateBuffer inside_;
-  mutable State sample_;
   StepStatistics statistics_;
 };
 

@@ -1,0 +1,103 @@
+#include "integration/error_control/dense_output_integrator.hpp"
+
+#include <spring_pendulum/model/energy.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+/// A motion gets through a collision in a few of the shortest steps; one that takes so many in a
+/// row would never reach its next output time.
+constexpr int kMostShortestSteps = 1000;
+
+struct QuadraturePoint {
+  double node;  ///< on [-1, 1]
+  double weight;
+};
+
+/// Gauss-Legendre, exact up to degree 11, so the dense output decides how accurate an integral is.
+/// M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, table 25.4.
+constexpr std::array<QuadraturePoint, 6> kGaussLegendre{
+    {{-0.932469514203152028, 0.171324492379170345},
+     {-0.661209386466264514, 0.360761573048138608},
+     {-0.238619186083196909, 0.467913934572691047},
+     {0.238619186083196909, 0.467913934572691047},
+     {0.661209386466264514, 0.360761573048138608},
+     {0.932469514203152028, 0.171324492379170345}}};
+
+}  // namespace
+
+DenseOutputIntegrator::DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
+                                             std::optional<Chain> dissipating)
+    : stepper_(std::move(stepper)), dissipating_(std::move(dissipating)) {
+  if (dissipating_) sample_ = State(dissipating_->size());
+}
+
+void DenseOutputIntegrator::restart() {
+  started_ = false;
+  dissipated_before_step_ = 0.0;
+  dissipated_in_step_ = 0.0;
+}
+
+double DenseOutputIntegrator::dissipated(double fraction) {
+  if (!dissipating_) return 0.0;
+  double sum = 0.0;
+  for (const QuadraturePoint& point : kGaussLegendre) {
+    stepper_->interpolate(0.5 * fraction * (1.0 + point.node), sample_);
+    sum += point.weight * dissipatedPower(*dissipating_, sample_);
+  }
+  return 0.5 * fraction * step_length_ * sum;
+}
+
+void DenseOutputIntegrator::takeStep() {
+  if (step_length_ > 0.0) dissipated_before_step_ += dissipated(1.0);
+  step_length_ = stepper_->step();
+  shortest_steps_ = step_length_ > kShortestStep ? 0 : shortest_steps_ + 1;
+  diverged_ = !(step_length_ > 0.0) || shortest_steps_ > kMostShortestSteps;
+  step_begin_ = step_end_;
+  step_end_ = step_begin_ + step_length_;
+}
+
+void DenseOutputIntegrator::advance(State& state, double time_step, std::int64_t steps) {
+  advanceWithin(state, time_step, steps, std::numeric_limits<std::int64_t>::max());
+}
+
+bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::int64_t steps,
+                                          std::int64_t most_evaluations) {
+  if (!started_) {
+    stepper_->start(state);
+    started_ = true;
+    diverged_ = false;
+    shortest_steps_ = 0;
+    output_origin_ = 0.0;
+    outputs_ = 0;
+    step_begin_ = step_length_ = step_end_ = 0.0;
+  } else if (time_step != output_step_) {
+    output_origin_ += static_cast<double>(outputs_) * output_step_;
+    outputs_ = 0;
+  }
+  output_step_ = time_step;
+  if (steps == 0) return true;
+  outputs_ += steps;
+  const double output_time = output_origin_ + static_cast<double>(outputs_) * time_step;
+  while (!diverged_ && step_end_ < output_time) {
+    if (forceEvaluations() >= most_evaluations) return false;
+    takeStep();
+  }
+  if (diverged_) {
+    state.values()
+        .bottomRows(state.size() - 1)
+        .setConstant(std::numeric_limits<double>::quiet_NaN());
+    return true;
+  }
+  const double fraction = std::min((output_time - step_begin_) / step_length_, 1.0);
+  stepper_->interpolate(fraction, state);
+  dissipated_in_step_ = dissipated(fraction);
+  return true;
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,76 @@
+// What every method of the table does, on random scenes.
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "support/random_scenes.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+// Scenes that every method integrates in little time.
+std::vector<test::Scene> quickScenes() {
+  std::vector<test::Scene> scenes;
+  for (unsigned seed = 2000; seed < 2060; ++seed) {
+    test::Scene scene = test::randomScene(seed);
+    const SpringLaw& spring = scene.chain.spring();
+    const double lightest = scene.chain.masses().minCoeff();
+    if (std::max(spring.damping, 1e-3 * spring.stiffness) > 1e4 * lightest) continue;
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+// 0.5 s in steps that suit the kind of method. A divergence is a result too, but not equal to itself.
+State::Matrix advanced(Integrator& integrator, const Method& method, State state) {
+  const bool fixed = method.control == StepControl::kFixed;
+  integrator.advance(state, fixed ? 1e-4 : 0.05, fixed ? 50 : 10);
+  return state.values();
+}
+
+TEST(EveryMethod, RestartGivesTheSameBits) {
+  const std::vector<test::Scene> scenes = quickScenes();
+  EXPECT_GT(scenes.size(), 30);
+  for (const Method& method : methodTable()) {
+    for (const test::Scene& scene : scenes) {
+      const auto integrator = makeIntegrator(method.name, scene.chain, {1e-4, false, 1});
+      const State::Matrix first = advanced(*integrator, method, scene.start);
+      integrator->restart();
+      const State::Matrix second = advanced(*integrator, method, scene.start);
+      EXPECT_EQ(first, second) << method.name << ", " << scene.name;
+    }
+  }
+}
+
+TEST(EveryMethod, KeepsTheFirstParticleAtRest) {
+  for (const Method& method : methodTable()) {
+    const test::Scene scene = test::randomScene(0);
+    State moving = scene.start;
+    moving.vx()[0] = 3.0;
+    moving.vy()[0] = -4.0;
+    const auto integrator = makeIntegrator(method.name, scene.chain, {1e-4, false, 1});
+    const State::Matrix expected = advanced(*integrator, method, scene.start);
+    integrator->restart();
+    EXPECT_EQ(advanced(*integrator, method, moving), expected) << method.name;
+  }
+}
+
+// The particle falls through the fixed one; steps of 1e-12 s lead through the collision.
+TEST(EveryMethod, OutputTimesDoNotMakeADivergence) {
+  const Chain chain(Eigen::Vector2d(1.0, 10.0), SpringLaw{}, 9.81);
+  for (const Method& method : methodTable()) {
+    if (method.control == StepControl::kFixed) continue;
+    for (const double interval : {0.1, 1.0, 10.0}) {
+      State state(2);
+      state.y()[1] = 1.0;
+      makeIntegrator(method.name, chain)->advance(state, interval, 10);
+      EXPECT_TRUE(state.values().allFinite()) << method.name << " every " << interval << " s";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum
