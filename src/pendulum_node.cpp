@@ -5,7 +5,6 @@
 #include "ros/parameters.hpp"
 #include "ros/player.hpp"
 #include "ros/publisher.hpp"
-#include "ros/run_files.hpp"
 #include "ros/run_log.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
@@ -37,7 +36,7 @@ Totals play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& fi
       totals.frames += run.frame() - frame;
       totals.steps += run.steps() - steps;
     }
-    files.write(run);
+    run.writeTo(files);
     publisher.publish(run, player.isPaused(), player.pace());
     log.follow(run, totals, files, publisher);
     parameters.look();

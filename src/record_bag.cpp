@@ -54,10 +54,10 @@ int record(int argc, const char* const* argv) {
   }
   if (switches.check) return kDone;
   const BagSummary summary = recordBag(scenario, display, bag);
-  fmt::print("{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, verdict: {}\n", scenario.method,
-             summary.frames, summary.messages, summary.bytes, summary.path,
+  fmt::print("{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}\n",
+             scenario.method, summary.frames, summary.messages, summary.bytes, summary.path,
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-             summary.verdict.text);
+             summary.measurements, summary.verdict.text);
   return summary.verdict.kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 

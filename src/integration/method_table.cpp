@@ -83,11 +83,11 @@ const std::vector<Method> kMethodTable{
      "E. Hairer, C. Lubich, G. Wanner, Acta Numer. 12 (2003) 399-450, "
      "doi:10.1017/S0962492902000144",
      "symplectic without damping: rough, but swinging never grows; what games use", nullptr,
-     makeSymplectic<SemiImplicitEuler>},
+     makeSymplectic<SemiImplicitEuler>, true},
     {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
      "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
      "symplectic and reversible without damping: for very long undamped runs", nullptr,
-     makeSymplectic<VelocityVerlet>},
+     makeSymplectic<VelocityVerlet>, true},
     {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
      "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
      "doi:10.1016/0771-050X(80)90013-3",

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kBufferSize = 1 << 16;
 constexpr const char* kHeader =
     "frame,time [s],kinetic [J],gravity [J],spring [J],total [J],dissipated [J],residual [J],"
-    "residual/scale [1]\n";
+    "residual/scale [1],position error [m]\n";
 
 }  // namespace
 
@@ -42,11 +42,11 @@ EnergyFile::~EnergyFile() {
   if (file_.isOpen()) ::unlink(unfinished_path_.c_str());
 }
 
-void EnergyFile::write(std::int64_t frame, const EnergyEntry& entry) {
-  fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{},{},{},{},{},{},{},{},{}\n"), frame,
+void EnergyFile::write(std::int64_t frame, const EnergyEntry& entry, double position_error) {
+  fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{},{},{},{},{},{},{},{},{},{}\n"), frame,
                  entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
                  entry.energy.total(), entry.dissipated.value(), entry.residual.value(),
-                 entry.relative_residual.value());
+                 entry.relative_residual.value(), position_error);
   if (text_.size() > kBufferSize) flush();
 }
 

@@ -11,8 +11,8 @@ namespace spring_pendulum {
 
 /// Writes under the name FILE.unfinished and renames at the end, so FILE is whole or absent; a FILE
 /// of an earlier run is replaced only then. Columns: frame, time in s, kinetic, gravity, spring,
-/// total, dissipated and residual energy in J, and the residual in parts of the energy scale. Every
-/// number is the shortest text that reads back as the same double.
+/// total, dissipated and residual energy in J, the residual in parts of the energy scale, and the
+/// position error in m (nan where it is not measured). Every number is the shortest text that reads back as the same double.
 class EnergyFile {
  public:
   /// \throws FileError if the file can't be written, or another run is writing it
@@ -23,7 +23,8 @@ class EnergyFile {
 
   /// \param entry with residual, that is from an energy balance that tracks the dissipation
   /// \throws FileError naming the file
-  void write(std::int64_t frame, const EnergyEntry& entry);
+  /// \param position_error m; NaN where it is not measured
+  void write(std::int64_t frame, const EnergyEntry& entry, double position_error);
 
   /// \throws FileError naming the file
   void finish();

@@ -1,8 +1,8 @@
 #include "ros/bag_recorder.hpp"
 
+#include "io/run_files.hpp"
 #include "ros/marker_builder.hpp"
 #include "ros/publisher.hpp"
-#include "ros/run_files.hpp"
 #include "ros/stamps.hpp"
 #include "ros/state_builder.hpp"
 #include <spring_pendulum/model/errors.hpp>
@@ -128,11 +128,11 @@ BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const
     rosbag::Bag bag(written, to.append ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     BagRecorder recorder(bag, run, options, topicPrefix(to.name_space));
     recorder.write(run);
-    files.write(run);
+    run.writeTo(files);
     while (!run.isOver()) {
       run.advance(true);
       recorder.write(run);
-      files.write(run);
+      run.writeTo(files);
     }
     files.finish();
     bag.close();
@@ -146,6 +146,7 @@ BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const
   }
   summary.frames = run.frame() + (run.isShown() ? 1 : 0);
   summary.verdict = run.verdict();
+  summary.measurements = run.measurements();
   return summary;
 }
 

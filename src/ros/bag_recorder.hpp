@@ -26,6 +26,7 @@ struct BagSummary {
   std::uintmax_t bytes = 0;  ///< of the file
   std::string path;          ///< absolute
   Verdict verdict;
+  std::string measurements;  ///< position and energy error in words
 };
 
 /// Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same scenario and options

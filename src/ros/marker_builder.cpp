@@ -243,7 +243,7 @@ void MarkerBuilder::place(const PendulumRun& run) {
 std_msgs::ColorRGBA MarkerBuilder::springColor(const PendulumRun& run, std::size_t spring) const {
   if (run.verdict().kind == VerdictKind::kDiverged) return divergedColor();
   if (!options_.color.empty()) return *parseColor(options_.color);
-  if (run.verdict().kind != VerdictKind::kOk) return doubtColor();
+  if (isBad(run.verdict().kind)) return doubtColor();
   return strainColor(strains_[spring] / full_color_strain_);
 }
 
@@ -285,20 +285,23 @@ void MarkerBuilder::label(const PendulumRun& run, const std::string& pace) {
   const std::string time = fmt::format("t = {:.2f} s", run.time());
   const std::string error =
       entry.relative_residual ? fmt::format("energy error {:.1e}", *entry.relative_residual) : "";
+  const double position_error = run.positionError().now;
+  const std::string position =
+      std::isnan(position_error) ? "" : fmt::format("position error {:.1e} m", position_error);
   std::string verdict(toString(run.verdict().kind));
-  if (run.verdict().kind != VerdictKind::kOk) {
+  if (isBad(run.verdict().kind)) {
     verdict += fmt::format(" at {:.4g} s", run.verdict().time);
   }
   std::string& text = markers_.markers[kText].text;
   if (options_.text_rows > 1) {
-    text = joined({scenario.method + ": " + time, error, verdict});
+    text = joined({scenario.method + ": " + time, position, error, verdict});
     return;
   }
   text = joined({scenario.method,
                  fixed_step ? fmt::format("time step {:.3g} s", scenario.time_step)
                             : fmt::format("tolerance {:.3g} m", scenario.tolerance),
                  time}) +
-         "\n" + joined({error, verdict}) + "\n" +
+         "\n" + joined({position, error, verdict}) + "\n" +
          joined({pace, fmt::format("grid {:g} m", view_->gridDistance()),
                  static_cast<Eigen::Index>(drawn_.size()) < run.chain().size()
                      ? fmt::format("{} of {} particles drawn", drawn_.size(), run.chain().size())

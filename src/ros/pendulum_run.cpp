@@ -34,13 +34,12 @@ PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, b
       chain_(particles.masses, scenario.spring(), scenario.gravity),
       start_(particles.state),
       state_(particles.state),
-      track_energy_(track_energy),
       frame_steps_(frameSteps(scenario)),
+      monitor_(scenario, chain_, start_, track_energy),
       integrator_(std::make_unique<SleepingIntegrator>(
-          makeIntegrator(scenario.method, chain_, integratorOptions(scenario, track_energy)),
-          chain_, scenario.sleep)),
-      energy_balance_(chain_, start_, track_energy),
-      judge_(chain_, start_, track_energy) {
+          makeIntegrator(scenario.method, chain_,
+                         integratorOptions(scenario, monitor_.tracksDissipation())),
+          chain_, scenario.sleep)) {
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
   // Whether a chain falls asleep is asked once a call: with more calls the frames could differ.
   if (scenario.sleep == 0.0) parts_ = partsPerFrame(frame_steps_, fixed_step, display_interval);
@@ -52,7 +51,9 @@ PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, b
 
 void PendulumRun::advance(bool in_between) {
   const std::int64_t target = in_between ? part_ + 1 : parts_;
-  integrator_->advance(state_, frame_steps_.time_step, stepOfPart(target) - stepOfPart(part_));
+  const std::int64_t steps = stepOfPart(target) - stepOfPart(part_);
+  integrator_->advance(state_, frame_steps_.time_step, steps);
+  monitor_.follow(frame_steps_.time_step, steps);
   part_ = target % parts_;
   if (part_ != 0) return;
   ++frame_;
@@ -62,25 +63,34 @@ void PendulumRun::advance(bool in_between) {
 void PendulumRun::reset() {
   state_ = start_;
   integrator_->restart();
-  judge_ = Judge(chain_, start_, track_energy_);
+  monitor_.restart();
   frame_ = 0;
   part_ = 0;
   judgeFrame();
 }
 
-bool PendulumRun::isShown() const {
-  if (judge_.latest().kind != VerdictKind::kDiverged) return true;
-  return scenario_.on_divergence == OnDivergence::kContinue &&
-         std::isfinite(judge_.entry().energy.total());
-}
-
 void PendulumRun::judgeFrame() {
-  judge_.judge(time(), state_, integrator_->dissipatedEnergy());
+  monitor_.judge(time(), state_, *integrator_);
 }
 
 EnergyEntry PendulumRun::energyEntry() const {
-  return atFrame() ? judge_.entry()
-                   : energy_balance_.entry(time(), state_, integrator_->dissipatedEnergy());
+  return atFrame() ? monitor_.energyEntry() : monitor_.energyEntry(time(), state_, *integrator_);
+}
+
+PositionError PendulumRun::positionError() const {
+  PositionError error = monitor_.positionError();
+  if (!atFrame()) error.now = monitor_.positionErrorOf(state_);
+  return error;
+}
+
+const State* PendulumRun::referenceState() const {
+  const ReferenceRun* reference = monitor_.reference();
+  return reference == nullptr ? nullptr : &reference->state();
+}
+
+void PendulumRun::writeTo(RunFiles& files) const {
+  if (atFrame() && isShown()) files.write(frame_, state_, energyEntry(), positionError().now);
+  if (isOver()) files.finish();
 }
 
 std::int64_t PendulumRun::steps() const {

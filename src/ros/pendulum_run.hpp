@@ -5,11 +5,12 @@
 // they are, so the frame files are those of Exercise3.
 #pragma once
 
+#include "io/run_files.hpp"
+#include "simulation/run_monitor.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <memory>
 
@@ -31,7 +32,7 @@ class PendulumRun {
   bool isOver() const { return frame_ >= scenario_.frames - 1 || !isShown(); }
   /// Whether the frame reached may be shown and written: not if the motion diverged, unless
   /// `on_divergence` says so and its energy is finite.
-  bool isShown() const;
+  bool isShown() const { return monitor_.isShown(); }
   bool atFrame() const { return part_ == 0; }
   /// Whether every number of the state can be shown.
   bool isFinite() const { return state_.values().allFinite(); }
@@ -42,9 +43,20 @@ class PendulumRun {
   const State& state() const { return state_; }
   const State& start() const { return start_; }
   /// The verdict on the run so far.
-  const Verdict& verdict() const { return judge_.worst(); }
+  const Verdict& verdict() const { return monitor_.verdict(); }
   /// The energy balance's row of the current state.
   EnergyEntry energyEntry() const;
+  /// Position error of the current state, and the largest one at the frames so far.
+  PositionError positionError() const;
+  /// The true state as the reference run has it, at the time of `state()`; null where none runs.
+  const State* referenceState() const;
+  /// Position and energy error in words, and a tolerance that was not kept; see RunMonitor.
+  std::string measurements() const { return monitor_.measurements(); }
+  std::string toleranceRemark() const { return monitor_.toleranceRemark(); }
+
+  /// Hands the frame to the files if the run stands at one that may be shown, and closes them after
+  /// the last one.
+  void writeTo(RunFiles& files) const;
 
   std::int64_t frame() const { return frame_; }
   /// Steps taken since frame 0; frames for an error-controlled method.
@@ -63,12 +75,10 @@ class PendulumRun {
   Chain chain_;
   State start_;
   State state_;
-  bool track_energy_;
   FrameSteps frame_steps_;  ///< refined for an error-controlled method
   std::int64_t parts_ = 1;  ///< of a frame
+  RunMonitor monitor_;
   std::unique_ptr<Integrator> integrator_;
-  EnergyBalance energy_balance_;
-  Judge judge_;
   std::int64_t frame_ = 0;  ///< last frame reached
   std::int64_t part_ = 0;   ///< parts of the next frame that are done
 };

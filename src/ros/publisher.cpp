@@ -31,6 +31,7 @@ std::uint32_t queueLength(std::int64_t message_bytes) {
 PendulumStatus statusOf(const PendulumRun& run, bool paused) {
   PendulumStatus status;
   const Verdict& verdict = run.verdict();
+  setPositionError(run, status);
   if (!run.isShown()) {
     status.code = PendulumStatus::DIVERGED;
     status.text = verdict.text;
@@ -38,7 +39,8 @@ PendulumStatus statusOf(const PendulumRun& run, bool paused) {
   }
   if (run.isOver()) {
     status.code = PendulumStatus::FINISHED;
-    status.text = fmt::format("finished: {} frames, {:.6g} s", run.frame() + 1, run.time());
+    status.text = fmt::format("finished: {} frames, {:.6g} s, {}", run.frame() + 1, run.time(),
+                              run.measurements());
   } else if (paused) {
     status.code = PendulumStatus::PAUSED;
     status.text = fmt::format("paused at frame {}, t = {:.6g} s", run.frame(), run.time());

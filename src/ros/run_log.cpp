@@ -39,16 +39,14 @@ std::string switchesOf(const std::string& report) {
 
 std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                         const Publisher& publisher) {
-  const EnergyEntry entry = run.energyEntry();
   const std::string report = run.integrator().report();
   return fmt::format(
       "{}{}: {} particles, {} frames, {}{} force evaluations, {:.3f} s integrating, {:.3f} s "
-      "writing {} frames, {} marker and {} state messages built, energy error {}, verdict: {}",
+      "writing {} frames, {} marker and {} state messages built, {}, verdict: {}",
       run.scenario().method, report.empty() ? "" : " (" + report + ")", run.chain().size(),
       totals.frames, isFixedStep(run) ? fmt::format("{} steps, ", totals.steps) : "",
-      run.integrator().forceEvaluations(), totals.seconds, files.seconds(), files.framesWritten(),
-      publisher.markersBuilt(), publisher.statesBuilt(),
-      entry.relative_residual ? fmt::format("{:.2e}", *entry.relative_residual) : "not tracked",
+      run.integrator().forceEvaluations(), totals.seconds, files.secondsWriting(),
+      files.framesWritten(), publisher.markersBuilt(), publisher.statesBuilt(), run.measurements(),
       run.verdict().text);
 }
 
@@ -73,9 +71,13 @@ void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles
     if (verdict.kind == VerdictKind::kDiverged) {
       ROS_ERROR_STREAM(verdict.text
                        << "; " << remedyForDivergence(run.chain(), run.start(), run.scenario()));
-    } else {
+    } else if (verdict.kind != VerdictKind::kNotChecked) {
       ROS_WARN_STREAM(verdict.text);
     }
+  }
+  if (!said_tolerance_ && !run.toleranceRemark().empty()) {
+    said_tolerance_ = true;
+    ROS_WARN_STREAM(run.toleranceRemark());
   }
   sayChoice(run);
   if (!run.isOver() || said_frames_ != 0) return;

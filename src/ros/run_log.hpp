@@ -1,9 +1,9 @@
 // What a node says about its run on /rosout and the screen, at the moment when it happens.
 #pragma once
 
+#include "io/run_files.hpp"
 #include "ros/pendulum_run.hpp"
 #include "ros/publisher.hpp"
-#include "ros/run_files.hpp"
 
 #include <cstdint>
 #include <string>
@@ -17,7 +17,7 @@ struct Totals {
   double seconds = 0.0;  ///< integrating
 };
 
-/// One line: frames, steps, force evaluations, times, energy error, verdict.
+/// One line: frames, steps, force evaluations, times, position and energy error, verdict.
 std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                         const Publisher& publisher);
 
@@ -41,6 +41,7 @@ class RunLog {
   VerdictKind said_verdict_ = VerdictKind::kOk;
   std::int64_t said_frames_ = 0;  ///< frames when the closing line was said; 0: not yet
   std::string said_choice_;
+  bool said_tolerance_ = false;
   int choices_said_ = 0;
 };
 

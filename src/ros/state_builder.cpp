@@ -31,6 +31,7 @@ const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs:
   message_.dissipated_energy = entry.dissipated.value_or(kUnknown);
   message_.total_energy = entry.energy.total() + message_.dissipated_energy;
   message_.energy_error = entry.relative_residual.value_or(kUnknown);
+  setPositionError(run, message_);
   message_.largest_stretch = largestStretch(run.chain(), run.state());
   message_.verdict = std::string(toString(run.verdict().kind));
   copyState(run.state());

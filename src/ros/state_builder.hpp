@@ -8,6 +8,16 @@
 
 namespace spring_pendulum {
 
+/// Sets the four fields that `state` and `status` have for the position error.
+template <typename Message>
+void setPositionError(const PendulumRun& run, Message& message) {
+  const PositionError error = run.positionError();
+  message.position_error = error.now;
+  message.largest_position_error = error.largest;
+  message.largest_position_error_time = error.largest_time;
+  message.position_error_measured_until = error.measured_until;
+}
+
 class StateBuilder {
  public:
   /// \param y_offset m, where the plane of the motion lies

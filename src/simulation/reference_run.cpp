@@ -17,7 +17,7 @@ namespace {
 constexpr double kTolerance = 1e-10;
 constexpr double kRelativeTolerance = 1e-9;
 /// Tolerance of the reference in parts of the run's.
-constexpr double kToleranceShare = 0.01;
+constexpr double kToleranceShare = 1e-3;
 /// Tolerance of the other runs, and the change of the third one's start, in tolerances of the first.
 constexpr double kOtherTolerance = 100.0;
 constexpr double kChange = 1000.0;
@@ -91,7 +91,6 @@ struct ReferenceRun::Trajectory {
 
 ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
     : chain_(chain),
-      start_(start),
       always_(options.always),
       measures_growth_(std::isfinite(options.run_tolerance)),
       believed_(kBelieved * chainLength(chain, start)) {
@@ -101,6 +100,11 @@ ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const Referen
   tolerance_ =
       std::min({kTolerance, kRelativeTolerance * length, kToleranceShare * options.run_tolerance});
   tolerance_ = std::max(tolerance_, rounding_);
+  if (start.size() > kMostParticles && !always_) {
+    stop(Status::kCostTooMuch);
+    return;
+  }
+  start_ = start;
   restart();
 }
 
@@ -110,11 +114,11 @@ ReferenceRun& ReferenceRun::operator=(ReferenceRun&&) noexcept = default;
 
 void ReferenceRun::restart() {
   trajectories_.clear();
+  if (start_.size() == 0) return;  // too long to be measured
   state_ = start_;
   uncertainty_ = rounding_;
   growth_ = measures_growth_ ? 1.0 : std::numeric_limits<double>::quiet_NaN();
   status_ = Status::kMeasuring;
-  if (start_.size() > kMostParticles && !always_) stop(Status::kCostTooMuch);
 }
 
 void ReferenceRun::makeTrajectories() {
@@ -130,17 +134,13 @@ void ReferenceRun::makeTrajectories() {
 void ReferenceRun::advance(double time_step, std::int64_t steps, std::int64_t run_evaluations) {
   if (!isMeasuring() || start_.size() < 2) return;
   if (trajectories_.empty()) makeTrajectories();
-  std::int64_t left = allowedEvaluations(run_evaluations);
-  for (const Trajectory& trajectory : trajectories_) {
-    left -= trajectory.integrator->forceEvaluations();
-  }
+  // Equal shares, so that the step at which one is used up does not depend on the output times.
+  const std::int64_t share =
+      allowedEvaluations(run_evaluations) / static_cast<std::int64_t>(trajectories_.size());
   for (Trajectory& trajectory : trajectories_) {
-    const std::int64_t before = trajectory.integrator->forceEvaluations();
-    if (!trajectory.controlled().advanceWithin(trajectory.state, time_step, steps, before + left)) {
-      stop(Status::kCostTooMuch);
-      return;
-    }
-    left -= trajectory.integrator->forceEvaluations() - before;
+    if (trajectory.controlled().advanceWithin(trajectory.state, time_step, steps, share)) continue;
+    stop(Status::kCostTooMuch);
+    return;
   }
   compare();
 }

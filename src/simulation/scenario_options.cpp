@@ -35,6 +35,9 @@ std::vector<Option> scenarioOptions(Scenario& s) {
        "CSV file for the energy balance, one row per frame"},
       {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
        "after a divergence: stop, or continue as long as every number is finite"},
+      {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",
+       "measure the position error against a reference run: while it is cheap, to the end, or "
+       "never"},
       {"frames", Count{&s.frames, Range::atLeast(1)}, "", "number of frames, including the start"},
       {"steps_per_frame", Count{&s.steps_per_frame, Range::atLeast(1)}, "",
        "integration steps per frame", kFixedStep},

@@ -30,14 +30,18 @@ void SleepingIntegrator::advance(State& state, double time_step, std::int64_t st
     ++slept_calls_;
     return;
   }
-  // What the integrator remembers is of the time before the sleep.
-  if (asleep_) integrator_->restart();
+  if (asleep_) {
+    // The integrator remembers the time before the sleep. Its restart clears what was dissipated.
+    dissipated_before_ += integrator_->dissipatedEnergy();
+    integrator_->restart();
+  }
   asleep_ = false;
   integrator_->advance(state, time_step, steps);
 }
 
 void SleepingIntegrator::restart() {
   asleep_ = false;
+  dissipated_before_ = 0.0;
   integrator_->restart();
 }
 

@@ -25,7 +25,9 @@ class SleepingIntegrator : public Integrator {
 
   void advance(State& state, double time_step, std::int64_t steps) override;
   std::int64_t forceEvaluations() const override { return integrator_->forceEvaluations(); }
-  double dissipatedEnergy() const override { return integrator_->dissipatedEnergy(); }
+  double dissipatedEnergy() const override {
+    return dissipated_before_ + integrator_->dissipatedEnergy();
+  }
   Skips skips() const override { return integrator_->skips(); }
   std::string report() const override { return integrator_->report(); }
   void restart() override;
@@ -35,9 +37,10 @@ class SleepingIntegrator : public Integrator {
 
  private:
   std::unique_ptr<Integrator> integrator_;
-  const Chain& chain_;
+  Chain chain_;
   double tolerance_;
   bool asleep_ = false;
+  double dissipated_before_ = 0.0;  ///< J, until the last sleep
   std::int64_t slept_calls_ = 0;
 };
 

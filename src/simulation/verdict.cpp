@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -57,12 +58,48 @@ Verdict drifted(const EnergyEntry& entry) {
                       *entry.residual, entry.time, 100.0 * *entry.relative_residual)};
 }
 
+Verdict inaccurate(double time, double error, double chain_length) {
+  return {
+      VerdictKind::kInaccurate, time, 0,
+      fmt::format("inaccurate: position error {:.3g} m at t = {:.6g} s, {:.3g} % of the chain's "
+                  "length",
+                  error, time, 100.0 * error / chain_length)};
+}
+
+Verdict notMeasured(double time, const ReferenceRun* reference) {
+  if (reference == nullptr) {
+    return {VerdictKind::kNotChecked, time, 0, "not checked: no reference run"};
+  }
+  switch (reference->status()) {
+    case ReferenceRun::Status::kSensitive:
+      return {
+          VerdictKind::kSensitive, time, 0,
+          fmt::format("sensitive from t = {:.6g} s: small errors grow so much that no method can "
+                      "tell the true positions beyond",
+                      time)};
+    case ReferenceRun::Status::kFailed:
+      return {VerdictKind::kNotChecked, time, 0,
+              fmt::format("not checked from t = {:.6g} s: the reference run diverged", time)};
+    default:
+      return {VerdictKind::kNotChecked, time, 0,
+              fmt::format("not checked from t = {:.6g} s: a reference run would cost more than the "
+                          "run itself",
+                          time)};
+  }
+}
+
 }  // namespace
 
 std::string_view toString(VerdictKind kind) {
   switch (kind) {
     case VerdictKind::kOk:
       return "ok";
+    case VerdictKind::kNotChecked:
+      return "not checked";
+    case VerdictKind::kSensitive:
+      return "sensitive";
+    case VerdictKind::kInaccurate:
+      return "inaccurate";
     case VerdictKind::kDrift:
       return "drift";
     case VerdictKind::kGainedEnergy:
@@ -73,23 +110,79 @@ std::string_view toString(VerdictKind kind) {
   return "unknown";
 }
 
-Judge::Judge(const Chain& chain, const State& start, bool tracks_dissipation)
-    : chain_(chain), energy_balance_(chain, start, tracks_dissipation) {}
+Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
+    : chain_(chain),
+      balance_(chain, start, options.tracks_dissipation),
+      chain_length_(chainLength(chain, start)),
+      symplectic_step_(options.symplectic_step) {}
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated) {
-  entry_ = energy_balance_.entry(time, state, dissipated);
+  entry_ = balance_.entry(time, state, dissipated);
+  return remember(judgeEnergy(state));
+}
+
+const Verdict& Judge::judge(double time, const State& state, double dissipated,
+                            const ReferenceRun* reference) {
+  entry_ = balance_.entry(time, state, dissipated);
+  Verdict verdict = judgeEnergy(state);
+  measure(time, state, verdict.kind == VerdictKind::kDiverged ? nullptr : reference);
+  if (verdict.kind == VerdictKind::kOk) verdict = judgePositions(time, reference);
+  return remember(std::move(verdict));
+}
+
+void Judge::measure(double time, const State& state, const ReferenceRun* reference) {
+  const bool measured = reference != nullptr && reference->isMeasuring();
+  position_error_.now = measured ? reference->errorOf(state) : PositionError{}.now;
+  if (std::isnan(position_error_.now)) return;
+  position_error_.measured_until = time;
+  position_error_.uncertainty = reference->uncertainty();
+  if (position_error_.now <= position_error_.largest) return;
+  position_error_.largest = position_error_.now;
+  position_error_.largest_time = time;
+}
+
+Verdict Judge::judgeEnergy(const State& state) {
   // A state with a number that is not finite has no finite energy, so one test covers both.
-  if (!(entry_.relative_gain <= kDivergenceThreshold)) {
-    latest_ = diverged(chain_, state, entry_);
-  } else if (entry_.relative_gain > kGainThreshold) {
-    latest_ = gainedEnergy(entry_);
-  } else if (entry_.relative_residual &&
-             !(std::abs(*entry_.relative_residual) <= kDriftThreshold)) {
-    latest_ = drifted(entry_);
-  } else {
-    latest_ = Verdict{};
-    latest_.time = time;
+  if (!(entry_.relative_gain <= kDivergenceThreshold)) return diverged(chain_, state, entry_);
+  double gain = entry_.relative_gain;
+  double residual = entry_.relative_residual.value_or(0.0);
+  double allowance = 0.0;
+  if (symplectic_step_ > 0.0) {
+    // To first order the energy is off by h/2 dU/dt, with the potential energy U. The mean of
+    // dU/dt over a time t is at most the energy scale / t.
+    gain_sum_ += gain;
+    residual_sum_ += residual;
+    frames_ += 1.0;
+    gain = gain_sum_ / frames_;
+    residual = residual_sum_ / frames_;
+    allowance = entry_.time > 0.0 ? symplectic_step_ / entry_.time : 0.0;
   }
+  if (gain > kGainThreshold + allowance) return gainedEnergy(entry_);
+  if (std::abs(residual) > kDriftThreshold + allowance) return drifted(entry_);
+  Verdict ok;
+  ok.time = entry_.time;
+  return ok;
+}
+
+Verdict Judge::judgePositions(double time, const ReferenceRun* reference) const {
+  if (reference == nullptr || !reference->isMeasuring()) return notMeasured(time, reference);
+  if (position_error_.now > kInaccurateThreshold * chain_length_) {
+    return inaccurate(time, position_error_.now, chain_length_);
+  }
+  Verdict ok;
+  ok.time = time;
+  return ok;
+}
+
+void Judge::restart() {
+  gain_sum_ = residual_sum_ = frames_ = 0.0;
+  entry_ = {};
+  position_error_ = {};
+  latest_ = worst_ = {};
+}
+
+const Verdict& Judge::remember(Verdict verdict) {
+  latest_ = std::move(verdict);
   if (latest_.kind > worst_.kind || worst_.kind == VerdictKind::kOk) worst_ = latest_;
   return latest_;
 }

@@ -14,13 +14,17 @@ IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipa
 }
 
 std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator,
-                                     bool track_dissipation) {
+                                     bool tracks_dissipation) {
   const Skips skips = integrator.skips();
   std::vector<std::string> skipped;
   if (skips.damping) skipped.emplace_back("velocity differences: damping is 0");
   if (skips.gravity) skipped.emplace_back("gravity: it is 0");
   if (skips.masses) skipped.emplace_back("reading masses: all moving particles have the same");
-  if (!track_dissipation) skipped.emplace_back("dissipated energy: no output needs it");
+  if (scenario.damping == 0.0) {
+    skipped.emplace_back("dissipated energy: damping is 0");
+  } else if (!tracks_dissipation) {
+    skipped.emplace_back("dissipated energy: costly here, and no energy file is asked for");
+  }
   if (scenario.no_frames) skipped.emplace_back("frame files: not written");
   return skipped;
 }

@@ -12,8 +12,8 @@ namespace spring_pendulum {
 
 IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipation);
 
-/// What a run of this scenario leaves out because nobody needs it, a line each.
+/// What a run of this scenario leaves out because nobody needs it, one line each.
 std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator,
-                                     bool track_dissipation);
+                                     bool tracks_dissipation);
 
 }  // namespace spring_pendulum

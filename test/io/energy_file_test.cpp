@@ -41,21 +41,21 @@ EnergyEntry someEntry() {
 
 TEST_F(EnergyFileTest, HasARowAFrameUnderAHeaderWithUnits) {
   EnergyFile file(path("e.csv"));
-  file.write(0, someEntry());
-  file.write(1, someEntry());
+  file.write(0, someEntry(), 0.5);
+  file.write(1, someEntry(), 0.5);
   file.finish();
   EXPECT_EQ(read(path("e.csv")),
             "frame,time [s],kinetic [J],gravity [J],spring [J],total [J],dissipated [J],"
-            "residual [J],residual/scale [1]\n"
-            "0,0.1,1,-2.5,0.125,-1.375,0.25,-1e-17,-1e-18\n"
-            "1,0.1,1,-2.5,0.125,-1.375,0.25,-1e-17,-1e-18\n");
+            "residual [J],residual/scale [1],position error [m]\n"
+            "0,0.1,1,-2.5,0.125,-1.375,0.25,-1e-17,-1e-18,0.5\n"
+            "1,0.1,1,-2.5,0.125,-1.375,0.25,-1e-17,-1e-18,0.5\n");
 }
 
 TEST_F(EnergyFileTest, IsAbsentUntilItIsWholeAndKeepsTheEarlierOneSoLong) {
   std::ofstream(path("e.csv")) << "earlier";
   {
     EnergyFile file(path("e.csv"));
-    for (int i = 0; i < 5000; ++i) file.write(i, someEntry());
+    for (int i = 0; i < 5000; ++i) file.write(i, someEntry(), 0.5);
     EXPECT_EQ(read(path("e.csv")), "earlier");
   }
   EXPECT_EQ(read(path("e.csv")), "earlier");
@@ -64,7 +64,7 @@ TEST_F(EnergyFileTest, IsAbsentUntilItIsWholeAndKeepsTheEarlierOneSoLong) {
 
 TEST_F(EnergyFileTest, TellsWhatCameIntoItsWayMeanwhile) {
   EnergyFile file(path("e.csv"));
-  file.write(0, someEntry());
+  file.write(0, someEntry(), 0.5);
   std::filesystem::create_directory(path("e.csv"));
   try {
     file.finish();

@@ -103,6 +103,9 @@ TEST(StateMessage, LiesInThePlaneXZ) {
   EXPECT_EQ(message.frame, 1);
   EXPECT_EQ(message.method, "Runge-Kutta-4");
   EXPECT_EQ(message.largest_stretch, largestStretch(run.chain(), run.state()));
+  EXPECT_EQ(message.position_error, run.positionError().now);
+  EXPECT_EQ(message.largest_position_error, run.positionError().largest);
+  EXPECT_EQ(message.position_error_measured_until, 0.1);
 }
 
 TEST(StateMessage, LargestStretchIsRelativeToTheRestLength) {

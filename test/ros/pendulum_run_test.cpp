@@ -88,6 +88,26 @@ TEST(PendulumRun, ResetGivesTheSameRunAgain) {
   EXPECT_EQ(run.energyEntry().dissipated.value(), dissipated);
 }
 
+// Measured: 8.5e-3 m at 0.7 s.
+TEST(PendulumRun, MeasuresThePositionErrorAlsoBetweenFrames) {
+  Scenario scenario = scenarioOf("Euler");
+  PendulumRun plain(scenario, scene(), true, 0.0), shown(scenario, scene(), true, 0.02);
+  frames(plain, false);
+  shown.advance(true);
+  ASSERT_FALSE(shown.atFrame());
+  EXPECT_GT(shown.positionError().now, 0.0);
+  EXPECT_EQ(shown.positionError().largest, 0.0);  // of frame 0
+  ASSERT_NE(shown.referenceState(), nullptr);
+  frames(shown, true);
+  EXPECT_GT(shown.positionError().largest, 1e-3);
+  EXPECT_EQ(shown.positionError().largest, plain.positionError().largest);
+  EXPECT_EQ(shown.verdict().kind, plain.verdict().kind);
+  scenario.reference = ReferenceUse::kNever;
+  const PendulumRun unmeasured(scenario, scene(), true, 0.0);
+  EXPECT_EQ(unmeasured.referenceState(), nullptr);
+  EXPECT_EQ(unmeasured.verdict().kind, VerdictKind::kNotChecked);
+}
+
 TEST(PendulumRun, EndsWhereTheMotionDiverges) {
   Scenario scenario = scenarioOf("Euler");
   scenario.frames = 500;

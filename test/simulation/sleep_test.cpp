@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 
 #include <support/scenes.hpp>
 
@@ -55,6 +56,30 @@ TEST_F(Sleep, IsNeverUnaskedFor) {
   awake.advance(state, 0.01, 10);
   EXPECT_EQ(awake.sleptCalls(), 0);
   EXPECT_EQ(awake.forceEvaluations(), 40);
+}
+
+TEST_F(Sleep, KeepsTheDissipatedEnergyOnWaking) {
+  SleepingIntegrator sleeping(makeIntegrator("Runge-Kutta-4", chain_, {1e-6, true}), chain_, 1e-6);
+  State state = rest_;
+  state.y()[2] -= 0.5;
+  for (int frame = 0; frame < 3000; ++frame) sleeping.advance(state, 0.01, 10);
+  ASSERT_GT(sleeping.sleptCalls(), 0);
+  const double before =
+      sleeping.dissipatedEnergy();  // 6.25 J: half the stiffness times 0.5 m squared
+  state.y()[2] -= 0.01;
+  sleeping.advance(state, 0.01, 10);
+  EXPECT_GT(sleeping.dissipatedEnergy(), before);
+  sleeping.restart();
+  EXPECT_EQ(sleeping.dissipatedEnergy(), 0.0);
+}
+
+TEST_F(Sleep, OwnsItsChain) {
+  auto chain = std::make_unique<Chain>(chain_);
+  SleepingIntegrator sleeping(makeIntegrator("Runge-Kutta-4", *chain), *chain, 1e-9);
+  chain.reset();
+  State state = rest_;
+  sleeping.advance(state, 0.01, 10);
+  EXPECT_EQ(sleeping.sleptCalls(), 1);
 }
 
 // Measured: asleep in 2295 frames of 3000, 5.1e-7 m from where it would have gone.

@@ -34,6 +34,7 @@ struct Method {
   std::string_view use;           ///< when to take it and when not, in one line
   const ButcherTableau* tableau;  ///< null if it is not an explicit Runge-Kutta method
   std::unique_ptr<Integrator> (*make)(const Method&, const Chain&, const IntegratorOptions&);
+  bool symplectic = false;  ///< without damping, the energy oscillates but does not grow
 };
 
 /// All methods, in the order in which they are listed to a user.

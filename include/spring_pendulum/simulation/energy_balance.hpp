@@ -1,9 +1,9 @@
 // The energy balance of a run: where the energy is, what the dashpots took, and what is missing.
 //
 // Nothing drives the chain, so E(t) + D(t) = E(0) at all times, with the energy E = kinetic +
-// gravity + spring and the heat D that the dashpots took up. The residual E(t) + D(t) - E(0) is the
-// integration error in the one quantity that is known exactly. It is put in relation to the energy
-// scale of the scene.
+// gravity + spring and the energy D that the dashpots dissipated. The residual E(t) + D(t) - E(0)
+// is the integration error in the one quantity that is known exactly. It is put in relation to the
+// energy scale of the scene.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>

@@ -29,7 +29,7 @@ double chainLength(const Chain& chain, const State& start);
 
 struct ReferenceOptions {
   /// Tolerance in m of the run that is measured, if it has one; infinite for a fixed step. The
-  /// reference's tolerance is a hundredth of it, at most 1e-10 m.
+  /// reference's tolerance is a thousandth of it, at most 1e-10 m.
   double run_tolerance = std::numeric_limits<double>::infinity();
   /// Measure to the end whatever it costs.
   bool always = false;

@@ -11,6 +11,9 @@ namespace spring_pendulum {
 /// What happens to a run that diverged. It never continues with numbers that are not finite.
 enum class OnDivergence { kStop, kContinue };
 
+/// Whether a reference run measures the position error: while it is cheap, to the end, or never.
+enum class ReferenceUse { kAuto, kAlways, kNever };
+
 struct Scenario {
   std::string method = "Runge-Kutta-4";
   std::string particles = "particle.txt";  ///< the particle file
@@ -18,6 +21,7 @@ struct Scenario {
   bool no_frames = false;                  ///< write no frame files
   std::string energy;                      ///< where the energy balance goes; empty: nowhere
   OnDivergence on_divergence = OnDivergence::kStop;
+  ReferenceUse reference = ReferenceUse::kAuto;
 
   std::int64_t frames = 500;
   std::int64_t steps_per_frame = 10;  ///< fixed-step methods

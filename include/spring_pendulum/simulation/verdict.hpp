@@ -1,12 +1,15 @@
-// The verdict on a motion: may what was computed be believed?
+// The verdict on a run: can the result be trusted?
 //
-// A chain that nothing drives never gains energy, whatever its damping, so energy above the start
-// proves an unstable or inaccurate integration even while every number stays finite. Judged after
-// every frame, before it is written.
+// Two things are judged after every frame, before it is written. A chain that nothing drives never
+// gains energy, whatever its damping, so energy above the start proves an unstable or inaccurate
+// integration even while every number stays finite. And a reference run, where there is one, tells
+// the position error itself.
 #pragma once
 
 #include <spring_pendulum/simulation/energy_balance.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -15,13 +18,21 @@ namespace spring_pendulum {
 /// In order of severity.
 enum class VerdictKind {
   kOk,
-  kDrift,         ///< the energy balance's residual exceeds 1 % of the energy scale
+  kNotChecked,    ///< positions were not compared with a reference run, or not to the end
+  kSensitive,     ///< small errors grow so much that the true positions are not known
+  kInaccurate,    ///< position error above 1 % of the chain's length
+  kDrift,         ///< the energy balance is off by over 1 % of the energy scale
   kGainedEnergy,  ///< energy above the start by over 1 % of the energy scale
   kDiverged       ///< a number that is not finite, or energy up by over the whole scale
 };
 
-/// "ok", "drift", "gained energy", "diverged"
+/// "ok", "not checked", "sensitive", "inaccurate", "drift", "gained energy", "diverged"
 std::string_view toString(VerdictKind kind);
+
+/// Whether the verdict blames the run: from `kInaccurate` on.
+inline bool isBad(VerdictKind kind) {
+  return kind >= VerdictKind::kInaccurate;
+}
 
 struct Verdict {
   VerdictKind kind = VerdictKind::kOk;
@@ -30,31 +41,73 @@ struct Verdict {
   std::string text = "ok";    ///< one line: what is wrong, when and where
 };
 
+/// Position errors of a run against its reference run: the largest distance of a particle from
+/// where it should be. NaN where nothing was measured.
+struct PositionError {
+  double now = std::numeric_limits<double>::quiet_NaN();             ///< m, at the last frame
+  double largest = std::numeric_limits<double>::quiet_NaN();         ///< m, over the frames so far
+  double largest_time = std::numeric_limits<double>::quiet_NaN();    ///< s
+  double measured_until = std::numeric_limits<double>::quiet_NaN();  ///< s
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< m, of what was measured last
+};
+
+struct JudgeOptions {
+  bool tracks_dissipation = false;  ///< whether the integrator was made with `track_dissipation`
+  /// Step in s of a symplectic method; 0 for other methods. The energy then oscillates about its
+  /// true value, so the mean error over the run so far is judged.
+  double symplectic_step = 0.0;
+};
+
 /// Judges the frames of one run and remembers the worst.
 class Judge {
  public:
   static constexpr double kDriftThreshold = 0.01;
   static constexpr double kGainThreshold = 0.01;
   static constexpr double kDivergenceThreshold = 1.0;
+  /// In chain lengths. The eye does not see less in a picture of the chain.
+  static constexpr double kInaccurateThreshold = 0.01;
 
   /// \throws InputError as EnergyBalance
-  Judge(const Chain& chain, const State& start, bool tracks_dissipation);
+  Judge(const Chain& chain, const State& start, const JudgeOptions& options);
+  Judge(const Chain& chain, const State& start, bool tracks_dissipation)
+      : Judge(chain, start, JudgeOptions{tracks_dissipation, 0.0}) {}
 
-  /// Judges the state at `time` s. No allocation while the motion is good.
+  /// Judges the state at `time` s by its energy alone. No allocation while the motion is good.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; read only if it is tracked
   const Verdict& judge(double time, const State& state, double dissipated);
 
-  /// The energy balance's row of the state judged last.
+  /// Judges the state at `time` s by its energy and its positions.
+  /// \param reference of the same time; null: there is none
+  const Verdict& judge(double time, const State& state, double dissipated,
+                       const ReferenceRun* reference);
+
+  /// Forgets all frames judged.
+  void restart();
+
+  const EnergyBalance& balance() const { return balance_; }
+  /// The energy balance of the state judged last.
   const EnergyEntry& entry() const { return entry_; }
+  const PositionError& positionError() const { return position_error_; }
   /// The verdict on the state judged last.
   const Verdict& latest() const { return latest_; }
   /// The first of the most severe verdicts so far: the verdict on the run.
   const Verdict& worst() const { return worst_; }
 
  private:
+  void measure(double time, const State& state, const ReferenceRun* reference);
+  Verdict judgeEnergy(const State& state);
+  Verdict judgePositions(double time, const ReferenceRun* reference) const;
+  const Verdict& remember(Verdict verdict);
+
   Chain chain_;
-  EnergyBalance energy_balance_;
+  EnergyBalance balance_;
+  double chain_length_;
+  double symplectic_step_;
+  double gain_sum_ = 0.0;      ///< of the relative gains of the frames judged
+  double residual_sum_ = 0.0;  ///< of their relative residuals
+  double frames_ = 0.0;
   EnergyEntry entry_;
+  PositionError position_error_;
   Verdict latest_;
   Verdict worst_;
 };

@@ -1,4 +1,4 @@
-#include "ros/run_files.hpp"
+#include "io/run_files.hpp"
 
 #include <filesystem>
 
@@ -14,14 +14,12 @@ RunFiles::RunFiles(const Scenario& scenario) {
   }
 }
 
-void RunFiles::write(const PendulumRun& run) {
-  if (finished_ || !run.atFrame() || run.frame() < next_frame_) return;
-  if (run.isShown()) {
-    if (frames_) frames_->write(run.frame(), run.state());
-    if (energy_) energy_->write(run.frame(), run.energyEntry());
-    next_frame_ = run.frame() + 1;
-  }
-  if (run.isOver()) finish();
+void RunFiles::write(std::int64_t frame, const State& state, const EnergyEntry& entry,
+                     double position_error) {
+  if (finished_ || frame < next_frame_) return;
+  if (frames_) frames_->write(frame, state);
+  if (energy_) energy_->write(frame, entry, position_error);
+  next_frame_ = frame + 1;
 }
 
 void RunFiles::finish() {

@@ -1,0 +1,50 @@
+// The files of a run: frames and energy balance, for Exercise3 and the node alike.
+#pragma once
+
+#include "io/background_frame_writer.hpp"
+#include "io/energy_file.hpp"
+#include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace spring_pendulum {
+
+/// Writes every frame once: after a reset of the run the same frames come again, bit for bit.
+class RunFiles {
+ public:
+  /// With `no_frames` or an empty `output` there are no frames, with an empty `energy` no energy
+  /// balance.
+  /// \throws FileError naming the folder or file
+  explicit RunFiles(const Scenario& scenario);
+
+  /// Writes a frame unless it has been written before.
+  /// \param position_error m; NaN where it is not measured
+  /// \throws FileError naming the file
+  void write(std::int64_t frame, const State& state, const EnergyEntry& entry,
+             double position_error);
+
+  /// Closes the files; nothing is written after this.
+  void finish();
+
+  /// "frames go to /home/me/frames, the energy balance to ..."
+  std::string description() const;
+  /// " to /home/me/frames", empty without frames
+  std::string destination() const { return frames_ ? " to " + frames_->folder() : ""; }
+  std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
+  /// Wall-clock time spent writing frames, s. Only after `finish`.
+  double secondsWriting() const { return frames_ ? frames_->secondsWriting() : 0.0; }
+  /// Wall-clock time that the run waited for frames to be written, s.
+  double secondsWaited() const { return frames_ ? frames_->secondsWaited() : 0.0; }
+
+ private:
+  std::optional<EnergyFile> energy_;
+  std::string energy_path_;  ///< absolute
+  std::optional<BackgroundFrameWriter> frames_;
+  std::int64_t next_frame_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,153 @@
+#include "simulation/run_monitor.hpp"
+
+#include "model/chain_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+/// Particles times stages of all steps whose energy balance is expected to take 50 ms.
+constexpr double kCheapWork = 1e7;
+/// Particles from which on the kernels of the explicit Runge-Kutta methods track the dissipated
+/// energy for less than 10 % of a run.
+constexpr Eigen::Index kLongChain = 100;
+/// The same as kCheapWork for an error-controlled method: particles times steps.
+constexpr double kCheapSteps = 8e5;
+/// Promised of an error-controlled method, in tolerances.
+constexpr double kPromise = 10.0;
+/// Growth of small changes from which on a motion is too sensitive for that promise.
+constexpr double kSensitiveGrowth = 100.0;
+
+bool isFixed(const Scenario& scenario) {
+  return findMethod(scenario.method).control == StepControl::kFixed;
+}
+
+double toleranceOf(const Scenario& scenario) {
+  return isFixed(scenario) ? std::numeric_limits<double>::infinity() : scenario.tolerance;
+}
+
+JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation) {
+  const bool symplectic = findMethod(scenario.method).symplectic;
+  return {tracks_dissipation, symplectic ? scenario.time_step : 0.0};
+}
+
+/// Steps that an error-controlled method is expected to take: some twenty per second, and more
+/// where springs vibrate or stability limits the steps.
+double expectedSteps(const Scenario& scenario, const Chain& chain) {
+  const double mode = largestSpringMode(chain);  // 1/kg
+  const double per_second =
+      20.0 + 0.5 * std::sqrt(chain.spring().stiffness * mode) + 0.1 * chain.spring().damping * mode;
+  return per_second * static_cast<double>(scenario.frames - 1) * scenario.frame_interval;
+}
+
+}  // namespace
+
+bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain) {
+  const auto particles = static_cast<double>(chain.size());
+  if (!isFixed(scenario)) return expectedSteps(scenario, chain) * particles <= kCheapSteps;
+  const Method& method = findMethod(scenario.method);
+  if (method.tableau != nullptr && chain.size() >= kLongChain) return true;
+  const double steps =
+      static_cast<double>(scenario.frames - 1) * static_cast<double>(scenario.steps_per_frame);
+  return steps * method.stages * particles <= kCheapWork;
+}
+
+RunMonitor::RunMonitor(const Scenario& scenario, const Chain& chain, const State& start,
+                       bool wants_energy)
+    : scenario_(scenario),
+      tracks_dissipation_(scenario.damping > 0.0 &&
+                          (wants_energy || energyBalanceIsCheap(scenario, chain))),
+      tolerance_(toleranceOf(scenario)),
+      judge_(chain, start, judgeOptions(scenario, tracks_dissipation_)) {
+  if (scenario.reference == ReferenceUse::kNever) return;
+  const bool always = scenario.reference == ReferenceUse::kAlways;
+  reference_.emplace(chain, start, ReferenceOptions{tolerance_, always});
+}
+
+void RunMonitor::restart() {
+  judge_.restart();
+  if (reference_) reference_->restart();
+  run_evaluations_ = 0;
+  worst_residual_ = exceeded_time_ = exceeded_growth_ = 0.0;
+}
+
+void RunMonitor::follow(double time_step, std::int64_t steps) {
+  if (!reference_ || !reference_->isMeasuring()) return;
+  const auto start = std::chrono::steady_clock::now();
+  reference_->advance(time_step, steps, run_evaluations_);
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+const Verdict& RunMonitor::judge(double time, const State& state, const Integrator& integrator) {
+  run_evaluations_ = integrator.forceEvaluations();
+  judge_.judge(time, state, integrator.dissipatedEnergy(), reference_ ? &*reference_ : nullptr);
+  worst_residual_ =
+      std::max(worst_residual_, std::abs(judge_.entry().relative_residual.value_or(0.0)));
+  noteTolerance();
+  return judge_.latest();
+}
+
+void RunMonitor::noteTolerance() {
+  const PositionError& error = judge_.positionError();
+  if (exceeded_time_ > 0.0 ||
+      !(error.now > std::max(kPromise * tolerance_, 2.0 * error.uncertainty)))
+    return;
+  exceeded_time_ = judge_.entry().time;
+  exceeded_growth_ = reference_->growth();
+}
+
+bool RunMonitor::isShown() const {
+  if (judge_.latest().kind != VerdictKind::kDiverged) return true;
+  return scenario_.on_divergence == OnDivergence::kContinue &&
+         std::isfinite(judge_.entry().energy.total());
+}
+
+EnergyEntry RunMonitor::energyEntry(double time, const State& state,
+                                    const Integrator& integrator) const {
+  return judge_.balance().entry(time, state, integrator.dissipatedEnergy());
+}
+
+double RunMonitor::positionErrorOf(const State& state) const {
+  return reference_ ? reference_->errorOf(state) : std::numeric_limits<double>::quiet_NaN();
+}
+
+const ReferenceRun* RunMonitor::reference() const {
+  return reference_ && reference_->isMeasuring() ? &*reference_ : nullptr;
+}
+
+std::string RunMonitor::measurements() const {
+  const PositionError& error = judge_.positionError();
+  std::string text = "position error not measured";
+  if (error.measured_until > 0.0 || error.measured_until == judge_.entry().time) {
+    text = error.largest > error.uncertainty
+               ? fmt::format("largest position error {:.2g} m at t = {:.6g} s", error.largest,
+                             error.largest_time)
+               : fmt::format("largest position error below {:.1g} m", error.uncertainty);
+    if (error.measured_until < judge_.entry().time) {
+      text += fmt::format(" (measured until t = {:.6g} s)", error.measured_until);
+    }
+  }
+  text += judge_.entry().relative_residual
+              ? fmt::format(", largest energy error {:.1e}", worst_residual_)
+              : ", energy balance not checked";
+  return text;
+}
+
+std::string RunMonitor::toleranceRemark() const {
+  if (exceeded_time_ == 0.0) return {};
+  if (exceeded_growth_ < kSensitiveGrowth) {
+    return fmt::format("position error above ten tolerances from t = {:.6g} s", exceeded_time_);
+  }
+  return fmt::format(
+      "sensitive from t = {:.6g} s: small changes of the start have grown {:.2g} times by then, no "
+      "method can keep a tolerance of {:.3g} m beyond",
+      exceeded_time_, exceeded_growth_, tolerance_);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,212 @@
+#include "simulation/run_monitor.hpp"
+
+#include "simulation/work.hpp"
+#include <spring_pendulum/simulation/frame_steps.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/reference.hpp"
+#include "support/scenes.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A run with its monitor, from frame to frame.
+class MonitoredRun {
+ public:
+  MonitoredRun(const Scenario& scenario, const test::Scene& scene)
+      : step_(frameSteps(scenario)),
+        monitor_(scenario, scene.chain, scene.start, false),
+        integrator_(makeIntegrator(scenario.method, scene.chain,
+                                   integratorOptions(scenario, monitor_.tracksDissipation()))),
+        state_(scene.start) {
+    monitor_.judge(0.0, state_, *integrator_);
+  }
+
+  void advance() {
+    integrator_->advance(state_, step_.time_step, step_.steps);
+    monitor_.follow(step_.time_step, step_.steps);
+    monitor_.judge(step_.timeOfFrame(++frame_), state_, *integrator_);
+  }
+
+  /// On to `seconds`, or to a divergence.
+  void advanceTo(double seconds) {
+    while (step_.timeOfFrame(frame_) < seconds - 1e-9 && monitor_.isShown()) advance();
+  }
+
+  RunMonitor& monitor() { return monitor_; }
+  const State& state() const { return state_; }
+
+ private:
+  FrameSteps step_;
+  RunMonitor monitor_;
+  std::unique_ptr<Integrator> integrator_;
+  State state_;
+  std::int64_t frame_ = 0;
+};
+
+Scenario scenarioOf(std::string_view method) {
+  Scenario scenario;
+  scenario.method = method;
+  return scenario;
+}
+
+test::Scene horizontal(double damping = 1.0) {
+  return test::horizontalChain("11 particles", 11, 1.0, {50.0, damping, 1.0});
+}
+
+RunMonitor monitorAfter(Scenario scenario, const test::Scene& scene, double seconds) {
+  scenario.damping = scene.chain.spring().damping;
+  MonitoredRun run(scenario, scene);
+  run.advanceTo(seconds);
+  return std::move(run.monitor());
+}
+
+// Measured: 2.495 m at 44.9 s (2.47 m in one coordinate); the energy error is 0.08 %.
+TEST(RunMonitor, RungeKutta2IsInaccurate) {
+  const RunMonitor monitor = monitorAfter(scenarioOf("Runge-Kutta-2"), horizontal(), 49.9);
+  EXPECT_EQ(monitor.verdict().kind, VerdictKind::kInaccurate);
+  EXPECT_NEAR(monitor.positionError().largest, 2.495, 0.01);
+  EXPECT_THAT(monitor.measurements(), HasSubstr("largest position error 2.5 m at t = "));
+}
+
+// Measured: 3.9e-3 m.
+TEST(RunMonitor, RungeKutta4IsOk) {
+  const RunMonitor monitor = monitorAfter(scenarioOf("Runge-Kutta-4"), horizontal(), 49.9);
+  EXPECT_EQ(monitor.verdict().kind, VerdictKind::kOk);
+  EXPECT_NEAR(monitor.positionError().largest, 3.9e-3, 1e-4);
+  EXPECT_LT(monitor.positionError().uncertainty, 1e-8);
+  EXPECT_THAT(monitor.measurements(), HasSubstr("largest energy error "));
+}
+
+TEST(RunMonitor, PositionsAreNotCheckedWithoutAReference) {
+  Scenario scenario = scenarioOf("Runge-Kutta-4");
+  scenario.reference = ReferenceUse::kNever;
+  const RunMonitor monitor = monitorAfter(scenario, horizontal(), 1.0);
+  EXPECT_EQ(monitor.verdict().kind, VerdictKind::kNotChecked);
+  EXPECT_TRUE(std::isnan(monitor.positionError().largest));
+  EXPECT_THAT(monitor.measurements(), HasSubstr("position error not measured"));
+}
+
+TEST(RunMonitor, SaysUntilWhenItMeasured) {
+  const test::Scene feather = test::horizontalChain("feather", 50, 1e-6);
+  Scenario scenario = scenarioOf("Stabilized-Taylor-8");
+  scenario.tolerance = 1e-3;
+  scenario.frame_interval = 0.01;
+  const RunMonitor monitor = monitorAfter(scenario, feather, 1.0);
+  EXPECT_EQ(monitor.verdict().kind, VerdictKind::kNotChecked);
+  EXPECT_GT(monitor.positionError().measured_until, 0.0);
+  EXPECT_THAT(monitor.measurements(), HasSubstr("(measured until t = "));
+}
+
+TEST(RunMonitor, EnergyBalanceIsNotCheckedWhereItIsCostly) {
+  Scenario scenario;
+  const Chain chain = horizontal().chain;
+  EXPECT_TRUE(energyBalanceIsCheap(scenario, chain));
+  scenario.frames = 100'000;
+  EXPECT_FALSE(energyBalanceIsCheap(scenario, chain));
+  const RunMonitor monitor = monitorAfter(scenario, horizontal(), 1.0);
+  EXPECT_FALSE(monitor.tracksDissipation());
+  EXPECT_EQ(monitor.verdict().kind, VerdictKind::kOk);
+  EXPECT_THAT(monitor.measurements(), HasSubstr("energy balance not checked"));
+}
+
+// Measured: mean energy off by 0.3 %, at most 3.4 % at a frame; largest position error 4 m.
+TEST(RunMonitor, OscillatingEnergyOfSymplecticMethodsIsNotGained) {
+  for (const char* method : {"Semi-Implicit-Euler", "Velocity-Verlet"}) {
+    for (const double damping : {0.0, 1.0}) {
+      Scenario scenario = scenarioOf(method);
+      scenario.time_step = 0.05;
+      scenario.steps_per_frame = 2;
+      const RunMonitor monitor = monitorAfter(scenario, horizontal(damping), 20.0);
+      EXPECT_LE(monitor.verdict().kind, VerdictKind::kInaccurate) << method << ' ' << damping;
+    }
+  }
+}
+
+TEST(RunMonitor, GrowingEnergyOfSymplecticMethodsIsFound) {
+  Scenario scenario = scenarioOf("Velocity-Verlet");
+  scenario.time_step = 0.2;  // above the stability limit of 0.142 s
+  const RunMonitor monitor = monitorAfter(scenario, horizontal(0.0), 20.0);
+  EXPECT_GE(monitor.verdict().kind, VerdictKind::kGainedEnergy);
+}
+
+TEST(RunMonitor, SensitiveMotionIsNotBlamedOnTheRun) {
+  Scenario scenario = scenarioOf("Auto");
+  scenario.tolerance = 1e-8;
+  test::Scene scene = test::horizontalChain("undamped", 11, 1.0, {500.0, 0.0, 1.0});
+  const RunMonitor monitor = monitorAfter(scenario, scene, 20.0);
+  EXPECT_EQ(monitor.verdict().kind, VerdictKind::kSensitive);
+  EXPECT_THAT(monitor.verdict().text, HasSubstr("sensitive from t = "));
+  EXPECT_THAT(monitor.toleranceRemark(),
+              HasSubstr("no method can keep a tolerance of 1e-08 m beyond"));
+}
+
+TEST(RunMonitor, StartsAnewAfterARestart) {
+  MonitoredRun run(scenarioOf("Euler"), horizontal());
+  run.advanceTo(5.0);
+  RunMonitor& monitor = run.monitor();
+  EXPECT_NE(monitor.verdict().kind, VerdictKind::kOk);
+  monitor.restart();
+  EXPECT_EQ(monitor.verdict().kind, VerdictKind::kOk);
+  EXPECT_TRUE(std::isnan(monitor.positionError().largest));
+}
+
+struct KnownMotion {
+  std::string scene;
+  std::vector<int> times;  ///< s, with a solution in test/data/reference
+};
+
+class ReportedErrorOn : public testing::TestWithParam<KnownMotion> {};
+
+std::string sceneName(const testing::TestParamInfo<KnownMotion>& motion) {
+  return motion.param.scene;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ReportedErrorOn,
+                         testing::Values(KnownMotion{"single_vertical", {1, 2, 5, 10, 20, 50}},
+                                         KnownMotion{"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
+                                         KnownMotion{"horizontal_11", {1, 2, 5, 10, 20, 50}},
+                                         KnownMotion{"horizontal_1000", {1, 2}},
+                                         KnownMotion{"light_100", {1, 5}},
+                                         KnownMotion{"lighter_100", {1}}),
+                         sceneName);
+
+// Measured: within 2 % wherever the error exceeds three times the reference's uncertainty.
+TEST_P(ReportedErrorOn, IsTrueWithinAFactorOfTwoForEveryMethod) {
+  const test::Scene scene = test::referenceScene(GetParam().scene);
+  for (const Method& method : methodTable()) {
+    Scenario scenario = scenarioOf(method.name);
+    scenario.reference = ReferenceUse::kAlways;
+    for (const double tolerance : {1e-3, 1e-6}) {
+      scenario.tolerance = tolerance;
+      MonitoredRun run(scenario, scene);
+      for (const int time : GetParam().times) {
+        run.advanceTo(time);
+        if (!run.monitor().isShown()) break;
+        const State exact = test::referenceSolution(GetParam().scene, time);
+        const double error =
+            (run.state().positions() - exact.positions()).rowwise().norm().maxCoeff();
+        const PositionError& reported = run.monitor().positionError();
+        SCOPED_TRACE(testing::Message() << method.name << " to " << tolerance << " m, " << time
+                                        << " s: " << error << " m, reported " << reported.now);
+        EXPECT_LE(reported.now, 2.0 * error + reported.uncertainty);
+        EXPECT_GE(reported.now, 0.5 * error - reported.uncertainty);
+      }
+      if (method.control == StepControl::kFixed) break;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum
