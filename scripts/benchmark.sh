@@ -44,7 +44,10 @@ accuracy() {
 tolerance() {
   local status=0
   run tolerance --limit 900 "$@" || status=$?
-  "$reports/tolerance.py" "$results/tolerance.csv" > "$results/tolerance.md"
+  local name
+  for name in tolerance tolerance_random; do
+    [ ! -f "$results/$name.csv" ] || "$reports/tolerance.py" "$results/$name.csv" > "$results/$name.md"
+  done
   return $status
 }
 stability() {

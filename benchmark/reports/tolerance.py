@@ -22,23 +22,31 @@ def cell(rows, label):
     return error if missing == 0 else f"{error}, {missing} not run"
 
 
-def table(rows, column, label):
-    values = result_csv.names(rows, column)
-    print(f"| method | {' | '.join(values)} |\n|---|" + "---|" * len(values))
-    for method in result_csv.names(rows, "method"):
-        of_method = [row for row in rows if row["method"] == method]
-        cells = (cell([row for row in of_method if row[column] == value], label)
+def table(rows, down, across, label):
+    values = result_csv.names(rows, across)
+    print(f"| {down} | {' | '.join(values)} |\n|---|" + "---|" * len(values))
+    for name in result_csv.names(rows, down):
+        of_name = [row for row in rows if row[down] == name]
+        cells = (cell([row for row in of_name if row[across] == value], label)
                  for value in values)
-        print(f"| {method} | {' | '.join(cells)} |")
+        print(f"| {name} | {' | '.join(cells)} |")
 
 
 def main(path):
     head, rows = result_csv.read(path)
+    sensitive = [row for row in rows if row["promise"] == "sensitive"]
+    rows = [row for row in rows if row["promise"] != "sensitive"]
+    broken = [row for row in rows if row["promise"] == "broken"]
+    print(f"{len(rows)} cases, {len(broken)} broken; {len(sensitive)} more on sensitive motions, "
+          "not listed.\n")
     print("Largest position error over the tolerance asked for; the promise is 10.\n")
     print("By tolerance in m, with the scene:\n")
-    table(rows, "tolerance_m", "scene")
+    table(rows, "method", "tolerance_m", "scene")
     print("\nBy scene, with the tolerance in m:\n")
-    table(rows, "scene", "tolerance_m")
+    table(rows, "scene", "method", "tolerance_m")
+    for row in broken:
+        print(f"- broken: {row['scene']}, {row['method']}, {row['tolerance_m']}: "
+              f"{row[ERROR]} ({row['note']})")
     print("\n" + "\n".join(f"- {line}" for line in head))
 
 

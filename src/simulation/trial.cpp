@@ -11,9 +11,9 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kRatio = 1.04;  ///< from one step size of the grid to the next
-constexpr int kStride = 8;       ///< of the coarse search, in points of the grid
-constexpr int kLookBack = 3;     ///< points below the result that have to pass as well
+constexpr double kRatio = 1.02;  ///< from one step size of the grid to the next
+constexpr int kStride = 16;      ///< of the coarse search, in points of the grid
+constexpr int kLookBack = 6;     ///< points below the result that have to pass as well
 
 /// A chain costs as if it had this many particles more.
 constexpr double kOverhead = 4.0;

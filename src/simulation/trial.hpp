@@ -59,8 +59,8 @@ class TrialBench {
   double most_work_;
 };
 
-/// The largest step size that passes, within 4 %. Every smaller one that was tried passes too:
-/// those of 4, 8 and 11 % less, and of 27 and 47 % less than `first`.
+/// The largest step size that passes, within 2 %. Every smaller one that was tried passes too:
+/// those of 2, 4, ..., 11 % less, and of 27 and 47 % less than `first`.
 /// \returns 0 if none of at least `least` s passes; infinity if all up to `most` s do
 double largestPassingStep(double first, double least, double most,
                           const std::function<bool(double)>& passes);

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <random>
-#include <utility>
 
 namespace spring_pendulum::test {
 namespace {
@@ -72,12 +71,9 @@ struct Model {
   Pair anchor_place;
 };
 
-Real largest(const Vector& v) {
-  return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff();
-}
-
 Real difference(const Motion& a, const Motion& b) {
-  const Real d = std::max(largest(a.p - b.p), kVelocityWeight * largest(a.v - b.v));
+  const Real d = std::max((a.p - b.p).lpNorm<Eigen::Infinity>(),
+                          kVelocityWeight * (a.v - b.v).lpNorm<Eigen::Infinity>());
   return a.p.allFinite() && a.v.allFinite() && b.p.allFinite() && b.v.allFinite() ? d : 1e30L;
 }
 
@@ -133,39 +129,35 @@ class Extrapolation {
   std::array<Motion, kColumns> table_;
 };
 
-/// Legendre polynomials of degree n and n - 1 at x.
-std::pair<Real, Real> legendre(int n, Real x) {
+/// P_s(x) - P_(s-1)(x) at x = 2 c - 1, with the Legendre polynomials P.
+Real radauPolynomial(int s, Real c) {
+  const Real x = 2 * c - 1;
   Real before = 1;
   Real now = x;
-  for (int k = 2; k <= n; ++k) {
+  for (int k = 2; k <= s; ++k) {
     const Real next = ((2 * k - 1) * x * now - (k - 1) * before) / k;
     before = now;
     now = next;
   }
-  return {now, before};
+  return now - before;
 }
 
-/// The roots of P_s(x) - P_(s-1)(x), moved from [-1, 1] to [0, 1], in rising order.
+/// The roots of the Radau polynomial in rising order.
 Vector radauNodes(int stages) {
-  const auto value = [stages](Real c) {
-    const auto [now, before] = legendre(stages, 2 * c - 1);
-    return now - before;
-  };
-  Vector nodes(stages);
   constexpr int kParts = 1000;
+  Vector nodes = Vector::Ones(stages);
   int found = 0;
   for (int i = 0; i < kParts && found + 1 < stages; ++i) {
     Real least = Real(i) / kParts;
     Real most = Real(i + 1) / kParts;
-    const bool below = value(least) < 0;
-    if ((value(most) < 0) == below) continue;
+    const bool below = radauPolynomial(stages, least) < 0;
+    if ((radauPolynomial(stages, most) < 0) == below) continue;
     for (int n = 0; n < 64; ++n) {
       const Real middle = (least + most) / 2;
-      ((value(middle) < 0) == below ? least : most) = middle;
+      ((radauPolynomial(stages, middle) < 0) == below ? least : most) = middle;
     }
     nodes[found++] = least;
   }
-  nodes[stages - 1] = 1;
   return nodes;
 }
 
@@ -210,17 +202,15 @@ class Radau {
 
  private:
   static constexpr int kStages = 5;
-  static constexpr int kReuses = 4;
-  static constexpr int kIterations = 24;
+  static constexpr int kReuses = 4, kIterations = 24;
 
   bool solve(Motion& z, Real h) {
-    Vector x(kStages * unknowns_);
-    for (int i = 0; i < kStages; ++i) {
-      x.segment(i * unknowns_, 2 * model_.size) = z.v;
-      for (Eigen::Index s = 0; s < model_.size; ++s) {
-        x[i * unknowns_ + 2 * model_.size + s] = model_.tension(model_.spring(z, s));
-      }
+    Vector first(unknowns_);
+    first.head(2 * model_.size) = z.v;
+    for (Eigen::Index s = 0; s < model_.size; ++s) {
+      first[2 * model_.size + s] = model_.tension(model_.spring(z, s));
     }
+    Vector x = first.replicate(kStages, 1);
     Real last = 1e30L;
     for (int n = 0; n < kIterations; ++n) {
       const Vector correction = newton(z, h, x, n % kReuses == 0);
@@ -228,7 +218,8 @@ class Radau {
       x -= correction;
       Real size = 0;
       for (int i = 0; i < kStages; ++i) {
-        size = std::max(size, largest(correction.segment(i * unknowns_, 2 * model_.size)));
+        const auto velocities = correction.segment(i * unknowns_, 2 * model_.size);
+        size = std::max(size, velocities.lpNorm<Eigen::Infinity>());
       }
       // Good, or as good as rounding lets it become.
       if (size < 1e-17L || (size < 1e-12L && size > 0.1L * last)) {

@@ -24,7 +24,7 @@ struct StepLimits {
   double accurate = 0.0;  ///< largest with the verdict `ok`
 };
 
-/// Finds the limits of a fixed-step method by trying, within 4 %: every smaller step size that was
+/// Finds the limits of a fixed-step method by trying, within 2 %: every smaller step size that was
 /// tried passed too.
 /// \param first          step size in s to start at
 /// \param duration       of the run, s
