@@ -1,6 +1,5 @@
 #include "model/chain_modes.hpp"
 #include "simulation/trial.hpp"
-#include <spring_pendulum/simulation/reference_run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
@@ -13,9 +12,6 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-/// Position errors up to this share of the chain's length are `ok`.
-constexpr double kAccurate = 0.01;
 
 /// The linear limit is multiplied by these; the second one is for methods that let undamped swinging
 /// grow. Measured on random scenes: without, up to 1.9 and 2.5 times too large.
@@ -31,9 +27,8 @@ bool isStable(const Trial& trial) {
   return trial.affordable && trial.verdict.kind < VerdictKind::kGainedEnergy;
 }
 
-bool isOk(const Trial& trial, double length) {
-  return trial.affordable && trial.verdict.kind == VerdictKind::kOk &&
-         !(trial.position_error > kAccurate * length);
+bool isAccurate(const Trial& trial) {
+  return trial.affordable && !isBad(trial.verdict.kind);
 }
 
 double stableStep(const TrialBench& bench, const Method& method, double first) {
@@ -42,9 +37,9 @@ double stableStep(const TrialBench& bench, const Method& method, double first) {
   });
 }
 
-double accurateStep(const TrialBench& bench, const Method& method, double first, double length) {
+double accurateStep(const TrialBench& bench, const Method& method, double first) {
   return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
-    return isOk(bench.run(method, step, true, VerdictKind::kDrift), length);
+    return isAccurate(bench.run(method, step, true, VerdictKind::kInaccurate));
   });
 }
 
@@ -77,10 +72,14 @@ std::string stepText(double step) {
 }
 
 std::string errorText(const Trial& trial) {
+  const PositionError& error = trial.position_error;
   const std::string position =
-      std::isnan(trial.position_error)
-          ? "position error unknown (the motion is too sensitive or too costly to follow)"
-          : fmt::format("largest position error {:.2g} m", trial.position_error);
+      std::isnan(error.largest)
+          ? "position error unknown"
+          : fmt::format(
+                "largest position error {:.2g} m at t = {:.4g} s{}", error.largest,
+                error.largest_time,
+                trial.measured ? "" : fmt::format(" (known until {:.4g} s)", error.measured_until));
   return fmt::format("{}, largest energy error {:.2g} % of the energy scale", position,
                      100.0 * trial.energy_error);
 }
@@ -104,13 +103,13 @@ Candidate cheapestStep(const TrialBench& bench, const Method& method, double fir
   Candidate candidate{&method, 0.0};
   const double least = std::max(bench.leastStep(method), bench.duration() * method.stages /
                                                              static_cast<double>(most_evaluations));
-  const auto isAccurate = [&](const Trial& trial) {
-    return isStable(trial) && trial.position_error <= wanted;
+  const auto passes = [&](const Trial& trial) {
+    return isStable(trial) && trial.measured && trial.position_error.largest <= wanted;
   };
   if (method.control == StepControl::kErrorControlled) {
     for (double tolerance = 10.0 * wanted; tolerance > 0.005 * wanted; tolerance *= 0.1) {
       const Trial trial = bench.run(method, tolerance, true, VerdictKind::kGainedEnergy);
-      if (!trial.affordable || isAccurate(trial)) {
+      if (!trial.affordable || passes(trial)) {
         if (trial.affordable) candidate = {&method, tolerance, trial.evaluations};
         break;
       }
@@ -118,7 +117,7 @@ Candidate cheapestStep(const TrialBench& bench, const Method& method, double fir
     return candidate;
   }
   candidate.step = largestPassingStep(first, least, bench.duration(), [&](double step) {
-    return isAccurate(bench.run(method, step, true, VerdictKind::kGainedEnergy));
+    return passes(bench.run(method, step, true, VerdictKind::kGainedEnergy));
   });
   if (candidate.step > 0.0 && std::isfinite(candidate.step)) {
     candidate.evaluations = std::llround(bench.duration() / candidate.step * method.stages);
@@ -156,8 +155,7 @@ StepLimits findStepLimits(const Method& method, const Chain& chain, const State&
   StepLimits limits;
   limits.stable = stableStep(bench, method, first);
   if (limits.stable == 0.0) return limits;
-  limits.accurate =
-      accurateStep(bench, method, std::min(first, limits.stable), chainLength(chain, start));
+  limits.accurate = accurateStep(bench, method, std::min(first, limits.stable));
   return limits;
 }
 

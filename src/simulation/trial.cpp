@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -89,29 +90,34 @@ class Grid {
 Trial TrialBench::run(const Method& method, double tolerance, const FrameSteps& frame,
                       std::int64_t frames, bool with_reference, VerdictKind enough) const {
   const auto integrator = makeIntegrator(method.name, chain_, {tolerance, true, 1});
-  Judge judge(chain_, start_, true);
-  ReferenceRun reference(chain_, start_);
+  const bool fixed = method.control == StepControl::kFixed;
+  Judge judge(chain_, start_, JudgeOptions{true, method.symplectic ? frame.time_step : 0.0});
+  ReferenceOptions options;
+  if (!fixed) options.run_tolerance = tolerance;
+  ReferenceRun reference(chain_, start_, options);
   State state = start_;
   Trial trial;
-  if (with_reference) trial.position_error = 0.0;
   const auto most = static_cast<std::int64_t>(most_work_ / weight(chain_));
-  if (method.control == StepControl::kFixed) {
+  if (fixed) {
     const double steps = static_cast<double>(frames) * static_cast<double>(frame.steps);
     trial.affordable = steps * method.stages <= static_cast<double>(most);
   }
   for (std::int64_t n = 1; n <= frames && trial.affordable; ++n) {
     trial.affordable = advanceWithin(*integrator, state, frame, most);
-    judge.judge(frame.timeOfFrame(n), state, integrator->dissipatedEnergy());
-    trial.energy_error =
-        std::max(trial.energy_error, std::abs(judge.entry().relative_residual.value_or(0.0)));
     trial.evaluations = integrator->forceEvaluations();
+    const double time = frame.timeOfFrame(n);
     if (with_reference) {
       reference.advance(frame.time_step, frame.steps, trial.evaluations);
-      const double error = reference.errorOf(state);
-      if (!(error <= trial.position_error)) trial.position_error = error;
+      judge.judge(time, state, integrator->dissipatedEnergy(), &reference);
+    } else {
+      judge.judge(time, state, integrator->dissipatedEnergy());
     }
+    trial.energy_error =
+        std::max(trial.energy_error, std::abs(judge.entry().relative_residual.value_or(0.0)));
     if (judge.latest().kind >= enough) break;
   }
+  trial.position_error = judge.positionError();
+  trial.measured = with_reference && reference.isMeasuring();
   trial.verdict = judge.worst();
   return trial;
 }

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 
 namespace spring_pendulum {
 
@@ -16,8 +15,8 @@ struct Trial {
   bool affordable = true;  ///< whether it ended within the work allowed
   Verdict verdict;
   double energy_error = 0.0;  ///< largest residual of the energy balance in energy scales
-  /// Largest position error, m; NaN if the reference could not follow to the end.
-  double position_error = std::numeric_limits<double>::quiet_NaN();
+  PositionError position_error;
+  bool measured = false;         ///< whether the reference could follow to the end
   std::int64_t evaluations = 0;  ///< of the force, without those of the reference
 };
 

@@ -19,7 +19,7 @@ std::string mapOf(const char* method, const std::vector<double>& values,
     if (!map.empty()) map += " ";
     for (const double value : values) {
       const Verdict verdict = test::verdictOfRun(scene(value), findMethod(method), step, 5.0, true);
-      map += ".dgX"[static_cast<int>(verdict.kind)];
+      map += "....dgX"[static_cast<int>(verdict.kind)];
     }
   }
   return map;

@@ -21,7 +21,7 @@ namespace spring_pendulum {
 /// Step sizes in s; 0 where even the smallest affordable one fails, infinite where all pass.
 struct StepLimits {
   double stable = 0.0;    ///< largest without divergence or gain of energy
-  double accurate = 0.0;  ///< largest with the verdict `ok`
+  double accurate = 0.0;  ///< largest whose verdict does not blame the run (isBad)
 };
 
 /// Finds the limits of a fixed-step method by trying, within 2 %: every smaller step size that was
