@@ -27,6 +27,10 @@ Totals play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& fi
   ParameterWatch parameters;
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
+    if (action == Player::Action::kShowBetween) {
+      publisher.publishBetween(run, player.pace(), player.shownShare());
+      continue;
+    }
     if (action == Player::Action::kReset) run.reset();
     if (action == Player::Action::kAdvance || action == Player::Action::kAdvanceFrame) {
       const std::int64_t frame = run.frame(), steps = run.steps();
@@ -37,7 +41,7 @@ Totals play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& fi
       totals.steps += run.steps() - steps;
     }
     run.writeTo(files);
-    publisher.publish(run, player.isPaused(), player.pace());
+    publisher.publish(run, player.isPaused(), player.pace(), player.shownShare());
     log.follow(run, totals, files, publisher);
     parameters.look();
   }

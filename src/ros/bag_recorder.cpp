@@ -50,7 +50,8 @@ class BagRecorder {
     header.frame_id = frame_id_;
     header.stamp = stamps_.next(run.time());
     marker_builder_.trackTip(run);
-    const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, header, "");
+    shown_.follow(run);
+    const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, shown_, header, "");
     writeCamera(header);
     bag_.write(markers_topic_, header.stamp, markers);
     bag_.write(state_topic_, header.stamp, state_builder_.build(run, header));
@@ -83,6 +84,7 @@ class BagRecorder {
   std::string frame_id_;
   std::string camera_frame_;
   MarkerBuilder marker_builder_;
+  ShownState shown_;
   StateBuilder state_builder_;
   Stamps stamps_{true};
   std::string markers_topic_;

@@ -122,12 +122,12 @@ MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
   if (!options.color.empty()) markers_.markers[kText].color = *parseColor(options.color);
 }
 
-void MarkerBuilder::frame(const PendulumRun& run) {
+void MarkerBuilder::frame(const PendulumRun& run, const State& state) {
   const bool drawable = run.isFinite() && run.isShown();
   if (!view_) {
     view_.emplace(run, textLines());
-    if (drawable) view_->follow(run.state());
-  } else if (!drawable || !view_->follow(run.state())) {
+    if (drawable) view_->follow(state);
+  } else if (!drawable || !view_->follow(state)) {
     return;
   }
   ++camera_changes_;
@@ -203,14 +203,15 @@ void MarkerBuilder::trackTip(const PendulumRun& run) {
 }
 
 const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& run,
+                                                            const ShownState& shown,
                                                             const std_msgs::Header& header,
                                                             const std::string& pace) {
   for (visualization_msgs::Marker& marker : markers_.markers) marker.header = header;
-  frame(run);
-  if (run.isFinite() && run.isShown()) place(run);
+  frame(run, shown.state());
+  if (run.isFinite() && run.isShown()) place(run, shown.state());
   if (placed_) paint(run);
-  drawTrail();
-  label(run, pace);
+  drawTrail(shown);
+  label(run, shown.time(), pace);
   placeText();
   for (const MarkerIndex list : {kSprings, kParticles, kTrail, kGrid}) {
     hideIfEmpty(markers_.markers[list]);
@@ -218,7 +219,7 @@ const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& r
   return markers_;
 }
 
-void MarkerBuilder::place(const PendulumRun& run) {
+void MarkerBuilder::place(const PendulumRun& run, const State& state) {
   auto& particles = markers_.markers[kParticles].points;
   auto& springs = markers_.markers[kSprings].points;
   particles.clear();
@@ -227,13 +228,13 @@ void MarkerBuilder::place(const PendulumRun& run) {
   placed_ = true;
   if (drawn_.size() < 2) return;
   for (std::size_t n = 0; n < drawn_.size(); ++n) {
-    particles.push_back(pointOf(run.state(), drawn_[n]));
+    particles.push_back(pointOf(state, drawn_[n]));
     if (n == 0) continue;
     springs.push_back(particles[n - 1]);
     springs.push_back(particles[n]);
     double length = 0.0;
     for (Eigen::Index i = drawn_[n - 1]; i < drawn_[n]; ++i) {
-      length += (run.state().positions().row(i + 1) - run.state().positions().row(i)).norm();
+      length += (state.positions().row(i + 1) - state.positions().row(i)).norm();
     }
     const auto thinned = static_cast<double>(drawn_[n] - drawn_[n - 1]);
     strains_.push_back(strainOf(length / thinned, run.chain().spring().rest_length));
@@ -260,11 +261,12 @@ void MarkerBuilder::paint(const PendulumRun& run) {
   }
 }
 
-void MarkerBuilder::drawTrail() {
+void MarkerBuilder::drawTrail(const ShownState& shown) {
   auto& trail = markers_.markers[kTrail];
   trail.points.clear();
   trail.colors.clear();
   for (const TrailPoint& point : trail_) {
+    if (point.time > shown.time()) break;
     trail.points.push_back(point.point);
     std_msgs::ColorRGBA color =
         options_.color.empty() ? mass_colors_.back() : *parseColor(options_.color);
@@ -278,11 +280,11 @@ int MarkerBuilder::textLines() const {
   return std::max(kTextLines, static_cast<int>(options_.text_rows));
 }
 
-void MarkerBuilder::label(const PendulumRun& run, const std::string& pace) {
+void MarkerBuilder::label(const PendulumRun& run, double time, const std::string& pace) {
   const Scenario& scenario = run.scenario();
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
   const EnergyEntry entry = run.energyEntry();
-  const std::string time = fmt::format("t = {:.2f} s", run.time());
+  const std::string clock = fmt::format("t = {:.2f} s", time);
   const std::string error =
       entry.relative_residual ? fmt::format("energy error {:.1e}", *entry.relative_residual) : "";
   const double position_error = run.positionError().now;
@@ -294,13 +296,13 @@ void MarkerBuilder::label(const PendulumRun& run, const std::string& pace) {
   }
   std::string& text = markers_.markers[kText].text;
   if (options_.text_rows > 1) {
-    text = joined({scenario.method + ": " + time, position, error, verdict});
+    text = joined({scenario.method + ": " + clock, position, error, verdict});
     return;
   }
   text = joined({scenario.method,
                  fixed_step ? fmt::format("time step {:.3g} s", scenario.time_step)
                             : fmt::format("tolerance {:.3g} m", scenario.tolerance),
-                 time}) +
+                 clock}) +
          "\n" + joined({position, error, verdict}) + "\n" +
          joined({pace, fmt::format("grid {:g} m", view_->gridDistance()),
                  static_cast<Eigen::Index>(drawn_.size()) < run.chain().size()

@@ -9,6 +9,7 @@
 #include "ros/node_options.hpp"
 #include "ros/pendulum_run.hpp"
 #include "ros/scene_view.hpp"
+#include "ros/shown_state.hpp"
 
 #include <geometry_msgs/TransformStamped.h>
 #include <std_msgs/Header.h>
@@ -32,7 +33,7 @@ class MarkerBuilder {
   /// and changes its colour.
   /// \param pace how fast the run goes, for the text: "1.00 x real time"
   /// \return valid until the next call
-  const visualization_msgs::MarkerArray& build(const PendulumRun& run,
+  const visualization_msgs::MarkerArray& build(const PendulumRun& run, const ShownState& shown,
                                                const std_msgs::Header& header,
                                                const std::string& pace);
 
@@ -48,14 +49,14 @@ class MarkerBuilder {
   };
 
   int textLines() const;
-  void frame(const PendulumRun& run);
+  void frame(const PendulumRun& run, const State& state);
   void placeText();
   void drawGrid();
   geometry_msgs::Point pointOf(const State& state, Eigen::Index i) const;
-  void place(const PendulumRun& run);
+  void place(const PendulumRun& run, const State& state);
   void paint(const PendulumRun& run);
-  void drawTrail();
-  void label(const PendulumRun& run, const std::string& pace);
+  void drawTrail(const ShownState& shown);
+  void label(const PendulumRun& run, double time, const std::string& pace);
   std_msgs::ColorRGBA springColor(const PendulumRun& run, std::size_t spring) const;
 
   NodeOptions options_;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, while the run stands
 constexpr double kLongestWait = 0.1;        // s, how fast the end of ROS is noticed
+constexpr double kSlowStates = 1.5;         // states that display_rate wants for each of the run's
 constexpr double kLoopPause = 1.0;          // s, the last frame is looked at before a loop
 
 void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
@@ -51,14 +52,20 @@ Player::Action Player::next() {
     if (!isWanted()) break;
     const ros::SteadyTime now = ros::SteadyTime::now();
     if (reset_wanted_) return reset();
+    if (isAhead()) {
+      if (now < next_between_) continue;
+      next_between_ = now + ros::WallDuration(1.0 / options_.display_rate);
+      return Action::kShowBetween;
+    }
     if (isDue()) {
+      ahead_from_ = isSlow() ? run_.time() : -1.0;
       stands_since_ = ros::SteadyTime();
       if (steps_wanted_ > 0) --steps_wanted_;
       const bool hurry =
           paused_ || (options_.follow.empty() && pacer_.isLate(run_.nextTime(), now));
       return hurry ? Action::kAdvanceFrame : Action::kAdvance;
     }
-    if (run_.isOver() && options_.at_end == AtEnd::kExit) return Action::kQuit;
+    if (isAtExit()) return Action::kQuit;
     if (!run_.isOver() && !paused_) continue;
     if (stands_since_.isZero()) {
       stands_since_ = last_shown_ = now;
@@ -76,6 +83,7 @@ Player::Action Player::next() {
 }
 
 Player::Action Player::reset() {
+  ahead_from_ = -1.0;
   reset_wanted_ = false;
   steps_wanted_ = 0;
   stands_since_ = ros::SteadyTime();
@@ -87,18 +95,43 @@ bool Player::isDue() const {
   if (run_.isOver()) return false;
   if (paused_) return steps_wanted_ > 0;
   if (!options_.follow.empty()) return run_.nextTime() <= leader_time_;
-  return ros::SteadyTime::now() >= pacer_.dueTime(run_.nextTime());
+  return ros::SteadyTime::now() >= pacer_.dueTime(isSlow() ? run_.time() : run_.nextTime());
+}
+
+bool Player::isSlow() const {
+  if (paused_ || run_.isOver() || !options_.follow.empty() || options_.publish_clock) return false;
+  const double states = (run_.nextTime() - run_.time()) * options_.display_rate;
+  return states > kSlowStates * options_.real_time_factor && options_.real_time_factor > 0.0;
+}
+
+bool Player::isAhead() const {
+  return !paused_ && ahead_from_ >= 0.0 && ahead_from_ < run_.time() &&
+         ros::SteadyTime::now() < pacer_.dueTime(run_.time());
+}
+
+double Player::shownShare() const {
+  if (!isAhead()) return 1.0;
+  const double ahead = (pacer_.dueTime(run_.time()) - ros::SteadyTime::now()).toSec();
+  const double share = 1.0 - ahead * options_.real_time_factor / (run_.time() - ahead_from_);
+  return std::clamp(share, 0.0, 1.0);
 }
 
 void Player::serveUntilDue() {
   auto* callbacks = ros::getGlobalCallbackQueue();
   callbacks->callAvailable();
-  if (reset_wanted_ || isDue() || (run_.isOver() && options_.at_end == AtEnd::kExit)) return;
+  if (reset_wanted_ || (!isAhead() && (isDue() || isAtExit()))) return;
   double wait = kLongestWait;
-  if (!run_.isOver() && !paused_ && options_.follow.empty()) {
-    wait = std::min(wait, (pacer_.dueTime(run_.nextTime()) - ros::SteadyTime::now()).toSec());
+  if (isAhead()) {
+    wait = std::min(wait, (next_between_ - ros::SteadyTime::now()).toSec());
+  } else if (!run_.isOver() && !paused_ && options_.follow.empty()) {
+    const double next = isSlow() ? run_.time() : run_.nextTime();
+    wait = std::min(wait, (pacer_.dueTime(next) - ros::SteadyTime::now()).toSec());
   }
   if (wait > 0.0) callbacks->callAvailable(ros::WallDuration(wait));
+}
+
+bool Player::isAtExit() const {
+  return run_.isOver() && options_.at_end == AtEnd::kExit;
 }
 
 std::string Player::pace() const {

@@ -22,6 +22,7 @@ class Player {
     kAdvance,       ///< on to the next state shown
     kAdvanceFrame,  ///< on to the next frame
     kReset,         ///< back to frame 0
+    kShowBetween,   ///< slow motion: show a state between the last two, see `shownShare`
     kShowAgain,     ///< nothing moves; show the same once more to who came late
     kQuit
   };
@@ -34,6 +35,9 @@ class Player {
   Action next();
 
   bool isPaused() const { return paused_; }
+  /// What to show: 1 for the state of the run, less for one between it and the state before. In
+  /// slow motion a run is one state ahead of what is shown.
+  double shownShare() const;
   /// How fast the run goes: "1.00 x real time"
   std::string pace() const;
 
@@ -49,6 +53,9 @@ class Player {
   std::string overMessage() const;
   Action reset();
   bool isDue() const;
+  bool isSlow() const;
+  bool isAhead() const;
+  bool isAtExit() const;
   void serveUntilDue();
 
   const PendulumRun& run_;
@@ -57,6 +64,8 @@ class Player {
   bool paused_ = false;
   bool reset_wanted_ = false;
   std::int64_t steps_wanted_ = 0;
+  double ahead_from_ = -1.0;  ///< s, time of the state before the run's in slow motion, else < 0
+  ros::SteadyTime next_between_;
   double leader_time_ = -1.0;     ///< s, simulated time of the node that is followed
   ros::SteadyTime stands_since_;  ///< zero while the run moves
   ros::SteadyTime last_shown_;    ///< while the run stands

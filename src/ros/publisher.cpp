@@ -108,7 +108,8 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   }
 }
 
-void Publisher::publish(const PendulumRun& run, bool paused, const std::string& pace) {
+void Publisher::publish(const PendulumRun& run, bool paused, const std::string& pace,
+                        double share) {
   std_msgs::Header header;
   header.frame_id = frame_id_;
   header.stamp = stamps_.next(run.time());
@@ -118,7 +119,7 @@ void Publisher::publish(const PendulumRun& run, bool paused, const std::string& 
     clock_.publish(clock);
   }
   marker_builder_.trackTip(run);
-  if (markers_.getNumSubscribers() > 0) publishMarkers(run, header, pace);
+  if (markers_.getNumSubscribers() > 0) publishMarkers(run, header, pace, share);
   if (state_.getNumSubscribers() > 0) {
     state_.publish(state_builder_.build(run, header));
     ++states_built_;
@@ -126,9 +127,18 @@ void Publisher::publish(const PendulumRun& run, bool paused, const std::string& 
   publishStatus(statusOf(run, paused), header.stamp);
 }
 
+void Publisher::publishBetween(const PendulumRun& run, const std::string& pace, double share) {
+  if (markers_.getNumSubscribers() == 0) return;
+  std_msgs::Header header;
+  header.frame_id = frame_id_;
+  header.stamp = stamps_.next(run.time());
+  publishMarkers(run, header, pace, share);
+}
+
 void Publisher::publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
-                               const std::string& pace) {
-  const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, header, pace);
+                               const std::string& pace, double share) {
+  shown_.follow(run, share);
+  const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, shown_, header, pace);
   if (!camera_frame_.empty() && marker_builder_.cameraChanges() != camera_changes_sent_) {
     camera_changes_sent_ = marker_builder_.cameraChanges();
     tf2_msgs::TFMessage message;

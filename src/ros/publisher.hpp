@@ -5,6 +5,7 @@
 
 #include "ros/marker_builder.hpp"
 #include "ros/master_registration.hpp"
+#include "ros/shown_state.hpp"
 #include "ros/stamps.hpp"
 #include "ros/state_builder.hpp"
 #include <spring_pendulum/PendulumStatus.h>
@@ -32,8 +33,11 @@ class Publisher {
   void waitForSubscribers(const NodeOptions& options);
 
   /// Sends the state to all who want it, and the status if it has changed.
-  /// \param pace how fast the run goes, for the text
-  void publish(const PendulumRun& run, bool paused, const std::string& pace);
+  /// \param pace  how fast the run goes, for the text
+  /// \param share the markers show this share of the way from the state before to that of the run
+  void publish(const PendulumRun& run, bool paused, const std::string& pace, double share);
+  /// Sends only the markers again, of a state between the last two.
+  void publishBetween(const PendulumRun& run, const std::string& pace, double share);
 
   std::int64_t markersBuilt() const { return markers_built_; }
   std::int64_t statesBuilt() const { return states_built_; }
@@ -41,7 +45,7 @@ class Publisher {
  private:
   std::uint32_t subscribers() const;
   void publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
-                      const std::string& pace);
+                      const std::string& pace, double share);
   void publishStatus(PendulumStatus status, const ros::Time& stamp);
 
   std::string frame_id_;
@@ -49,6 +53,7 @@ class Publisher {
   bool publishes_clock_;
   Stamps stamps_;
   MarkerBuilder marker_builder_;
+  ShownState shown_;
   StateBuilder state_builder_;
   PendulumStatus status_;
   bool status_sent_ = false;

@@ -18,14 +18,14 @@ bool isFixedStep(const PendulumRun& run) {
   return findMethod(run.scenario().method).control == StepControl::kFixed;
 }
 
-/// Warns of a display rate above the number of states that a fixed step gives.
-void warnOfDisplayRate(const PendulumRun& run, const NodeOptions& options) {
+/// Tells of a display rate above the number of states that a fixed step gives.
+void tellOfDisplayRate(const PendulumRun& run, const NodeOptions& options) {
   if (!isFixedStep(run) || options.real_time_factor <= 0.0) return;
   const double states = options.real_time_factor / run.scenario().time_step;
   if (options.display_rate <= states * (1.0 + 1e-9)) return;
-  ROS_WARN_STREAM(fmt::format(
+  ROS_INFO_STREAM(fmt::format(
       "display_rate is {:g} Hz, but a time step of {:g} s gives only {:.3g} states per second at "
-      "real_time_factor {:g}",
+      "real_time_factor {:g}: the markers are interpolated between them",
       options.display_rate, run.scenario().time_step, states, options.real_time_factor));
 }
 
@@ -57,7 +57,7 @@ void RunLog::start(const PendulumRun& run, const NodeOptions& options,
       scenario.method << " on "
                       << std::filesystem::absolute(scenario.particles).lexically_normal().string()
                       << ", " << files.description());
-  warnOfDisplayRate(run, options);
+  tellOfDisplayRate(run, options);
   if (!options.follow.empty()) {
     ROS_INFO_STREAM("waiting for states of another node on " << options.follow << " (follow)");
   }

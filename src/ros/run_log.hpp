@@ -23,7 +23,7 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
 
 class RunLog {
  public:
-  /// Says at INFO what will be run, and at WARN a display rate that cannot be reached.
+  /// Says what will be run, and at INFO that the display rate is above the number of states.
   void start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) const;
 
   /// To be called after every action. Says once each: a bad verdict, the divergence with what to

@@ -13,7 +13,7 @@ from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
-from pendulum_process import Folder, Listener, PendulumNode, project, run_exercise
+from pendulum_process import Folder, Listener, PendulumNode, project, read_frames, run_exercise
 
 HORIZONTAL = project('data/horizontal_11.txt')
 
@@ -165,6 +165,21 @@ class Topics(unittest.TestCase):
         self.assertLessEqual(len(set(times)), 61)
         elapsed = (state.messages[-1].header.stamp - state.messages[0].header.stamp).to_sec()
         self.assertGreater(elapsed, 1.45)
+
+    def test_slow_motion_is_smooth_and_leaves_the_frames_as_they_are(self):
+        markers, state = self.listen('markers', MarkerArray), self.listen('state', PendulumState)
+        with Folder() as folder, Folder() as expected_folder:
+            with PendulumNode(frames=3, real_time_factor=0.1, display_rate=40.0, output=folder,
+                              wait_for_subscribers=2) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(read_frames(folder), run_exercise(
+                expected_folder, 'Runge-Kutta-4', '--frames', '3', '--particles',
+                project('data/particle.txt')))
+        self.assertLessEqual(len({m.time for m in state.messages}), 21)  # 20 steps
+        tips = [m.markers[1].points[-1].z for m in markers.messages]
+        # 2 s at 40 Hz; a busy machine shows fewer.
+        self.assertGreater(len(set(tips)), 25)
+        self.assertEqual(tips, sorted(tips, reverse=True), 'the tip falls')
 
     def test_two_nodes_in_two_namespaces(self):
         a, b = self.listen('/a/state', PendulumState), self.listen('/b/state', PendulumState)

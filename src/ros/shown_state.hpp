@@ -1,0 +1,30 @@
+// The state that the markers show: that of the run, or in slow motion one between the last two.
+#pragma once
+
+#include "ros/pendulum_run.hpp"
+
+namespace spring_pendulum {
+
+class ShownState {
+ public:
+  /// Takes the state of the run.
+  /// \param share 1: that state; less: this share of the way to it from the state before, with
+  ///   the cubic that has the positions and velocities of both
+  void follow(const PendulumRun& run, double share = 1.0);
+
+  const State& state() const { return between_ ? shown_ : last_; }
+  double time() const { return time_; }  ///< s, simulated
+
+ private:
+  void interpolate(double share);
+
+  State before_;
+  State last_;
+  State shown_;
+  bool between_ = false;
+  double before_time_ = 0.0;
+  double last_time_ = 0.0;
+  double time_ = 0.0;
+};
+
+}  // namespace spring_pendulum
