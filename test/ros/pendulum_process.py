@@ -154,5 +154,9 @@ def methods():
     """Names of all methods, and whether they control their error."""
     listed = subprocess.run([program('Exercise3'), '--list-methods'], capture_output=True,
                             text=True, check=True).stdout
-    return [(line.split()[0], 'error-controlled' in line)
-            for line in listed.splitlines() if line[:1].strip()]
+    found, error_controlled = [], False
+    for line in listed.splitlines():
+        error_controlled = error_controlled or line.startswith('Error-controlled')
+        if re.match(r'  \S', line):
+            found.append((line.split()[0], error_controlled))
+    return found
