@@ -35,7 +35,7 @@ std::string helpFor(const Option& option) {
   std::string help(option.meaning);
   if (option.applies_to == AppliesTo::kFixedStep) help += "; fixed-step methods";
   if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
-  if (option.isFlag()) return help;
+  if (option.placeholder().empty()) return help;
   const std::string value = option.text();
   return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,
                      option.unit.empty() ? "" : " ", option.unit);
@@ -55,7 +55,7 @@ po::options_description describe(const OptionSet& options) {
   for (const Option& option : options.options()) {
     const std::string name = optionName(option.key);
     if (option.key == kMethodKey) continue;
-    if (option.isFlag()) {
+    if (option.placeholder().empty()) {
       description.add_options()(name.c_str(), helpFor(option).c_str());
     } else {
       addWithValue(description, name, option.placeholder(), helpFor(option));
@@ -131,7 +131,7 @@ std::vector<std::string_view> setOptions(const std::vector<po::option>& given, O
     }
     for (const Option& option : options.options()) {
       if (optionName(option.key) != argument.string_key) continue;
-      options.set(option, option.isFlag() ? "true" : argument.value.front(),
+      options.set(option, argument.value.empty() ? "true" : argument.value.front(),
                   "--" + argument.string_key);
       keys.push_back(option.key);
     }

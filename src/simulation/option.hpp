@@ -39,34 +39,38 @@ class Range {
 ///   assign(text)   stores the value; false, and nothing stored, if the text is out of range
 ///   text()         the value as text that `assign` accepts
 ///   range()        the accepted values in words
-///   placeholder()  what stands for the value in the help text; empty for a flag
+///   placeholder()  what stands for the value in the help text; empty if its name alone sets it
 struct Number {
   double* value;
   Range accepted;
+  std::string_view name = "X";  ///< of the value
 
   bool assign(std::string_view text) const;
   std::string text() const;
   std::string range() const;
-  std::string placeholder() const { return "X"; }
+  std::string placeholder() const { return std::string(name); }
 };
 
 struct Count {
   std::int64_t* value;
   Range accepted;
+  std::string_view name = "N";  ///< of the value
 
   bool assign(std::string_view text) const;
   std::string text() const;
   std::string range() const;
-  std::string placeholder() const { return "N"; }
+  std::string placeholder() const { return std::string(name); }
 };
 
 struct Flag {
   bool* value;
+  std::string_view accepted = "true or false";
 
   bool assign(std::string_view text) const;
   std::string text() const { return *value ? "true" : "false"; }
-  std::string range() const { return "true or false"; }
-  std::string placeholder() const { return ""; }
+  std::string range() const { return std::string(accepted); }
+  /// The name alone can only turn a flag on, so one that is on by default takes a value.
+  std::string placeholder() const { return *value ? "true|false" : ""; }
 };
 
 struct Text {

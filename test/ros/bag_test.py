@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """record_bag: the node's messages in a bag, the same bytes every run, read back by everything that
 reads bags."""
+import math
 import os
 import subprocess
 import unittest
@@ -120,6 +121,11 @@ class Bag(unittest.TestCase):
             self.assertEqual(read_frames(folder + '/frames'), expected)
             with open(folder + '/energy.csv') as ours, open(expected_folder + '/energy.csv') as theirs:
                 self.assertEqual(ours.read(), theirs.read())
+
+    def test_energy_tracking_can_be_switched_off(self):
+        with Folder() as folder:
+            path, _ = record(folder, 'one.bag', '--frames', '2', '--track-energy', 'false')
+            self.assertTrue(math.isnan(contents(path, '/state')[-1][0].energy_error))
 
     def test_bad_use_leaves_no_file(self):
         cases = [(('--color', 'red'), 2, "--color: must be #rrggbb"), (('--frames', '0'), 2, 'frames'),
