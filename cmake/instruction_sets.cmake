@@ -2,9 +2,10 @@
 # is compiled for the baseline of the architecture.
 set(kernel_sources src/integration/kernels/baseline.cpp)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(avx2_flags -mavx2 -mfma)
   list(APPEND kernel_sources src/integration/kernels/avx2.cpp src/integration/kernels/avx512.cpp)
   set_source_files_properties(src/integration/kernels/avx2.cpp PROPERTIES
-    COMPILE_OPTIONS "-mavx2;-mfma")
+    COMPILE_OPTIONS "${avx2_flags}")
   set_source_files_properties(src/integration/kernels/avx512.cpp PROPERTIES
     COMPILE_OPTIONS "-mfma;-mavx512f;-mavx512dq;-mavx512vl;-mprefer-vector-width=512")
   set_source_files_properties(src/integration/kernels/chain_kernels.cpp PROPERTIES

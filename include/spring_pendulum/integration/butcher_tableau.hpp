@@ -23,18 +23,6 @@ struct ButcherTableau {
   std::array<double, kMaxStages> b{};
 };
 
-/// Whether two tableaus have the same stages and coefficients.
-[[gnu::always_inline]] inline bool isSame(const ButcherTableau& p, const ButcherTableau& q) {
-  if (p.stages != q.stages) return false;
-  for (std::size_t i = 0; i < p.stages; ++i) {
-    if (!(p.b[i] == q.b[i])) return false;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!(p.a[i][j] == q.a[i][j])) return false;
-    }
-  }
-  return true;
-}
-
 /// Explicit Euler, order 1:
 ///
 ///     0 |

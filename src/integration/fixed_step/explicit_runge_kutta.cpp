@@ -40,8 +40,8 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
       stages_(tableau.stages),
       tracks_heat_(options.track_dissipation && chain.spring().damping != 0.0),
       tableau_(tableau),
-      kernel_(kernelsFor(options, chain.size())
-                  .advanceKernel(tableau, {!skips().damping, !skips().gravity, tracks_heat_})) {
+      kernel_(findAdvanceKernel(kernelsFor(options, chain.size()), tableau,
+                                {!skips().damping, !skips().gravity, tracks_heat_})) {
   if (kernel_ == nullptr) {
     plain_ = std::make_unique<PlainRungeKutta>(chain, tableau, options.track_dissipation,
                                                kernelsFor(options, chain.size()));

@@ -42,7 +42,7 @@ struct EngineOptions {
 /// As `Integrator`. The velocity of the first particle, which is fixed, is set to 0.
 class ExplicitRungeKutta : public Integrator {
  public:
-  /// \param tableau any; without kernels of its own (conveyor.hpp) it is run by `PlainRungeKutta`
+  /// \param tableau any; without kernels of its own (fast_tableaus.hpp) it is run by `PlainRungeKutta`
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                      const EngineOptions& options = {});
 

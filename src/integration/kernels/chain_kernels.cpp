@@ -1,5 +1,6 @@
 #include "integration/kernels/chain_kernels.hpp"
 
+#include "integration/kernels/fast_tableaus.hpp"
 #include "integration/kernels/instruction_sets.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include <spring_pendulum/model/errors.hpp>
@@ -13,6 +14,10 @@
 
 namespace spring_pendulum {
 namespace {
+
+bool isSame(const ButcherTableau& p, const ButcherTableau& q) {
+  return p.stages == q.stages && p.a == q.a && p.b == q.b;
+}
 
 std::vector<const ChainKernels*> findSupportedKernels() {
   std::vector<const ChainKernels*> found;
@@ -49,6 +54,16 @@ std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name) {
   for (const ChainKernels* k : kernels) known.append(known.empty() ? "" : ", ").append(k->name);
   throw InputError(
       fmt::format("SPRING_PENDULUM_INSTRUCTION_SET is '{}': this processor has {}", name, known));
+}
+
+AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTableau& tableau,
+                                StepNeeds needs) {
+  std::size_t index = 0;
+  for (const ButcherTableau* fast : kFastTableaus) {
+    if (isSame(*fast, tableau)) return kernels.advanceKernel(index, needs);
+    ++index;
+  }
+  return nullptr;
 }
 
 const ChainKernels& fastestChainKernels() {

@@ -117,8 +117,8 @@ struct ChainKernels {
   /// what comes behind them is without meaning.
   void (*addHeat)(const KernelChain& chain, const double* state, double weight, double* heat);
 
-  /// Whole steps of a tableau; null if none was compiled for it.
-  AdvanceKernel (*advanceKernel)(const ButcherTableau& tableau, StepNeeds needs);
+  /// Whole steps of `kFastTableaus[tableau]`; see findAdvanceKernel.
+  AdvanceKernel (*advanceKernel)(std::size_t tableau, StepNeeds needs);
 
   /// All Taylor coefficients of the motion about a state.
   void (*taylorSeries)(const TaylorWorkspace& work, const double* state);
@@ -143,6 +143,10 @@ const std::vector<const ChainKernels*>& supportedChainKernels();
 /// Those of the processor that are not faster than the named one.
 /// \throws InputError if there is no such one, or not on this processor
 std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name);
+
+/// Whole steps of the tableau, known by its coefficients; null if it is none of `kFastTableaus`.
+AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTableau& tableau,
+                                StepNeeds needs);
 
 /// The fastest of them for a long chain, and for one of so many particles.
 const ChainKernels& fastestChainKernels();

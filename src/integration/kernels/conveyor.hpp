@@ -13,6 +13,7 @@
 
 #include "integration/kernels/block.hpp"
 #include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/fast_tableaus.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 
 #include <cstddef>
@@ -35,19 +36,16 @@ class Conveyor {
         workspace_(workspace),
         blocks_(blocksOf(chain.size)) {}
 
+  bool isShort() const { return blocks_ <= 4; }
+
+  void advanceShort(std::ptrdiff_t steps) {
+    if (blocks_ == 1) return shortSteps(steps, std::make_index_sequence<1>());
+    if (blocks_ == 2) return shortSteps(steps, std::make_index_sequence<2>());
+    if (blocks_ == 3) return shortSteps(steps, std::make_index_sequence<3>());
+    return shortSteps(steps, std::make_index_sequence<4>());
+  }
+
   void advance(std::ptrdiff_t steps) {
-    switch (blocks_) {
-      case 1:
-        return shortSteps(steps, std::make_index_sequence<1>());
-      case 2:
-        return shortSteps(steps, std::make_index_sequence<2>());
-      case 3:
-        return shortSteps(steps, std::make_index_sequence<3>());
-      case 4:
-        return shortSteps(steps, std::make_index_sequence<4>());
-      default:
-        break;
-    }
     for (std::ptrdiff_t n = 0; n < steps; ++n) step(std::make_index_sequence<kTableau.stages>());
   }
 
@@ -143,15 +141,18 @@ class Conveyor {
     }
     if constexpr (kStage + 1 < kStages) {
       block.at = block.state;
-      ((block.at = kTableau.a[kStage + 1][kEarlier] == 0.0
-                       ? block.at
-                       : plusWeighted(block.at, weights_.after[kStage][kEarlier],
-                                      block.slopes[keepsSlopes() ? kEarlier : 0])),
-       ...);
+      (addEarlierSlope<kStage, kEarlier>(block), ...);
       if constexpr (kTableau.a[kStage + 1][kStage] != 0.0) {
         block.at = plusWeighted(block.at, weights_.after[kStage][kStage], block.slope);
       }
       if constexpr (keepsSlope(kStage)) block.slopes[kStage] = block.slope;
+    }
+  }
+
+  template <std::size_t kStage, std::size_t kEarlier>
+  [[gnu::always_inline]] void addEarlierSlope(ShortBlock& block) {
+    if constexpr (kTableau.a[kStage + 1][kEarlier] != 0.0) {
+      block.at = plusWeighted(block.at, weights_.after[kStage][kEarlier], block.slopes[kEarlier]);
     }
   }
 
@@ -304,8 +305,11 @@ class Conveyor {
 template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kHeat>
 void advance(const KernelChain& chain, const StepWeights& weights, std::ptrdiff_t steps,
              double* state, double* heat, double* workspace) {
-  Conveyor<kTableau, kDamped, kGravity, kHeat>(chain, weights, state, heat, workspace)
-      .advance(steps);
+  Conveyor<kTableau, kDamped, kGravity, kHeat> conveyor(chain, weights, state, heat, workspace);
+  if (!conveyor.isShort()) return conveyor.advance(steps);
+  // Adding a gravity of 0 changes no bit and hardly a time; this saves a compiled variant.
+  Conveyor<kTableau, kDamped, true, kHeat>(chain, weights, state, heat, workspace)
+      .advanceShort(steps);
 }
 
 template <const ButcherTableau& kTableau>
@@ -322,23 +326,17 @@ AdvanceKernel advanceKernelFor(StepNeeds needs) {
                        : advance<kTableau, true, false, false>;
 }
 
-/// The tableaus that are compiled: one line here makes a tableau fast. Every other runs stage by
-/// stage, with the same bits.
-struct FastTableau {
-  const ButcherTableau* tableau;
-  AdvanceKernel (*kernel_for)(StepNeeds needs);
-};
-constexpr FastTableau kFastTableaus[] = {
-    {&kEulerTableau, advanceKernelFor<kEulerTableau>},
-    {&kMidpointTableau, advanceKernelFor<kMidpointTableau>},
-    {&kClassicalRungeKuttaTableau, advanceKernelFor<kClassicalRungeKuttaTableau>},
-};
+template <std::size_t... kIndex>
+AdvanceKernel advanceKernelAt(std::size_t tableau, StepNeeds needs,
+                              std::index_sequence<kIndex...> /*tableaus*/) {
+  AdvanceKernel kernel = nullptr;
+  ((kernel = kIndex == tableau ? advanceKernelFor<*kFastTableaus[kIndex]>(needs) : kernel), ...);
+  return kernel;
+}
 
-AdvanceKernel advanceKernel(const ButcherTableau& tableau, StepNeeds needs) {
-  for (const FastTableau& fast : kFastTableaus) {
-    if (isSame(*fast.tableau, tableau)) return fast.kernel_for(needs);
-  }
-  return nullptr;
+AdvanceKernel advanceKernel(std::size_t tableau, StepNeeds needs) {
+  return advanceKernelAt(
+      tableau, needs, std::make_index_sequence<sizeof(kFastTableaus) / sizeof(*kFastTableaus)>());
 }
 
 }  // namespace

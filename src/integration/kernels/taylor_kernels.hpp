@@ -245,8 +245,8 @@ void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
     const double* row = work.accelerations + n * 2 * work.pitch + block * kLanes;
     const Pack x = Pack::load(row);
     const Pack y = Pack::load(row + work.pitch);
-    const double position = weights.position[static_cast<std::size_t>(n)];
-    const double velocity = weights.velocity[static_cast<std::size_t>(n)];
+    const double position = weights.position[n];
+    const double velocity = weights.velocity[n];
     change = {fused(position, x, change.x), fused(position, y, change.y),
               fused(velocity, x, change.vx), fused(velocity, y, change.vy)};
   }

@@ -4,7 +4,6 @@
 
 #include <spring_pendulum/model/spring_law.hpp>
 
-#include <array>
 #include <cstddef>
 
 namespace spring_pendulum {
@@ -28,7 +27,9 @@ struct TaylorWorkspace {
   /// K times 2 times `pitch` numbers: coefficient n of the accelerations (x, y).
   double* accelerations = nullptr;
 
-  static std::ptrdiff_t springRows(std::ptrdiff_t order) { return order + 3; }
+  [[gnu::always_inline]] static std::ptrdiff_t springRows(std::ptrdiff_t order) {
+    return order + 3;
+  }
   static std::ptrdiff_t springNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
     return pitch * 4 * springRows(order);
   }
@@ -41,9 +42,9 @@ struct TaylorWorkspace {
 /// of the positions, and of the velocities; of the velocities at the start, a change of positions.
 struct TaylorWeights {
   std::ptrdiff_t count = 0;
-  double start_velocity = 0.0;                         ///< s
-  std::array<double, kLargestTaylorOrder> position{};  ///< s^(n+2)
-  std::array<double, kLargestTaylorOrder> velocity{};  ///< s^(n+1)
+  double start_velocity = 0.0;                ///< s
+  double position[kLargestTaylorOrder] = {};  ///< s^(n+2)
+  double velocity[kLargestTaylorOrder] = {};  ///< s^(n+1)
 };
 
 }  // namespace spring_pendulum
