@@ -9,6 +9,7 @@
 #   lint       clang-format, clang-tidy, catkin_lint
 #   sanitize   clang's sanitizers and fuzzer, coverage
 #   releases   what scripts/test_releases.sh needs
+#   arm64      a compiler for 64-bit ARM, and qemu to run what it makes
 #   benchmark  the solvers to compare with, all optional
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -34,6 +35,7 @@ packages_of() {
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev gcovr ;;
     releases) echo debootstrap git ;;
+    arm64) echo g++-aarch64-linux-gnu qemu-user ;;
     benchmark)
       echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev python3 ;;
     *) die "setup.sh: unknown component '$1'" ;;

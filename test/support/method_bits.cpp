@@ -1,0 +1,64 @@
+// Prints a hash of the motion and the heat that each method gives, one method a line. The same
+// lines on two machines mean the same bits (scripts/test_arm64.sh).
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/chain.hpp>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+namespace spring_pendulum {
+namespace {
+
+/// FNV-1a over the bytes of a number, going on from `hash`.
+std::uint64_t hashOf(double number, std::uint64_t hash) {
+  unsigned char bytes[sizeof(number)];
+  std::memcpy(bytes, &number, sizeof(number));
+  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3U;
+  return hash;
+}
+
+/// A zigzag in motion, with unequal masses.
+State zigzag(Eigen::Index size) {
+  State state(size);
+  for (Eigen::Index i = 1; i < size; ++i) {
+    const auto place = static_cast<double>(i);
+    state.x()[i] = 0.75 * place;
+    state.y()[i] = i % 2 == 0 ? 0.0 : 0.6;
+    state.vx()[i] = 0.125 * static_cast<double>(i % 5);
+    state.vy()[i] = -0.375 * static_cast<double>(i % 3);
+  }
+  return state;
+}
+
+std::uint64_t hashOfRuns(const Method& method) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const Eigen::Index size : {1, 2, 3, 11, 40, 100}) {
+    Eigen::VectorXd masses(size);
+    for (Eigen::Index i = 0; i < size; ++i) masses[i] = 0.5 + static_cast<double>(i % 7) / 10.0;
+    for (const double damping : {1.0, 0.0}) {
+      const Chain chain(masses, {50.0, damping, 1.0}, 9.81);
+      const auto integrator = method.make(method, chain, {1e-7, true, 1});
+      State state = zigzag(size);
+      for (int frame = 0; frame < 3; ++frame) {
+        integrator->advance(state, 0.005, 20);
+        for (Eigen::Index i = 0; i < size; ++i) {
+          for (Eigen::Index c = 0; c < 4; ++c) hash = hashOf(state.values()(i, c), hash);
+        }
+        hash = hashOf(integrator->dissipatedEnergy(), hash);
+      }
+    }
+  }
+  return hash;
+}
+
+}  // namespace
+}  // namespace spring_pendulum
+
+int main() {
+  for (const spring_pendulum::Method& method : spring_pendulum::methodTable()) {
+    std::printf("%-20s %016llx\n", std::string(method.name).c_str(),
+                static_cast<unsigned long long>(spring_pendulum::hashOfRuns(method)));
+  }
+}
