@@ -88,7 +88,6 @@ TEST(PendulumRun, ResetGivesTheSameRunAgain) {
   EXPECT_EQ(run.energyEntry().dissipated.value(), dissipated);
 }
 
-// Measured: 8.5e-3 m at 0.7 s.
 TEST(PendulumRun, MeasuresThePositionErrorAlsoBetweenFrames) {
   Scenario scenario = scenarioOf("Euler");
   PendulumRun plain(scenario, scene(), true, 0.0), shown(scenario, scene(), true, 0.02);

@@ -65,7 +65,7 @@ TEST_F(Sleep, KeepsTheDissipatedEnergyOnWaking) {
   for (int frame = 0; frame < 3000; ++frame) sleeping.advance(state, 0.01, 10);
   ASSERT_GT(sleeping.sleptCalls(), 0);
   const double before =
-      sleeping.dissipatedEnergy();  // 6.25 J: half the stiffness times 0.5 m squared
+      sleeping.dissipatedEnergy();
   state.y()[2] -= 0.01;
   sleeping.advance(state, 0.01, 10);
   EXPECT_GT(sleeping.dissipatedEnergy(), before);
