@@ -26,8 +26,8 @@ double denseLargest(const Chain& chain, const Eigen::VectorXd& stiffness) {
 Chain randomChain(unsigned seed, Eigen::Index size) {
   std::mt19937 generator(seed);
   Eigen::VectorXd masses(size);
-  for (double& mass : masses)
-    mass = std::pow(10.0, -5.0 + 6.0 * static_cast<double>(generator()) / 4294967296.0);
+  for (Eigen::Index i = 0; i < size; ++i)
+    masses[i] = std::pow(10.0, -5.0 + 6.0 * static_cast<double>(generator()) / 4294967296.0);
   return {masses, SpringLaw{}, 9.81};
 }
 

@@ -205,7 +205,7 @@ std::vector<Family> masses() {
        [](Random& r) {
          Draft d = shortChain(r);
          const double decades = r.pick({1.0, 2.0, 3.0});
-         for (double& mass : d.masses) mass = r.decades(-decades, 0);
+         for (Eigen::Index i = 0; i < d.masses.size(); ++i) d.masses[i] = r.decades(-decades, 0);
          return d;
        }},
       {"light tail",

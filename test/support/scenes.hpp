@@ -43,8 +43,8 @@ inline Scene horizontalChain(const std::string& name, Eigen::Index particles, do
 inline Scene randomMasses(unsigned seed, Eigen::Index particles, double least, double decades) {
   std::mt19937 generator(seed);
   Eigen::VectorXd masses(particles);
-  for (double& mass : masses) {
-    mass = least * std::pow(10.0, decades * static_cast<double>(generator()) / 4294967296.0);
+  for (Eigen::Index i = 0; i < particles; ++i) {
+    masses[i] = least * std::pow(10.0, decades * static_cast<double>(generator()) / 4294967296.0);
   }
   return {"random masses " + std::to_string(seed), Chain(masses, SpringLaw{}, 9.81),
           straightLine(particles, 1.0, 0.0)};
