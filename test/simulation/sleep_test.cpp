@@ -64,8 +64,7 @@ TEST_F(Sleep, KeepsTheDissipatedEnergyOnWaking) {
   state.y()[2] -= 0.5;
   for (int frame = 0; frame < 3000; ++frame) sleeping.advance(state, 0.01, 10);
   ASSERT_GT(sleeping.sleptCalls(), 0);
-  const double before =
-      sleeping.dissipatedEnergy();
+  const double before = sleeping.dissipatedEnergy();
   state.y()[2] -= 0.01;
   sleeping.advance(state, 0.01, 10);
   EXPECT_GT(sleeping.dissipatedEnergy(), before);
