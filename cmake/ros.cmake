@@ -8,7 +8,7 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES spring_pendulum spring_pendulum_ros
+  LIBRARIES spring_pendulum
   CATKIN_DEPENDS geometry_msgs message_runtime roscpp rosgraph_msgs std_msgs std_srvs
     tf2_msgs visualization_msgs
   DEPENDS EIGEN3

@@ -1,29 +1,53 @@
 #!/usr/bin/env bash
-# Format, clang-tidy on every source, catkin_lint. Any finding fails.
+# Format, structure of the sources, clang-tidy, catkin_lint. Any finding fails.
+# Usage: scripts/lint.sh [--all | BASE]
+# clang-tidy reads the sources that changed since BASE (a commit; default: where this branch left
+# origin/main, on main itself the last commit), with --all every source.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$project/scripts/setup.sh" core ros test-ros benchmark lint
 cd "$project"
-mapfile -t sources < <(git -c safe.directory="$project" ls-files '*.hpp' '*.cpp')
+git() { command git -c safe.directory="$project" "$@"; }
+
+# base_commit: what to compare with; nothing if the history does not reach that far.
+base_commit() {
+  local base
+  base=$(git merge-base HEAD origin/main 2> /dev/null || true)
+  [ "$base" != "$(git rev-parse HEAD)" ] || base=
+  [ -n "$base" ] || base=$(git rev-parse -q --verify HEAD~1 || true)
+  echo "$base"
+}
+
+mapfile -t sources < <(git ls-files '*.hpp' '*.cpp')
 say "clang-format on ${#sources[@]} files"
 clang-format --dry-run -Werror "${sources[@]}"
 
+say "includes, public headers, length of files"
+scripts/lint_sources.py check
+
+case ${1:-} in
+  --all) base= ;;
+  '') base=$(base_commit) ;;
+  *) base=$(git rev-parse --verify "$1^{commit}") ;;
+esac
+mapfile -t sources < <(scripts/lint_sources.py tidy $base)
+say "clang-tidy on ${#sources[@]} sources${base:+ changed since $base}"
 folder=$build-lint
 configure "$folder" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSPRING_PENDULUM_BENCHMARKS=ON \
   -DSPRING_PENDULUM_FUZZ=ON
 if have_ros; then compile "$folder" spring_pendulum_generate_messages_cpp; fi
-"$project/scripts/lint_units.py" "$folder" "$folder/units"
-say "clang-tidy"
-# tidy REGEX [checks to add or take away]
-tidy() {
-  run-clang-tidy -quiet -j "$(nproc)" -p "$folder/units" -config "$(cat .clang-tidy)" \
-    ${2:+"-checks=$2"} "$folder/units/$1" > "$folder/tidy.log" 2>&1 ||
-    { grep -E 'warning:|error:' "$folder/tidy.log" | sort -u >&2; die "clang-tidy found something"; }
-}
-tidy src
-# The static analyzer takes minutes for all else, and tests run under the sanitizers anyway.
-tidy '(test|benchmark|fuzz)' '-clang-analyzer-*'
+
+# One process per source, as many at once as there are processors. The configuration files in test/,
+# benchmark/, fuzz/ and examples/ leave out the slow path-sensitive analysis.
+compiled=()
+for source in "${sources[@]}"; do
+  # The others need a package that this machine lacks.
+  grep -qF "\"file\": \"$project/$source\"" "$folder/compile_commands.json" && compiled+=("$source")
+done
+[ ${#compiled[@]} -eq 0 ] || printf '%s\0' "${compiled[@]}" | xargs -0 -n 1 -P "$(nproc)" \
+  clang-tidy --quiet -p "$folder" > "$folder/tidy.log" 2>&1 ||
+  { grep -E 'warning:|error:' "$folder/tidy.log" | sort -u >&2; die "clang-tidy found something"; }
 
 # What is ignored: the build without ROS makes catkin optional and installs to other folders; the
 # scripts, the benchmarks and the fuzz targets belong to the checkout; Eigen's and GSL's variables,

@@ -7,10 +7,12 @@
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
+#include <spring_pendulum/model/aligned_numbers.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
 #include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>

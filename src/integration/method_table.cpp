@@ -6,11 +6,13 @@
 #include "integration/implicit/rosenbrock.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
+#include "model/checks.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -66,69 +68,131 @@ std::unique_ptr<Integrator> makeAuto(const Method&, const Chain& chain,
   return makeErrorControlled<AutoStepper>(chain, options);
 }
 
-const std::vector<Method> kMethodTable{
-    {"Euler", 1, 1, StepControl::kFixed, 2.0, 0.0,
-     "L. Euler, Institutionum calculi integralis I, 1768, §650",
-     "for lessons: undamped swinging grows at every step size", &kEulerTableau,
-     makeExplicitRungeKutta},
-    {"Runge-Kutta-2", 2, 2, StepControl::kFixed, 2.0, 0.0,
-     "C. Runge, Math. Ann. 46 (1895) 167-178, doi:10.1007/BF01446807",
-     "the explicit midpoint rule: for lessons; swinging still grows, but slowly", &kMidpointTableau,
-     makeExplicitRungeKutta},
-    {"Runge-Kutta-4", 4, 4, StepControl::kFixed, 2.785293563405282, 2.8284271247461903,
-     "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
-     "the sound choice with a fixed step, as long as no particle is very light",
-     &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
-    {"Semi-Implicit-Euler", 1, 1, StepControl::kFixed, 2.0, 2.0,
-     "E. Hairer, C. Lubich, G. Wanner, Acta Numer. 12 (2003) 399-450, "
-     "doi:10.1017/S0962492902000144",
-     "symplectic without damping: rough, but swinging never grows; what games use", nullptr,
-     makeSymplectic<SemiImplicitEuler>, true},
-    {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
-     "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
-     "symplectic and reversible without damping: for very long undamped runs", nullptr,
-     makeSymplectic<VelocityVerlet>, true},
-    {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
-     "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
-     "doi:10.1016/0771-050X(80)90013-3",
-     "the best known pair, for comparisons: Taylor-8 needs less time for the same error",
-     &kDormandPrince5.tableau, makeEmbeddedPair<kDormandPrince5>},
-    {"Dormand-Prince-8", 8, 12, StepControl::kErrorControlled, 6.3936515228, 5.9603598117,
-     "E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, 2nd ed., Springer 1993, section II.10",
-     "Hairer's DOP853, for comparisons: Taylor-12 needs less time for the same error",
-     &kDormandPrince8.tableau, makeEmbeddedPair<kDormandPrince8>},
-    {"Taylor-8", 8, 8, StepControl::kErrorControlled, 4.313627227774381, 3.3951402205749246,
-     "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
-     "the fastest for tolerances down to 1e-6 m, as long as no particle is very light", nullptr,
-     makeTaylor<TaylorStepper>},
-    {"Taylor-12", 12, 12, StepControl::kErrorControlled, 5.8227790681937215, 3.3793773141575327,
-     "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
-     "the fastest for tighter tolerances, as long as no particle is very light", nullptr,
-     makeTaylor<TaylorStepper>},
-    {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
-     "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
-     "doi:10.2140/camcos.2012.7.247",
-     "4 to 10 terms a step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse tolerances",
-     nullptr, makeTaylor<StabilizedTaylorStepper>},
-    {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
-     "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
-     "doi:10.2140/camcos.2012.7.247",
-     "8 to 14 terms a step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
-     nullptr, makeTaylor<StabilizedTaylorStepper>},
-    {"Rodas5P", 5, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
-     "G. Steinebach, BIT Numer. Math. 63 (2023) 27, doi:10.1007/s10543-023-00967-x",
-     "linearly implicit: for very light particles (k_d/m beyond 1e5/s) and coarse tolerances",
-     nullptr, makeRodas5P},
-    {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
-     "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
-     "takes the cheapest of the Taylor methods and Rodas5P for the motion at hand", nullptr,
-     makeAuto},
-};
+// NOLINTNEXTLINE(readability-function-size): a table
+std::deque<Method> builtInMethods() {
+  return {
+      {"Euler", 1, 1, StepControl::kFixed, 2.0, 0.0,
+       "L. Euler, Institutionum calculi integralis I, 1768, §650",
+       "for lessons: undamped swinging grows at every step size", &kEulerTableau,
+       makeExplicitRungeKutta},
+      {"Runge-Kutta-2", 2, 2, StepControl::kFixed, 2.0, 0.0,
+       "C. Runge, Math. Ann. 46 (1895) 167-178, doi:10.1007/BF01446807",
+       "the explicit midpoint rule: for lessons; swinging still grows, but slowly",
+       &kMidpointTableau, makeExplicitRungeKutta},
+      {"Runge-Kutta-4", 4, 4, StepControl::kFixed, 2.785293563405282, 2.8284271247461903,
+       "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
+       "the sound choice with a fixed step, as long as no particle is very light",
+       &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
+      {"Semi-Implicit-Euler", 1, 1, StepControl::kFixed, 2.0, 2.0,
+       "E. Hairer, C. Lubich, G. Wanner, Acta Numer. 12 (2003) 399-450, "
+       "doi:10.1017/S0962492902000144",
+       "symplectic without damping: rough, but swinging never grows; what games use", nullptr,
+       makeSymplectic<SemiImplicitEuler>, true},
+      {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
+       "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
+       "symplectic and reversible without damping: for very long undamped runs", nullptr,
+       makeSymplectic<VelocityVerlet>, true},
+      {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
+       "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
+       "doi:10.1016/0771-050X(80)90013-3",
+       "the best known pair, for comparisons: Taylor-8 needs less time for the same error",
+       &kDormandPrince5.tableau, makeEmbeddedPair<kDormandPrince5>},
+      {"Dormand-Prince-8", 8, 12, StepControl::kErrorControlled, 6.3936515228, 5.9603598117,
+       "E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, 2nd ed., Springer 1993, section II.10",
+       "Hairer's DOP853, for comparisons: Taylor-12 needs less time for the same error",
+       &kDormandPrince8.tableau, makeEmbeddedPair<kDormandPrince8>},
+      {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
+       3.3951402205749246,
+       "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
+       "the fastest for tolerances down to 1e-6 m, as long as no particle is very light", nullptr,
+       makeTaylor<TaylorStepper>},
+      {"Taylor-12", 12, 12, StepControl::kErrorControlled, kTaylor12RealStabilityLimit,
+       3.3793773141575327,
+       "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
+       "the fastest for tighter tolerances, as long as no particle is very light", nullptr,
+       makeTaylor<TaylorStepper>},
+      {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
+       "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
+       "doi:10.2140/camcos.2012.7.247",
+       "4 to 10 terms a step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse tolerances",
+       nullptr, makeTaylor<StabilizedTaylorStepper>},
+      {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
+       "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
+       "doi:10.2140/camcos.2012.7.247",
+       "8 to 14 terms a step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
+       nullptr, makeTaylor<StabilizedTaylorStepper>},
+      {"Rodas5P", 5, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
+       "G. Steinebach, BIT Numer. Math. 63 (2023) 27, doi:10.1007/s10543-023-00967-x",
+       "linearly implicit: for very light particles (k_d/m beyond 1e5/s) and coarse tolerances",
+       nullptr, makeRodas5P},
+      {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
+       "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
+       "takes the cheapest of the Taylor methods and Rodas5P for the motion at hand", nullptr,
+       makeAuto},
+  };
+}
+
+std::deque<Method>& mutableMethodTable() {
+  static std::deque<Method> table = builtInMethods();
+  return table;
+}
+
+void checkTableau(const Method& method) {
+  const ButcherTableau& tableau = *method.tableau;
+  if (tableau.stages < 1 || tableau.stages > ButcherTableau::kMaxStages) {
+    throw InputError(fmt::format("tableau of method '{}' has {} stages: must be 1 to {}",
+                                 method.name, tableau.stages, ButcherTableau::kMaxStages));
+  }
+  for (std::size_t i = 0; i < tableau.stages; ++i) {
+    bool explicit_row = std::isfinite(tableau.b[i]);
+    for (std::size_t j = 0; j < tableau.stages; ++j) {
+      explicit_row =
+          explicit_row && (j < i ? std::isfinite(tableau.a[i][j]) : tableau.a[i][j] == 0.0);
+    }
+    if (explicit_row) continue;
+    throw InputError(
+        fmt::format("stage {} of the tableau of method '{}': coefficients must be finite, and 0 on "
+                    "and above the diagonal",
+                    i + 1, method.name));
+  }
+}
+
+void checkMethod(const Method& method) {
+  const auto refuse = [&](std::string_view what) {
+    throw InputError(fmt::format("method '{}': {}", method.name, what));
+  };
+  if (method.name.empty()) throw InputError("a method needs a name");
+  for (const Method& known : methodTable()) {
+    if (known.name == method.name) refuse("the name is taken");
+  }
+  if (method.order < 1) refuse("order must be at least 1");
+  if (method.stages < 1) refuse("stages must be at least 1");
+  if (!(method.real_stability_limit >= 0.0) || !(method.imaginary_stability_limit >= 0.0)) {
+    refuse("stability limits must be at least 0");
+  }
+  if (method.tableau == nullptr && !method.make) refuse("needs a tableau or a factory");
+  if (method.tableau == nullptr) return;
+  checkTableau(method);
+  if (!method.make && method.control != StepControl::kFixed)
+    refuse("a tableau alone has fixed steps");
+  if (!method.make && static_cast<std::size_t>(method.stages) != method.tableau->stages) {
+    refuse("stages must be those of the tableau");
+  }
+}
 
 }  // namespace
 
-const std::vector<Method>& methodTable() {
-  return kMethodTable;
+const std::deque<Method>& methodTable() {
+  return mutableMethodTable();
+}
+
+void registerMethod(const Method& method) {
+  static std::deque<ButcherTableau> tableaus;
+  checkMethod(method);
+  Method row = method;
+  if (row.tableau != nullptr) row.tableau = &tableaus.emplace_back(*method.tableau);
+  if (!row.make) row.make = makeExplicitRungeKutta;
+  mutableMethodTable().push_back(std::move(row));
 }
 
 std::string knownMethodNames() {
@@ -150,7 +214,13 @@ const Method& findMethod(std::string_view name) {
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
                                            const IntegratorOptions& options) {
   const Method& row = findMethod(method);
-  return row.make(row, chain, options);
+  if (chain.size() < 1) throw InputError("the chain has no particles: it was moved from");
+  requireFinitePositive("tolerance", options.tolerance, "m");
+  requireAtLeastZero("threads", options.threads);
+  std::unique_ptr<Integrator> integrator = row.make(row, chain, options);
+  if (!integrator)
+    throw InputError(fmt::format("the factory of method '{}' made nothing", row.name));
+  return integrator;
 }
 
 }  // namespace spring_pendulum

@@ -42,7 +42,7 @@ void BackgroundFrameWriter::handOver(std::int64_t index, const State& state) {
   changed_.wait(lock, [this] { return !has_frame_; });
   if (error_) std::rethrow_exception(error_);
   index_ = index;
-  positions_ = state.positions();
+  state_ = state;
   has_frame_ = true;
   changed_.notify_all();
 }
@@ -55,7 +55,7 @@ void BackgroundFrameWriter::work() {
     lock.unlock();
     std::exception_ptr error;
     try {
-      writer_.write(index_, positions_);
+      writer_.write(index_, state_);
     } catch (...) {
       error = std::current_exception();
     }

@@ -53,11 +53,11 @@ class BackgroundFrameWriter {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool has_frame_ = false;  ///< `index_` and `positions_` wait to be written, or are being
+  bool has_frame_ = false;  ///< `index_` and `state_` wait to be written, or are being
   bool stop_ = false;
   std::exception_ptr error_;
   std::int64_t index_ = 0;
-  PlaneVectors positions_;
+  State state_;
   std::thread thread_;
 };
 

@@ -44,15 +44,17 @@ const std::string& FrameWriter::folder() const {
   return folder_->path();
 }
 
-void FrameWriter::write(std::int64_t index, const Eigen::Ref<const PlaneVectors>& positions) {
+void FrameWriter::write(std::int64_t index, const State& state) {
   const Stopwatch stopwatch(seconds_);
-  const Eigen::Index size = positions.rows();
+  const Eigen::Index size = state.size();
+  const double* const x = state.x().data();
+  const double* const y = state.y().data();
   text_.resize(static_cast<std::size_t>(std::min(size, kLinesAtOnce)) * kLongestLine);
   folder_->beginFrame(index);
   for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
     char* end = text_.data();
     for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
-      end = fmt::format_to(end, FMT_COMPILE("{} {}\n"), positions(i, 0), positions(i, 1));
+      end = fmt::format_to(end, FMT_COMPILE("{} {}\n"), x[i], y[i]);
     }
     folder_->write(text_.data(), static_cast<std::size_t>(end - text_.data()));
   }

@@ -46,7 +46,7 @@ class ParticleParser {
       throw InputError(fmt::format("{}: no particles, must hold a line 'x y m' for each", name_));
     }
     const auto size = static_cast<Eigen::Index>(rows_.size());
-    Particles result{Eigen::VectorXd(size), State(size)};
+    Particles result{AlignedNumbers(size), State(size)};
     for (Eigen::Index i = 0; i < size; ++i) {
       const Row& row = rows_[static_cast<std::size_t>(i)];
       result.state.x()[i] = row[0];

@@ -41,7 +41,7 @@ class SpringMatrix {
   }
 
  private:
-  const Eigen::VectorXd& inverse_masses_;
+  AlignedNumbers::ConstView inverse_masses_;
 };
 
 }  // namespace

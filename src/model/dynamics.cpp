@@ -1,26 +1,45 @@
+#include "model/checks.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
 
-namespace spring_pendulum {
+#include <fmt/format.h>
 
-PlaneVector<double> springForceOn(const Chain& chain, const State& state, Eigen::Index i) {
+namespace spring_pendulum {
+namespace {
+
+PlaneVector<double> forceOn(const SpringLaw& law, const State& state, std::ptrdiff_t i) {
   const PlaneVector<double> separation{state.x()[i + 1] - state.x()[i],
                                        state.y()[i + 1] - state.y()[i]};
   const PlaneVector<double> approach{state.vx()[i + 1] - state.vx()[i],
                                      state.vy()[i + 1] - state.vy()[i]};
-  return springForce(chain.spring(), separation, approach);
+  return springForce(law, separation, approach);
 }
 
-void computeAccelerations(const Chain& chain, const State& state, PlaneVectors& accelerations) {
-  const Eigen::Index size = chain.size();
-  accelerations.resize(size, 2);
-  accelerations.row(0).setZero();
-  PlaneVector<double> left = size > 1 ? springForceOn(chain, state, 0) : PlaneVector<double>{};
-  for (Eigen::Index i = 1; i < size; ++i) {
+}  // namespace
+
+PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::ptrdiff_t i) {
+  requireSize(chain.size(), state);
+  if (i < 0 || i + 1 >= chain.size()) {
+    throw InputError(
+        fmt::format("spring {} does not exist: a chain of {} particles has springs 0 to {}", i,
+                    chain.size(), chain.size() - 2));
+  }
+  return forceOn(chain.spring(), state, i);
+}
+
+void computeSlope(const Chain& chain, const State& state, State& slope) {
+  requireSize(chain.size(), state);
+  if (&slope == &state) throw InputError("computeSlope: slope and state must be two objects");
+  const std::ptrdiff_t size = chain.size();
+  if (slope.size() != size) slope = State(size);
+  slope.positions() = state.velocities();
+  slope.values().row(0).setZero();
+  PlaneVector<double> left = size > 1 ? forceOn(chain.spring(), state, 0) : PlaneVector<double>{};
+  for (std::ptrdiff_t i = 1; i < size; ++i) {
     const bool free_end = i + 1 == size;
-    const auto right = free_end ? PlaneVector<double>{} : springForceOn(chain, state, i);
+    const auto right = free_end ? PlaneVector<double>{} : forceOn(chain.spring(), state, i);
     const double inverse_mass = chain.inverseMasses()[i];
-    accelerations(i, 0) = (right.x - left.x) * inverse_mass;
-    accelerations(i, 1) = fused(right.y - left.y, inverse_mass, -chain.gravity());
+    slope.vx()[i] = (right.x - left.x) * inverse_mass;
+    slope.vy()[i] = fused(right.y - left.y, inverse_mass, -chain.gravity());
     left = right;
   }
 }

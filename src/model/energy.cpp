@@ -1,3 +1,4 @@
+#include "model/checks.hpp"
 #include <spring_pendulum/model/energy.hpp>
 
 #include <cmath>
@@ -5,6 +6,7 @@
 namespace spring_pendulum {
 
 Energy computeEnergy(const Chain& chain, const State& state) {
+  requireSize(chain.size(), state);
   Energy energy;
   const SpringLaw& spring = chain.spring();
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
@@ -21,6 +23,7 @@ Energy computeEnergy(const Chain& chain, const State& state) {
 }
 
 double dissipatedPower(const Chain& chain, const State& state) {
+  requireSize(chain.size(), state);
   double power = 0.0;
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
     const double rate = elongationRate<double>(

@@ -1,3 +1,4 @@
+#include "model/checks.hpp"
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 
@@ -19,6 +20,7 @@ double springLength(const State& state, Eigen::Index i) {
 }  // namespace
 
 EnergyScale::EnergyScale(const Chain& chain, const State& start) {
+  requireSize(chain.size(), start);
   const SpringLaw& spring = chain.spring();
   double depth = 0.0;  // of the hanging chain below zero energy, J
   double least = 0.0;

@@ -1,5 +1,6 @@
 #include "integration/error_control/dense_output_integrator.hpp"
 #include "model/chain_modes.hpp"
+#include "model/checks.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 
@@ -69,6 +70,7 @@ State stretched(const State& state, double change) {
 }  // namespace
 
 double chainLength(const Chain& chain, const State& start) {
+  requireSize(chain.size(), start);
   double length = 0.0;
   for (Eigen::Index i = 1; i < start.size(); ++i) {
     const double dx = start.x()[i] - start.x()[i - 1];
@@ -132,6 +134,8 @@ void ReferenceRun::makeTrajectories() {
 }
 
 void ReferenceRun::advance(double time_step, std::int64_t steps, std::int64_t run_evaluations) {
+  requireFinitePositive("time_step", time_step, "s");
+  requireAtLeastZero("steps", steps);
   if (!isMeasuring() || start_.size() < 2) return;
   if (trajectories_.empty()) makeTrajectories();
   // Equal shares, so that the step at which one is used up does not depend on the output times.
@@ -161,6 +165,7 @@ void ReferenceRun::compare() {
 
 double ReferenceRun::errorOf(const State& state) const {
   if (!isMeasuring()) return std::numeric_limits<double>::quiet_NaN();
+  requireSize(chain_.size(), state);
   return largestDistance(state, state_);
 }
 

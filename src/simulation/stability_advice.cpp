@@ -1,4 +1,5 @@
 #include "model/chain_modes.hpp"
+#include "model/checks.hpp"
 #include "simulation/trial.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
@@ -150,6 +151,10 @@ std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
 
 StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
                           double first, double duration, double frame_interval) {
+  requireSize(chain.size(), start);
+  requireFinitePositive("first", first, "s");
+  requireFinitePositive("duration", duration, "s");
+  requireFinitePositive("frame_interval", frame_interval, "s");
   const TrialBench bench(chain, start, duration, frame_interval);
   StepLimits limits;
   limits.stable = stableStep(bench, method, first);
@@ -159,6 +164,7 @@ StepLimits findStepLimits(const Method& method, const Chain& chain, const State&
 }
 
 double linearStepLimit(const Method& method, const Chain& chain, double duration) {
+  requireFinitePositive("duration", duration, "s");
   const double mode = largestSpringMode(chain);
   if (method.control != StepControl::kFixed || mode == 0.0) return kUnlimited;
   const SpringLaw& spring = chain.spring();
@@ -174,6 +180,7 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
 }
 
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
+  requireSize(chain.size(), start);
   const Method& method = findMethod(scenario.method);
   const bool fixed = method.control == StepControl::kFixed;
   const TrialBench bench = benchFor(chain, start, scenario);

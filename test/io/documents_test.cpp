@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,20 @@ TEST(Documents, ListTheOptionsOfTheTable) {
     if (option.key == "method") continue;  // the first argument
     EXPECT_THAT(rows, testing::Contains(documentedRow(option))) << "add this row to the document";
   }
+}
+
+std::string textOf(const std::string& path) {
+  std::ifstream file(PROJECT_DIR "/" + path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Documents, ShowTheExamplesAsTheyAre) {
+  EXPECT_THAT(textOf("docs/library.md"),
+              testing::HasSubstr("```cpp\n" + textOf("examples/simulate.cpp") + "```"));
+  const std::string methods = textOf("examples/own_methods.hpp");
+  const std::string shown = methods.substr(methods.find("/// Ralston"));
+  ASSERT_GT(shown.size(), 500U);
+  EXPECT_THAT(textOf("docs/methods.md"), testing::HasSubstr("```cpp\n" + shown + "```"));
 }
 
 TEST(Documents, ReadmeIsShort) {

@@ -33,10 +33,10 @@ struct RandomScene {
   double gravity = 9.81;
 };
 
-PlaneVectors accelerationsOf(const Chain& chain, const State& state) {
-  PlaneVectors accelerations;
-  computeAccelerations(chain, state, accelerations);
-  return accelerations;
+State::PlaneMatrix accelerationsOf(const Chain& chain, const State& state) {
+  State slope;
+  computeSlope(chain, state, slope);
+  return slope.velocities();
 }
 
 TEST(Force, IsMinusTheGradientOfThePotentialWithoutDamping) {
@@ -44,7 +44,7 @@ TEST(Force, IsMinusTheGradientOfThePotentialWithoutDamping) {
     RandomScene scene(seed);
     scene.spring.damping = 0.0;
     const Chain chain(scene.masses, scene.spring, scene.gravity);
-    const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+    const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
     const double h = 1e-5;
     for (Eigen::Index i = 1; i < chain.size(); ++i) {
       for (Eigen::Index axis = 0; axis < 2; ++axis) {
@@ -102,7 +102,7 @@ TEST(Momentum, OfTheFreePartChangesByGravityAndTheFirstSpringAlone) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const RandomScene scene(seed);
     const Chain chain(scene.masses, scene.spring, scene.gravity);
-    const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+    const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
     const Eigen::RowVector2d change = chain.masses().tail(chain.size() - 1).transpose() *
                                       accelerations.bottomRows(chain.size() - 1);
     const PlaneVector<double> first = springForceOn(chain, scene.state, 0);
@@ -117,7 +117,7 @@ TEST(Power, LostIsThatOfTheDashpots) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const RandomScene scene(seed);
     const Chain chain(scene.masses, scene.spring, scene.gravity);
-    const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+    const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
     const double h = 1e-6;
     double energy[2] = {};
     for (const int side : {0, 1}) {
@@ -139,7 +139,7 @@ TEST(FreeFall, MovesAChainWithoutAnchorForceByGravityAlone) {
   RandomScene scene(7);
   scene.spring = {0.0, 0.0, 0.0};
   const Chain chain(scene.masses, scene.spring, scene.gravity);
-  const PlaneVectors accelerations = accelerationsOf(chain, scene.state);
+  const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
   EXPECT_EQ(accelerations.row(0).norm(), 0.0);
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
     EXPECT_EQ(accelerations(i, 0), 0.0);

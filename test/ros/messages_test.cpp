@@ -54,7 +54,7 @@ TEST(Markers, SpringsAreColouredByStrainAndParticlesByMass) {
   Particles scene = horizontal(4);
   scene.state.x()[2] = 1.5;  // springs of 1, 0.5 and 3.5 m
   scene.state.x()[3] = 5.0;
-  scene.masses << 1.0, 1.0, 10.0, 100.0;
+  scene.masses.view() << 1.0, 1.0, 10.0, 100.0;
   const PendulumRun run(Scenario{}, scene, false, 0.0);
   const auto markers = markersOf(run, NodeOptions{}).markers;
   const auto& springs = markers[0].colors;

@@ -9,10 +9,12 @@
 // ed., Springer 1993, section II.1.
 #pragma once
 
+#include <spring_pendulum/model/export.hpp>
+
 #include <array>
 #include <cstddef>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Coefficients of an explicit method of at most `kMaxStages` stages; what lies on or above the
 /// diagonal of `a` is 0.

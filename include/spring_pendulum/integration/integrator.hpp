@@ -1,12 +1,20 @@
 // The common interface of all methods that carry a chain through time.
 #pragma once
 
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
 #include <string>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
+
+/// Settings of a method.
+struct IntegratorOptions {
+  double tolerance = 1e-6;         ///< error-controlled methods: wanted position error, m
+  bool track_dissipation = false;  ///< integrate the dissipated power too
+  int threads = 0;                 ///< at most; 0: as many as the processor runs at once
+};
 
 /// Work that a method leaves out because the chain does not need it. No bit of a result changes.
 struct Skips {
@@ -30,6 +38,8 @@ class Integrator {
   /// Moves `state` on by `steps` >= 0 steps of `time_step` s, in place. Taking a + b steps in one
   /// call or in two gives the same bits. The first particle does not move.
   /// Never throws for a numerical reason: a motion that diverges shows in the state.
+  /// \throws InputError if the state is not of the chain's size,
+  ///         `time_step` is not finite and above 0, or `steps` is negative
   virtual void advance(State& state, double time_step, std::int64_t steps) = 0;
 
   /// How often F was evaluated for the whole chain since the integrator was made.

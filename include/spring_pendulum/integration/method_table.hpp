@@ -1,44 +1,53 @@
-// The one place that lists the methods: the command line, the ROS node, the README, the stability
-// advice and the tests all read this table.
+// The table of methods. The command line, the ROS node, the documents, the stability advice and the
+// tests all read it, and a program can add its own methods to it.
 #pragma once
 
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/export.hpp>
 
+#include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
-namespace spring_pendulum {
-
-/// What a method is told besides the chain.
-struct IntegratorOptions {
-  double tolerance = 1e-6;         ///< error-controlled methods: position error aimed at, m
-  bool track_dissipation = false;  ///< integrate the dissipated power along
-  int threads = 0;                 ///< at most; 0: as many as the processor runs at once
-};
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 enum class StepControl { kFixed, kErrorControlled };
 
+struct Method;
+
+/// Makes an integrator of a method for a chain.
+using IntegratorFactory = std::function<std::unique_ptr<Integrator>(const Method&, const Chain&,
+                                                                    const IntegratorOptions&)>;
+
 /// One method.
 struct Method {
-  std::string_view name;
-  int order;
-  int stages;  ///< evaluations of F a step
-  StepControl control;
-  double real_stability_limit;  ///< largest h|λ| for λ on the negative real axis; inf: no limit
-  double imaginary_stability_limit;  ///< largest h|λ| for λ on the imaginary axis; 0: none
-  std::string_view reference;
-  std::string_view use;           ///< when to take it and when not, in one line
-  const ButcherTableau* tableau;  ///< null if it is not an explicit Runge-Kutta method
-  std::unique_ptr<Integrator> (*make)(const Method&, const Chain&, const IntegratorOptions&);
+  std::string name = {};
+  int order = 0;
+  int stages = 0;  ///< evaluations of F per step
+  StepControl control = StepControl::kFixed;
+  /// Largest h|λ| for λ on the negative real axis; infinite: no limit.
+  double real_stability_limit = 0.0;
+  /// Largest h|λ| for λ on the imaginary axis; 0: unstable at any step.
+  double imaginary_stability_limit = 0.0;
+  std::string reference = {};
+  std::string use = {};                     ///< when to use the method, in one line
+  const ButcherTableau* tableau = nullptr;  ///< null unless it is an explicit Runge-Kutta method
+  IntegratorFactory make = {};              ///< empty: fixed steps of the tableau
   bool symplectic = false;  ///< without damping, the energy oscillates but does not grow
 };
 
-/// All methods, in the order in which they are listed to a user.
-const std::vector<Method>& methodTable();
+/// All methods in the order in which users see them. References to rows stay valid.
+const std::deque<Method>& methodTable();
+
+/// Adds a row to the table, so that the method can be used by its name. The table keeps copies of
+/// everything, the tableau included. Not thread-safe: register methods before other threads start.
+/// \throws InputError if the name is empty or taken, the tableau is not one of an explicit method with
+///         `stages` stages, there is neither tableau nor factory, or a number is out of range
+void registerMethod(const Method& method);
 
 /// \throws InputError that lists the known names if there is no such method
 const Method& findMethod(std::string_view name);
@@ -46,7 +55,8 @@ const Method& findMethod(std::string_view name);
 /// "Euler, Runge-Kutta-2, ..."
 std::string knownMethodNames();
 
-/// \throws InputError as findMethod
+/// \throws InputError for an unknown name, a chain without particles, a tolerance that is not finite
+///         and above 0, or a negative number of threads
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
                                            const IntegratorOptions& options = {});
 

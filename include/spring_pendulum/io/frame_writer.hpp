@@ -4,7 +4,7 @@
 // shortest text that reads back as the same double. Above 9999 the index grows wider.
 #pragma once
 
-#include <spring_pendulum/model/dynamics.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 class FrameFolder;
 
@@ -29,10 +29,8 @@ class FrameWriter {
   ~FrameWriter();
 
   /// Writes frame `index`, 0 <= index < frames.
-  /// \param positions N×2, m
   /// \throws FileError naming the file
-  void write(std::int64_t index, const Eigen::Ref<const PlaneVectors>& positions);
-  void write(std::int64_t index, const State& state) { write(index, state.positions()); }
+  void write(std::int64_t index, const State& state);
 
   /// Ends the run; the folder is free for another one. No write after this.
   void finish();

@@ -5,19 +5,19 @@
 // and a missing newline at the end are accepted. Numbers are decimal, with a point in every locale.
 #pragma once
 
+#include <spring_pendulum/model/aligned_numbers.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
-
-#include <Eigen/Core>
 
 #include <string>
 #include <string_view>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// N >= 1 particles at rest.
 struct Particles {
-  Eigen::VectorXd masses;  ///< N masses, kg
-  State state;             ///< N positions; no -0.0 among them, so that x + 0 is always x
+  AlignedNumbers masses;  ///< N masses, kg
+  State state;            ///< N positions; no -0.0 among them, so that x + 0 is always x
 };
 
 /// \throws FileError if the file can't be read

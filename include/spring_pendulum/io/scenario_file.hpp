@@ -1,12 +1,13 @@
 // A scenario from a YAML file: lines `key: value`, see config/pendulum.yaml.
 #pragma once
 
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
 #include <string_view>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Keys that the file does not name keep their defaults. Keys that the method does not use, like
 /// `time_step` for an error-controlled method, are checked but have no effect.

@@ -2,35 +2,42 @@
 // gravity. It holds no positions, no clock and no counters.
 #pragma once
 
+#include <spring_pendulum/model/aligned_numbers.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
-#include <Eigen/Core>
+#include <cstddef>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// A chain of N >= 1 particles P_1..P_N and N-1 equal springs. P_1 is fixed, so its mass is never
 /// used. Validated when made, never changed after.
 class Chain {
  public:
-  /// \param masses  N masses in kg; all but the first finite and above 0.
+  /// \param masses  an Eigen vector of N masses in kg; all but the first finite and above 0.
   /// \param spring  stiffness, damping and rest length, each finite and at least 0.
   /// \param gravity g in m/s², finite; acts along -y.
   /// \throws InputError naming the value and its allowed range.
-  Chain(Eigen::VectorXd masses, const SpringLaw& spring, double gravity);
+  Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity);
+  Chain(const Chain& other);
+  Chain(Chain&& other) noexcept;
+  Chain& operator=(const Chain& other);
+  Chain& operator=(Chain&& other) noexcept;
+  ~Chain();
 
-  Eigen::Index size() const { return masses_.size(); }
+  std::ptrdiff_t size() const { return masses_.size(); }
   /// N masses, kg.
-  const Eigen::VectorXd& masses() const { return masses_; }
+  AlignedNumbers::ConstView masses() const { return masses_.view(); }
   /// N numbers, 1/kg; 0 for P_1, as if it were infinitely heavy.
-  const Eigen::VectorXd& inverseMasses() const { return inverse_masses_; }
+  AlignedNumbers::ConstView inverseMasses() const { return inverse_masses_.view(); }
   const SpringLaw& spring() const { return spring_; }
   double gravity() const { return gravity_; }
   /// Whether all moving particles have the same mass to the last bit.
   bool equalMasses() const { return equal_masses_; }
 
  private:
-  Eigen::VectorXd masses_;
-  Eigen::VectorXd inverse_masses_;
+  AlignedNumbers masses_;
+  AlignedNumbers inverse_masses_;
   SpringLaw spring_;
   double gravity_;
   bool equal_masses_;

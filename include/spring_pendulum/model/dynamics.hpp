@@ -2,20 +2,23 @@
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/export.hpp>
+#include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>
 
-#include <Eigen/Core>
+#include <cstddef>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// N×2 matrix whose columns are the x and y components, one row a particle.
-using PlaneVectors = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+/// Force in N of spring i (between particles i and i+1, counted from 0) on particle i.
+/// \throws InputError if the chain has no such spring or the state is not of the chain's size
+PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::ptrdiff_t i);
 
-/// Force in N of spring i (joining particles i and i+1, counted from 0) on particle i.
-PlaneVector<double> springForceOn(const Chain& chain, const State& state, Eigen::Index i);
-
-/// Accelerations in m/s², N×2: (sum of spring forces)/m + (0, -g); 0 for the fixed first particle.
-/// \param[out] accelerations resized only if its size is not N×2
-void computeAccelerations(const Chain& chain, const State& state, PlaneVectors& accelerations);
+/// Computes the slope z' = F(z): the velocities in the columns x and y, m/s, and the accelerations
+/// (sum of spring forces)/m + (0, -g) in the columns vx and vy, m/s². All 0 for the first particle,
+/// which is fixed.
+/// \param[out] slope not `state` itself; allocates only if its size differs from the chain's
+/// \throws InputError if the state is not of the chain's size
+void computeSlope(const Chain& chain, const State& state, State& slope);
 
 }  // namespace spring_pendulum

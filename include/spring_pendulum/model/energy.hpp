@@ -2,9 +2,10 @@
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Energies of one state, J. Sums run over the particles in order, so the bits never change.
 struct Energy {
@@ -15,9 +16,11 @@ struct Energy {
   double total() const { return kinetic + gravity + spring; }
 };
 
+/// \throws InputError if the state is not of the chain's size
 Energy computeEnergy(const Chain& chain, const State& state);
 
 /// Power dissipated by the dashpots, sum of k_d (w·r)², W; never negative.
+/// \throws InputError if the state is not of the chain's size
 double dissipatedPower(const Chain& chain, const State& state);
 
 }  // namespace spring_pendulum

@@ -1,9 +1,11 @@
 // The two ways an input can be refused. Each message is one line: what, where, what would be right.
 #pragma once
 
+#include <spring_pendulum/model/export.hpp>
+
 #include <stdexcept>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Wrong use or bad input: a value out of its range, a malformed line, an unknown name. Exit
 /// status 2.

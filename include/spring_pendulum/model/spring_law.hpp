@@ -2,9 +2,11 @@
 // so both do the same arithmetic in the same order, with the same fused multiply-adds.
 #pragma once
 
+#include <spring_pendulum/model/export.hpp>
+
 #include <cmath>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Kelvin-Voigt spring: a linear spring and a linear dashpot side by side.
 struct SpringLaw {

@@ -1,44 +1,70 @@
 // Where the particles are and how fast they move: the unknown z = [p; v] of z' = F(z).
 #pragma once
 
+#include <spring_pendulum/model/aligned_numbers.hpp>
+#include <spring_pendulum/model/export.hpp>
+
 #include <Eigen/Core>
 
-namespace spring_pendulum {
+#include <cstddef>
+
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Positions (m) and velocities (m/s) of N particles as a structure of arrays: an N×4 matrix whose
 /// columns x, y, vx, vy are each contiguous. Plain data: no clock, no invariants.
+///
+/// The state owns the numbers; the member functions return Eigen views of them, valid until the state
+/// is destroyed, moved or assigned a state of another size.
 class State {
  public:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+  using PlaneMatrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
-  State() = default;
+  State();
   /// N particles at the origin, at rest.
-  explicit State(Eigen::Index particles) : values_(Matrix::Zero(particles, 4)) {}
+  /// \throws InputError if `particles` is negative
+  explicit State(std::ptrdiff_t particles);
+  State(const State& other);
+  State(State&& other) noexcept;
+  /// Allocates only if the sizes differ.
+  State& operator=(const State& other);
+  State& operator=(State&& other) noexcept;
+  ~State();
 
-  Eigen::Index size() const { return values_.rows(); }
+  /// N.
+  std::ptrdiff_t size() const { return size_; }
 
-  auto x() { return values_.col(0); }
-  auto y() { return values_.col(1); }
-  auto vx() { return values_.col(2); }
-  auto vy() { return values_.col(3); }
-  auto x() const { return values_.col(0); }
-  auto y() const { return values_.col(1); }
-  auto vx() const { return values_.col(2); }
-  auto vy() const { return values_.col(3); }
+  auto x() { return column(0); }
+  auto y() { return column(1); }
+  auto vx() { return column(2); }
+  auto vy() { return column(3); }
+  auto x() const { return column(0); }
+  auto y() const { return column(1); }
+  auto vx() const { return column(2); }
+  auto vy() const { return column(3); }
 
   /// N×2: x and y.
-  auto positions() { return values_.leftCols<2>(); }
-  auto positions() const { return values_.leftCols<2>(); }
+  auto positions() { return Eigen::Map<PlaneMatrix>(numbers_.data(), rows(), 2); }
+  auto positions() const { return Eigen::Map<const PlaneMatrix>(numbers_.data(), rows(), 2); }
   /// N×2: vx and vy.
-  auto velocities() { return values_.rightCols<2>(); }
-  auto velocities() const { return values_.rightCols<2>(); }
+  auto velocities() { return Eigen::Map<PlaneMatrix>(numbers_.data() + 2 * size_, rows(), 2); }
+  auto velocities() const {
+    return Eigen::Map<const PlaneMatrix>(numbers_.data() + 2 * size_, rows(), 2);
+  }
 
   /// N×4, columns x, y, vx, vy.
-  Matrix& values() { return values_; }
-  const Matrix& values() const { return values_; }
+  auto values() { return Eigen::Map<Matrix>(numbers_.data(), rows(), 4); }
+  auto values() const { return Eigen::Map<const Matrix>(numbers_.data(), rows(), 4); }
 
  private:
-  Matrix values_;
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(size_); }
+  AlignedNumbers::View column(int index) { return {numbers_.data() + index * size_, rows()}; }
+  AlignedNumbers::ConstView column(int index) const {
+    return {numbers_.data() + index * size_, rows()};
+  }
+
+  std::ptrdiff_t size_;
+  AlignedNumbers numbers_;
 };
 
 }  // namespace spring_pendulum

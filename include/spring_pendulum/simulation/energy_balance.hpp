@@ -8,11 +8,12 @@
 
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/energy.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <optional>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// The energy in J that a scene can turn over: from the larger of E(0) and 0 (the level of all
 /// particles unstretched at the height of P_1) down to the least energy there is, the chain hanging

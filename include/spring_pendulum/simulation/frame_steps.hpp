@@ -2,9 +2,10 @@
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 struct FrameSteps {
   double time_step = 0.0;  ///< s

@@ -15,13 +15,14 @@
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Length in m that position errors of a chain are compared with: the sum of its springs' rest
 /// lengths, at least a tenth of its length at the start (for springs without rest length).
@@ -73,6 +74,7 @@ class ReferenceRun {
 
   /// Largest distance of a particle in `state` from where it should be, m; NaN once the
   /// measurement has stopped. An error below `uncertainty()` is not resolved.
+  /// \throws InputError if `state` is not of the chain's size
   double errorOf(const State& state) const;
 
   /// How many times a small change of the start has grown, the most so far; NaN beside a run

@@ -1,12 +1,13 @@
 // Everything one run needs. The initialisers are the defaults; there is no second place for them.
 #pragma once
 
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstdint>
 #include <string>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// What happens to a run that diverged. It never continues with numbers that are not finite.
 enum class OnDivergence { kStop, kContinue };

@@ -11,12 +11,13 @@
 
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Step sizes in s; 0 where even the smallest affordable one fails, infinite where all pass.
 struct StepLimits {

@@ -6,6 +6,7 @@
 // the position error itself.
 #pragma once
 
+#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 
@@ -13,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace spring_pendulum {
+namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// In order of severity.
 enum class VerdictKind {

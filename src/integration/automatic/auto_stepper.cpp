@@ -4,7 +4,6 @@
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 #include "model/chain_modes.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
 
@@ -49,10 +48,9 @@ double fastestDampingRate(const Chain& chain) {
   return chain.spring().damping * largestSpringMode(chain);
 }
 
-const Method& explicitMethod(const Chain& chain, double tolerance) {
+bool needsOrder12(const Chain& chain, double tolerance) {
   const bool fast = fastestDampingRate(chain) > kFastRate;
-  const double tight = fast ? kTightToleranceIfFast : kTightTolerance;
-  return findMethod(tolerance < tight ? "Taylor-12" : "Taylor-8");
+  return tolerance < (fast ? kTightToleranceIfFast : kTightTolerance);
 }
 
 }  // namespace
@@ -63,11 +61,11 @@ bool AutoStepper::Pace::isFasterThan(const Pace& other) const {
 
 AutoStepper::AutoStepper(const Chain& chain, double tolerance)
     : fastest_rate_(fastestDampingRate(chain)), state_(chain.size()) {
-  const Method& method = explicitMethod(chain, tolerance);
-  explicit_limit_ = method.real_stability_limit;
-  successor_is_better_ = method.order == 8;
-  candidates_.push_back(
-      {method.name, kTaylorWork, std::make_unique<TaylorStepper>(chain, method.order, tolerance)});
+  const bool order_12 = needsOrder12(chain, tolerance);
+  explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
+  successor_is_better_ = !order_12;
+  candidates_.push_back({order_12 ? "Taylor-12" : "Taylor-8", kTaylorWork,
+                         std::make_unique<TaylorStepper>(chain, order_12 ? 12 : 8, tolerance)});
   const auto add_stabilized = [&](std::string_view name, double work, int order) {
     candidates_.push_back(
         {name, work,

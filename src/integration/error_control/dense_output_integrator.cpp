@@ -1,5 +1,6 @@
 #include "integration/error_control/dense_output_integrator.hpp"
 
+#include "model/checks.hpp"
 #include <spring_pendulum/model/energy.hpp>
 
 #include <algorithm>
@@ -68,8 +69,10 @@ void DenseOutputIntegrator::advance(State& state, double time_step, std::int64_t
 
 bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::int64_t steps,
                                           std::int64_t most_evaluations) {
+  requireAdvance(started_ ? particles_ : state.size(), state, time_step, steps);
   if (!started_) {
-    stepper_->start(state);
+    stepper_->start(state);  // knows the size of its chain
+    particles_ = state.size();
     started_ = true;
     diverged_ = false;
     shortest_steps_ = 0;

@@ -11,6 +11,7 @@
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -51,6 +52,7 @@ class DenseOutputIntegrator final : public Integrator {
   std::optional<Chain> dissipating_;
   State sample_;  ///< workspace of `dissipated`
   bool started_ = false;
+  std::ptrdiff_t particles_ = 0;  ///< of the state it started from
   bool diverged_ = false;
   int shortest_steps_ = 0;      ///< taken in a row until now
   double output_origin_ = 0.0;  ///< s since the start; outputs are n * time_step later

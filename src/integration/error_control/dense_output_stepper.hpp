@@ -37,6 +37,7 @@ class DenseOutputStepper {
   DenseOutputStepper& operator=(const DenseOutputStepper&) = delete;
 
   /// Begins anew at `state`, with the first particle at rest. Only the statistics go on.
+  /// \throws InputError if the state is not of the chain's size
   virtual void start(const State& state) = 0;
 
   /// Takes one step that meets the tolerance, repeating it as needed.

@@ -1,5 +1,7 @@
 #include "integration/error_control/error_estimating_stepper.hpp"
 
+#include "model/checks.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -20,6 +22,7 @@ ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowe
       end_carry_(chain.size()) {}
 
 void ErrorEstimatingStepper::start(const State& state) {
+  requireSize(chain_.size(), state);
   end_.values() = state.values();
   end_.values().row(0).rightCols<2>().setZero();
   end_carry_.values().setZero();

@@ -1,7 +1,8 @@
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 
+#include "model/checks.hpp"
+
 #include <algorithm>
-#include <cassert>
 #include <thread>
 
 namespace spring_pendulum {
@@ -84,12 +85,12 @@ void ExplicitRungeKutta::restart() {
 }
 
 void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
+  requireAdvance(constants_.chain().size, state, time_step, steps);
   if (plain_) {
     plain_->advance(state, time_step, steps);
     force_evaluations_ = plain_->forceEvaluations();
     return;
   }
-  assert(state.size() == constants_.chain().size);
   state.velocities().row(0).setZero();
   for (std::size_t i = 0; i < stages_; ++i) {
     const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
@@ -143,7 +144,7 @@ void ExplicitRungeKutta::workOn(Share& share) {
 }
 
 void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Index end) {
-  State::Matrix& state = pass_.state->values();
+  auto state = pass_.state->values();
   const Eigen::Index first = std::max<Eigen::Index>(0, begin - pass_.border);
   const Eigen::Index last = std::min(state.rows(), end + pass_.border);
   const Eigen::Index own_end = std::min(last, share.end);

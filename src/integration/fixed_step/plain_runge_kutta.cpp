@@ -1,5 +1,7 @@
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 
+#include "model/checks.hpp"
+
 namespace spring_pendulum {
 
 PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau,
@@ -17,6 +19,7 @@ PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& table
 }
 
 void PlainRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
+  requireAdvance(constants_.chain().size, state, time_step, steps);
   state.velocities().row(0).setZero();
   state_.values() = state.values();
   for (std::int64_t n = 0; n < steps; ++n) step(time_step);

@@ -1,5 +1,7 @@
 #include "integration/fixed_step/symplectic.hpp"
 
+#include "model/checks.hpp"
+
 #include <utility>
 
 namespace spring_pendulum {
@@ -18,6 +20,7 @@ void SymplecticMethod::restart() {
 }
 
 void SymplecticMethod::advance(State& state, double time_step, std::int64_t steps) {
+  requireAdvance(chain_.size(), state, time_step, steps);
   state.velocities().row(0).setZero();
   current_.values() = state.values();
   for (std::int64_t n = 0; n < steps; ++n) {

@@ -33,7 +33,7 @@ RosenbrockStepper::RosenbrockStepper(const Chain& chain, const RosenbrockTableau
       jacobian_(chain.size() - 1),
       solver_(chain),
       slope_(chain.size()),
-      momenta_(PlaneVectors::Zero(chain.size(), 2)) {
+      momenta_(State::PlaneMatrix::Zero(chain.size(), 2)) {
   for (std::size_t i = 0; i < tableau.stages; ++i) increments_.emplace_back(chain.size());
 }
 

@@ -36,7 +36,7 @@ class RosenbrockStepper final : public ErrorEstimatingStepper {
   ChainSolver solver_;
   StateBuffer slope_;
   std::vector<StateBuffer> increments_;  ///< u_i, one a stage
-  PlaneVectors momenta_;                 ///< right-hand side of the eliminated system
+  State::PlaneMatrix momenta_;           ///< right-hand side of the eliminated system
 };
 
 }  // namespace spring_pendulum

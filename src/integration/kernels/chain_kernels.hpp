@@ -6,7 +6,7 @@
 //     compensated sum      z + (d + w_1 k_1 + w_2 k_2 + ...), and what of it was rounded away
 //     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
 //
-// Every particle sees the operations of the plain code (computeAccelerations) in its order, with the
+// Every particle sees the operations of the plain code (computeSlope) in its order, with the
 // same fused multiply-adds, so the bits are the same for every instruction set. Eigen's types change
 // their layout with the instruction set; nothing but pointers and numbers crosses this border.
 #pragma once

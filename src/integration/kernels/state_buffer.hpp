@@ -1,36 +1,12 @@
 // Workspace of the integrators: states and slopes laid out for vector instructions.
 #pragma once
 
+#include <spring_pendulum/model/aligned_numbers.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <Eigen/Core>
 
-#include <cstddef>
-#include <memory>
-#include <new>
-
 namespace spring_pendulum {
-
-/// Doubles that begin on a cache line, zero when made.
-class AlignedNumbers {
- public:
-  static constexpr std::size_t kAlignment = 64;
-
-  AlignedNumbers() = default;
-  explicit AlignedNumbers(Eigen::Index size)
-      : numbers_(new (std::align_val_t{kAlignment}) double[static_cast<std::size_t>(size)]()) {}
-
-  double* data() { return numbers_.get(); }
-  const double* data() const { return numbers_.get(); }
-
- private:
-  struct Delete {
-    void operator()(double* numbers) const {
-      ::operator delete[](numbers, std::align_val_t{kAlignment});
-    }
-  };
-  std::unique_ptr<double[], Delete> numbers_;
-};
 
 /// N rows of the columns x, y, vx, vy (or of their derivatives), as `State`, but every column
 /// begins on a cache line and goes on behind row N with zeros up to row `pitch()`, so that whole

@@ -36,6 +36,10 @@
 
 namespace spring_pendulum {
 
+/// Largest h|λ| for λ on the negative real axis: the zero of |sum_{n<=K} z^n/n!| - 1.
+constexpr double kTaylor8RealStabilityLimit = 4.313627227774381;
+constexpr double kTaylor12RealStabilityLimit = 5.8227790681937215;
+
 class TaylorStepper final : public DenseOutputStepper {
  public:
   /// \param order K in 4..30

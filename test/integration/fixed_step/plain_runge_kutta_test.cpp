@@ -29,14 +29,12 @@ void addWeighted(double weight, const State& slope, State& to) {
 /// One step as the formula is written.
 void stepByTheFormula(const Chain& chain, const ButcherTableau& tableau, double h, State& state) {
   std::vector<State> slopes(tableau.stages, State(chain.size()));
-  PlaneVectors accelerations;
   for (std::size_t i = 0; i < tableau.stages; ++i) {
     State stage = state;
     for (std::size_t j = 0; j < i; ++j) {
       if (tableau.a[i][j] != 0.0) addWeighted(h * tableau.a[i][j], slopes[j], stage);
     }
-    computeAccelerations(chain, stage, accelerations);
-    slopes[i].values() << stage.velocities(), accelerations;
+    computeSlope(chain, stage, slopes[i]);
   }
   for (std::size_t i = 0; i < tableau.stages; ++i) {
     if (tableau.b[i] != 0.0) addWeighted(h * tableau.b[i], slopes[i], state);

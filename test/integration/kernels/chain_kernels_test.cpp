@@ -51,11 +51,10 @@ State::Matrix plusWeighted(State::Matrix sum, double weight, const State::Matrix
 }
 
 State::Matrix plainSlope(const Chain& chain, const State& state) {
-  PlaneVectors accelerations;
-  computeAccelerations(chain, state, accelerations);
-  State::Matrix slope(state.size(), 4);
-  slope << state.velocities(), accelerations;
-  return slope;
+  State slope;
+  computeSlope(chain, state, slope);
+  slope.positions() = state.velocities();
+  return slope.values();
 }
 
 TEST(ChainKernels, BaselineIsAlwaysThere) {

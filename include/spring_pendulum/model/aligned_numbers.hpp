@@ -1,0 +1,56 @@
+// Memory for numbers that a program and the library hand to each other.
+//
+// How Eigen aligns and frees memory depends on the compiler's vector options, so an Eigen matrix that
+// one side allocates and the other frees crashes if the two were compiled differently. The library
+// therefore allocates and frees all shared memory itself; Eigen only looks at it through Eigen::Map.
+#pragma once
+
+#include <spring_pendulum/model/export.hpp>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+
+namespace SPRING_PENDULUM_API spring_pendulum {
+
+/// An array of doubles that begins on a cache line.
+class AlignedNumbers {
+ public:
+  static constexpr std::size_t kAlignment = 64;
+
+  using View = Eigen::Map<Eigen::VectorXd>;
+  using ConstView = Eigen::Map<const Eigen::VectorXd>;
+
+  AlignedNumbers() noexcept;
+  /// \param size how many numbers, all 0
+  /// \throws InputError if it is negative
+  explicit AlignedNumbers(std::ptrdiff_t size);
+  /// Copies an Eigen vector or vector expression.
+  template <typename Vector>
+  AlignedNumbers(const Eigen::MatrixBase<Vector>& numbers)  // NOLINT(google-explicit-constructor)
+      : AlignedNumbers(static_cast<std::ptrdiff_t>(numbers.size())) {
+    view() = numbers;
+  }
+
+  AlignedNumbers(const AlignedNumbers& other);
+  AlignedNumbers(AlignedNumbers&& other) noexcept;
+  /// Reuses the memory if the sizes agree.
+  AlignedNumbers& operator=(const AlignedNumbers& other);
+  AlignedNumbers& operator=(AlignedNumbers&& other) noexcept;
+  ~AlignedNumbers();
+
+  std::ptrdiff_t size() const { return size_; }
+  double* data() { return data_; }
+  const double* data() const { return data_; }
+  double& operator[](std::ptrdiff_t i) { return data_[i]; }
+  double operator[](std::ptrdiff_t i) const { return data_[i]; }
+
+  View view() { return {data_, static_cast<Eigen::Index>(size_)}; }
+  ConstView view() const { return {data_, static_cast<Eigen::Index>(size_)}; }
+
+ private:
+  double* data_;
+  std::ptrdiff_t size_;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,164 @@
+#!/usr/bin/python3
+"""Checks the structure of the sources, and names the sources that clang-tidy has to read.
+
+    lint_sources.py check             include order, circles, public headers, length of files
+    lint_sources.py tidy [BASE]       one path per line: sources to check after a change since commit
+                                      BASE (default: all); for a changed header a source that reads it
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parent.parent
+FOLDERS = ('include', 'src', 'test', 'benchmark', 'fuzz', 'examples')
+MOST_LINES = 400
+
+# A folder includes itself and folders of a lower rank. Inside integration/ the rooms rank too.
+LAYERS = {'model': 0, 'integration': 1, 'simulation': 2, 'io': 3, 'ros': 4}
+ROOMS = {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3, 'implicit': 3,
+         'automatic': 4}
+BELOW_ALL_ROOMS = ('integrator.hpp', 'butcher_tableau.hpp')
+TABLE = 5  # the method table and what else lies in integration/ itself
+
+
+def git(*arguments):
+    command = ['git', '-c', f'safe.directory={PROJECT}', '-C', str(PROJECT), *arguments]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+
+
+def sources():
+    names = git('ls-files', '--cached', '--others', '--exclude-standard', '*.hpp', '*.cpp')
+    return [Path(name) for name in names if (PROJECT / name).exists()]
+
+
+def place(path):
+    """(layer, room) of a library file such as src/integration/taylor/x.hpp; None for any other."""
+    parts = path.parts
+    if parts[:2] == ('include', 'spring_pendulum'):
+        parts = parts[2:]
+    elif parts[0] == 'src':
+        parts = parts[1:]
+    else:
+        return None
+    if parts[0] not in LAYERS:
+        return None  # programs and the umbrella header
+    room = 0
+    if parts[0] == 'integration' and parts[-1] not in BELOW_ALL_ROOMS:
+        room = ROOMS[parts[1]] if len(parts) > 2 else TABLE
+    return parts[0], room, parts[1] if len(parts) > 2 else ''
+
+
+def resolve(name, includer, known):
+    """The project's file that an include directive means; None for foreign headers."""
+    for folder in (includer.parent, *map(Path, ('include', 'src', 'test', 'benchmark', 'examples'))):
+        if folder / name in known:
+            return folder / name
+    return None
+
+
+def include_graph(files):
+    known = set(files)
+    graph = {}
+    for path in files:
+        text = (PROJECT / path).read_text()
+        names = re.findall(r'^#include [<"]([^>"]+)[>"]', text, re.MULTILINE)
+        graph[path] = [target for name in names if (target := resolve(name, path, known))]
+    return graph
+
+
+def order_errors(graph):
+    for path, targets in graph.items():
+        here = place(path)
+        for target in targets:
+            there = place(target)
+            if here and not there:
+                yield f'{path}: includes {target}, which is no part of the library'
+            elif here and there and LAYERS[there[0]] > LAYERS[here[0]]:
+                yield f'{path}: includes {target}, but {there[0]} comes after {here[0]}'
+            elif here and there and here[0] == there[0] == 'integration':
+                same_rank = there[1] == here[1] and there[2] != here[2]
+                if there[1] > here[1] or same_rank:
+                    yield f'{path}: includes {target} of a room that is not below its own'
+            if path.parts[0] == 'include' and target.parts[0] != 'include':
+                yield f'{path}: public, includes {target}, which is not'
+
+
+def circle(graph):
+    """A list of files that include each other in a circle; empty if there is none."""
+    done, trail = set(), []
+
+    def visit(path):
+        if path in trail:
+            return trail[trail.index(path):] + [path]
+        if path in done:
+            return []
+        trail.append(path)
+        found = next((f for target in graph[path] if (f := visit(target))), [])
+        trail.pop()
+        done.add(path)
+        return found
+
+    return next((found for path in graph if (found := visit(path))), [])
+
+
+def file_errors(files):
+    ros = re.compile(r'#include <(ros|rosbag|[a-z_]+_msgs)/')
+    for path in files:
+        text = (PROJECT / path).read_text()
+        lines = text.count('\n')
+        if lines > MOST_LINES:
+            yield f'{path}: {lines} lines, allowed are {MOST_LINES}'
+        if path.parts[0] == 'include' and re.search(r'^namespace spring_pendulum \{', text, re.MULTILINE):
+            yield f'{path}: public, must open its namespace with SPRING_PENDULUM_API'
+        here = place(path)
+        if here and here[0] != 'ros' and ros.search(text):
+            yield f'{path}: includes ROS, which only src/ros may'
+
+
+def check():
+    files = sources()
+    graph = include_graph(files)
+    errors = [*order_errors(graph), *file_errors(files)]
+    if round_trip := circle(graph):
+        errors.append('circle of includes: ' + ' -> '.join(map(str, round_trip)))
+    print('\n'.join(errors), end='\n' if errors else '')
+    return 1 if errors else 0
+
+
+def reader_of(header, readers):
+    """A source that includes the header, directly or not; the header's own if there is one."""
+    seen, found, queue = set(), [], [header]
+    while queue:
+        for reader in readers.get(queue.pop(), []):
+            if reader in seen:
+                continue
+            seen.add(reader)
+            (found if reader.suffix == '.cpp' else queue).append(reader)
+    own = [source for source in found if source.stem == header.stem]
+    return min(own or found, default=None)
+
+
+def tidy(base):
+    files = sources()
+    if base is None:
+        changed = files
+    else:
+        names = {Path(name) for name in git('diff', '--name-only', base)}
+        names |= {Path(name) for name in git('ls-files', '--others', '--exclude-standard')}
+        changed = [path for path in files if path in names]
+    readers = {}
+    for path, targets in include_graph(files).items():
+        for target in targets:
+            readers.setdefault(target, []).append(path)
+    chosen = {path if path.suffix == '.cpp' else reader_of(path, readers) for path in changed}
+    print('\n'.join(sorted(str(path) for path in chosen - {None} if path.parts[0] in FOLDERS)))
+    return 0
+
+
+if __name__ == '__main__':
+    if sys.argv[1:] == ['check']:
+        sys.exit(check())
+    if sys.argv[1:2] == ['tidy'] and len(sys.argv) <= 3:
+        sys.exit(tidy(sys.argv[2] if len(sys.argv) == 3 else None))
+    sys.exit(__doc__)

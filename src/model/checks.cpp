@@ -1,0 +1,37 @@
+#include "model/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace spring_pendulum {
+
+void requireSize(std::ptrdiff_t particles, const State& state) {
+  if (state.size() == particles) return;
+  throw InputError(fmt::format("the state holds {} particles, the chain {}: sizes must agree",
+                               state.size(), particles));
+}
+
+void requireAdvance(std::ptrdiff_t particles, const State& state, double time_step,
+                    std::int64_t steps) {
+  requireSize(particles, state);
+  requireFinitePositive("time_step", time_step, "s");
+  requireAtLeastZero("steps", steps);
+}
+
+void requireFiniteAtLeastZero(const char* name, double value, const char* unit) {
+  if (std::isfinite(value) && value >= 0.0) return;
+  throw InputError(fmt::format("{} is {}: must be finite and at least 0 {}", name, value, unit));
+}
+
+void requireFinitePositive(const char* name, double value, const char* unit) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw InputError(fmt::format("{} is {}: must be finite and above 0 {}", name, value, unit));
+}
+
+void requireAtLeastZero(const char* name, std::ptrdiff_t value) {
+  if (value >= 0) return;
+  throw InputError(fmt::format("{} is {}: must be at least 0", name, value));
+}
+
+}  // namespace spring_pendulum

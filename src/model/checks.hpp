@@ -1,0 +1,29 @@
+// Checks of arguments: public functions make them once a call, so that misuse ends in a clear error.
+#pragma once
+
+#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/model/state.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace spring_pendulum {
+
+/// \throws InputError unless the state has as many particles as the chain
+void requireSize(std::ptrdiff_t particles, const State& state);
+
+/// Checks the arguments of Integrator::advance.
+/// \throws InputError as requireSize; unless `time_step` is finite and above 0, and `steps` at least 0
+void requireAdvance(std::ptrdiff_t particles, const State& state, double time_step,
+                    std::int64_t steps);
+
+/// \throws InputError naming the value unless it is finite and at least 0
+void requireFiniteAtLeastZero(const char* name, double value, const char* unit);
+
+/// \throws InputError naming the value unless it is finite and above 0
+void requireFinitePositive(const char* name, double value, const char* unit);
+
+/// \throws InputError naming the value unless it is at least 0
+void requireAtLeastZero(const char* name, std::ptrdiff_t value);
+
+}  // namespace spring_pendulum

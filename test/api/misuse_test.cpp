@@ -1,0 +1,151 @@
+// Wrong use of every public function ends in an InputError, also in a release build.
+#include <spring_pendulum/spring_pendulum.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::ptrdiff_t kSize = 5;
+constexpr std::ptrdiff_t kWrongSizes[] = {0, 1, kSize - 1, kSize + 1, 1000};
+
+Chain chain() {
+  return {Eigen::VectorXd::Ones(kSize), SpringLaw{}, 9.81};
+}
+
+State horizontal() {
+  State state(kSize);
+  state.x() = Eigen::VectorXd::LinSpaced(kSize, 0.0, 4.0);
+  return state;
+}
+
+TEST(Misuse, NegativeSizes) {
+  EXPECT_THROW(AlignedNumbers(-1), InputError);
+  EXPECT_THROW(State(-1), InputError);
+  EXPECT_THROW(State(std::numeric_limits<std::ptrdiff_t>::min()), InputError);
+}
+
+TEST(Misuse, ChainsThatCannotBe) {
+  EXPECT_THROW(Chain(Eigen::VectorXd(), SpringLaw{}, 9.81), InputError);
+  EXPECT_THROW(Chain(Eigen::VectorXd::Zero(2), SpringLaw{}, 9.81), InputError);
+  EXPECT_THROW(Chain(Eigen::VectorXd::Constant(2, kNan), SpringLaw{}, 9.81), InputError);
+  EXPECT_THROW(Chain(Eigen::VectorXd::Ones(2), SpringLaw{-1.0}, 9.81), InputError);
+  EXPECT_THROW(Chain(Eigen::VectorXd::Ones(2), SpringLaw{}, kNan), InputError);
+}
+
+TEST(Misuse, StatesOfAnotherSize) {
+  for (const std::ptrdiff_t size : kWrongSizes) {
+    State slope;
+    EXPECT_THROW(springForceOn(chain(), State(size), 0), InputError) << size;
+    EXPECT_THROW(computeSlope(chain(), State(size), slope), InputError) << size;
+    EXPECT_THROW(computeEnergy(chain(), State(size)), InputError) << size;
+    EXPECT_THROW(dissipatedPower(chain(), State(size)), InputError) << size;
+  }
+}
+
+TEST(Misuse, RunsFromStatesOfAnotherSize) {
+  ReferenceRun reference(chain(), horizontal());
+  for (const std::ptrdiff_t size : kWrongSizes) {
+    const State wrong(size);
+    EXPECT_THROW(chainLength(chain(), wrong), InputError) << size;
+    EXPECT_THROW(ReferenceRun(chain(), wrong), InputError) << size;
+    EXPECT_THROW(static_cast<void>(reference.errorOf(wrong)), InputError) << size;
+    EXPECT_THROW(EnergyScale(chain(), wrong), InputError) << size;
+    EXPECT_THROW(EnergyBalance(chain(), wrong, true), InputError) << size;
+    EXPECT_THROW(Judge(chain(), wrong, true), InputError) << size;
+    EXPECT_THROW(describeStability(chain(), wrong, Scenario{}), InputError) << size;
+    EXPECT_THROW(findStepLimits(findMethod("Euler"), chain(), wrong, 0.01, 1.0, 0.1), InputError);
+  }
+}
+
+TEST(Misuse, TimesOfRuns) {
+  ReferenceRun reference(chain(), horizontal());
+  EXPECT_THROW(reference.advance(kNan, 1, 0), InputError);
+  EXPECT_THROW(reference.advance(0.1, -1, 0), InputError);
+  for (const double time : {0.0, -1.0, kNan, kInfinity}) {
+    const Method& euler = findMethod("Euler");
+    EXPECT_THROW(findStepLimits(euler, chain(), horizontal(), time, 1.0, 0.1), InputError);
+    EXPECT_THROW(findStepLimits(euler, chain(), horizontal(), 0.01, time, 0.1), InputError);
+    EXPECT_THROW(findStepLimits(euler, chain(), horizontal(), 0.01, 1.0, time), InputError);
+    EXPECT_THROW(linearStepLimit(euler, chain(), time), InputError);
+  }
+}
+
+TEST(Misuse, SpringsThatDoNotExist) {
+  EXPECT_THROW(springForceOn(chain(), horizontal(), -1), InputError);
+  EXPECT_THROW(springForceOn(chain(), horizontal(), kSize - 1), InputError);
+  EXPECT_NO_THROW(springForceOn(chain(), horizontal(), kSize - 2));
+}
+
+TEST(Misuse, SlopeAndStateInOnePlace) {
+  State state = horizontal();
+  EXPECT_THROW(computeSlope(chain(), state, state), InputError);
+}
+
+TEST(Misuse, OptionsOfIntegrators) {
+  for (const Method& method : methodTable()) {
+    for (const double tolerance : {0.0, -1.0, kNan, kInfinity}) {
+      EXPECT_THROW(makeIntegrator(method.name, chain(), {tolerance}), InputError) << method.name;
+    }
+    EXPECT_THROW(makeIntegrator(method.name, chain(), {1e-6, false, -1}), InputError);
+  }
+  EXPECT_THROW(makeIntegrator("", chain()), InputError);
+  Chain source = chain();
+  const Chain moved = std::move(source);
+  EXPECT_THROW(makeIntegrator("Euler", source), InputError);  // NOLINT(bugprone-use-after-move)
+}
+
+TEST(Misuse, ArgumentsOfAdvance) {
+  for (const Method& method : methodTable()) {
+    SCOPED_TRACE(method.name);
+    const auto integrator = makeIntegrator(method.name, chain());
+    for (const bool running : {false, true}) {
+      for (const std::ptrdiff_t size : kWrongSizes) {
+        State wrong(size);
+        EXPECT_THROW(integrator->advance(wrong, 0.01, 1), InputError) << running;
+      }
+      State state = horizontal();
+      for (const double step : {0.0, -0.01, kNan, kInfinity, -kInfinity}) {
+        EXPECT_THROW(integrator->advance(state, step, 1), InputError) << step;
+      }
+      EXPECT_THROW(integrator->advance(state, 0.01, -1), InputError);
+      EXPECT_THROW(integrator->advance(state, 0.01, std::numeric_limits<std::int64_t>::min()),
+                   InputError);
+      EXPECT_EQ(state.values(), horizontal().values());  // nothing was touched
+      integrator->advance(state, 0.01, 0);
+      integrator->advance(state, 0.01, 3);
+    }
+  }
+}
+
+// The starting state may hold anything: the result is not finite, but no run ends in a crash or
+// without end.
+TEST(Misuse, StatesThatAreNotFinite) {
+  for (const Method& method : methodTable()) {
+    for (const double value : {kNan, kInfinity, 1e308}) {
+      State state = horizontal();
+      state.x()[2] = value;
+      makeIntegrator(method.name, chain())->advance(state, 0.01, 3);
+      EXPECT_FALSE(state.values().allFinite() && value != 1e308) << method.name << " " << value;
+    }
+  }
+}
+
+TEST(Misuse, MessagesNameTheValue) {
+  try {
+    State state(3);
+    makeIntegrator("Euler", chain())->advance(state, 0.01, 1);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "the state holds 3 particles, the chain 5: sizes must agree");
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,150 @@
+// Methods that come from outside the library.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "own_methods.hpp"
+#include "support/order_conditions.hpp"
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using test::positionError;
+using test::referenceScene;
+using test::referenceSolution;
+
+/// Registers the methods once.
+const std::vector<const Method*>& ownMethods() {
+  static const std::vector<const Method*> kMethods = [] {
+    registerOwnMethods();
+    return std::vector<const Method*>{&findMethod("Ralston"), &findMethod("Heun")};
+  }();
+  return kMethods;
+}
+
+TEST(OwnMethods, AreListedByName) {
+  for (const Method* method : ownMethods()) {
+    EXPECT_THAT(knownMethodNames(), testing::HasSubstr(method->name));
+  }
+}
+
+TEST(OwnMethods, HaveTheirOrder) {
+  for (const Method* method : ownMethods()) {
+    for (const char* name : {"single_vertical", "two_masses_45deg"}) {
+      double errors[2] = {};
+      for (const int halvings : {0, 1}) {
+        test::Scene scene = referenceScene(name);
+        const auto integrator = makeIntegrator(method->name, scene.chain);
+        const int steps = 1024 << halvings;
+        integrator->advance(scene.start, 2.0 / steps, steps);
+        errors[halvings] = positionError(scene.start, referenceSolution(name, 2));
+        EXPECT_EQ(integrator->forceEvaluations(), method->stages * steps);
+      }
+      EXPECT_NEAR(std::log2(errors[0] / errors[1]), method->order, 0.1) << method->name << name;
+    }
+  }
+}
+
+TEST(OwnMethods, PassTheOrderConditionsOfTheirTableau) {
+  const ButcherTableau& tableau = *ownMethods()[0]->tableau;
+  EXPECT_NE(&tableau, &kRalstonTableau);  // the table has a copy
+  EXPECT_LT(test::orderConditionResidual(tableau, tableau.b, 2), 1e-15);
+  EXPECT_GT(test::orderConditionResidual(tableau, tableau.b, 3), 1e-3);
+}
+
+TEST(OwnMethods, GetStabilityAdvice) {
+  const test::Scene scene = referenceScene("two_masses_45deg");
+  for (const Method* method : ownMethods()) {
+    Scenario scenario;
+    scenario.method = method->name;
+    scenario.time_step = 0.01;
+    EXPECT_THAT(describeStability(scene.chain, scene.start, scenario),
+                testing::HasSubstr(method->name));
+  }
+}
+
+TEST(OwnMethods, IntegrateTheDissipatedEnergy) {
+  for (const Method* method : ownMethods()) {
+    const test::Scene scene = referenceScene("two_masses_45deg");
+    IntegratorOptions options;
+    options.track_dissipation = true;
+    const auto integrator = makeIntegrator(method->name, scene.chain, options);
+    State state = scene.start;
+    integrator->advance(state, 1e-4, 20000);
+    const double balance = computeEnergy(scene.chain, state).total() +
+                           integrator->dissipatedEnergy() -
+                           computeEnergy(scene.chain, scene.start).total();
+    EXPECT_GT(integrator->dissipatedEnergy(), 0.1) << method->name;
+    EXPECT_LT(std::abs(balance), 1e-5) << method->name;
+  }
+}
+
+// The coefficients decide, not the address: a copy of a fast tableau is fast.
+TEST(OwnMethods, WithTheCoefficientsOfAFastTableauHaveItsBits) {
+  Method copy{"Midpoint-Copy", 2, 2, StepControl::kFixed, 2.0};
+  const ButcherTableau tableau = kMidpointTableau;
+  copy.tableau = &tableau;
+  registerMethod(copy);
+  State states[2] = {referenceScene("horizontal_11").start, referenceScene("horizontal_11").start};
+  const Chain chain = referenceScene("horizontal_11").chain;
+  makeIntegrator("Runge-Kutta-2", chain)->advance(states[0], 0.01, 100);
+  makeIntegrator("Midpoint-Copy", chain)->advance(states[1], 0.01, 100);
+  EXPECT_EQ(states[0].values(), states[1].values());
+}
+
+struct BadMethod {
+  const char* error;
+  void (*spoil)(Method& method, ButcherTableau& tableau);
+};
+
+TEST(OwnMethods, AreRefusedIfTheyCannotWork) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<BadMethod> bad_methods{
+      {"name", [](Method& m, ButcherTableau&) { m.name = ""; }},
+      {"name is taken", [](Method& m, ButcherTableau&) { m.name = "Euler"; }},
+      {"order", [](Method& m, ButcherTableau&) { m.order = 0; }},
+      {"stages", [](Method& m, ButcherTableau&) { m.stages = 0; }},
+      {"stages", [](Method& m, ButcherTableau&) { m.stages = 3; }},
+      {"limits", [](Method& m, ButcherTableau&) { m.real_stability_limit = kNan; }},
+      {"limits", [](Method& m, ButcherTableau&) { m.imaginary_stability_limit = -1.0; }},
+      {"tableau or a factory", [](Method& m, ButcherTableau&) { m.tableau = nullptr; }},
+      {"fixed steps",
+       [](Method& m, ButcherTableau&) { m.control = StepControl::kErrorControlled; }},
+      {"0 stages", [](Method&, ButcherTableau& t) { t.stages = 0; }},
+      {"17 stages", [](Method&, ButcherTableau& t) { t.stages = 17; }},
+      {"diagonal", [](Method&, ButcherTableau& t) { t.a[0][1] = 0.5; }},
+      {"diagonal", [](Method&, ButcherTableau& t) { t.a[1][1] = 0.5; }},
+      {"finite", [](Method&, ButcherTableau& t) { t.a[1][0] = kNan; }},
+      {"finite", [](Method&, ButcherTableau& t) { t.b[1] = kNan; }},
+  };
+  for (const BadMethod& bad : bad_methods) {
+    ButcherTableau tableau = kRalstonTableau;
+    Method method{"Bad", 2, 2, StepControl::kFixed, 2.0};
+    method.tableau = &tableau;
+    bad.spoil(method, tableau);
+    const std::size_t rows = methodTable().size();
+    try {
+      registerMethod(method);
+      ADD_FAILURE() << "no error: " << bad.error;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(bad.error));
+    }
+    EXPECT_EQ(methodTable().size(), rows);
+  }
+}
+
+TEST(OwnMethods, WhoseFactoryMakesNothingAreRefused) {
+  Method method{"Nothing", 1, 1, StepControl::kFixed};
+  method.make = [](const Method&, const Chain&, const IntegratorOptions&) {
+    return std::unique_ptr<Integrator>();
+  };
+  registerMethod(method);
+  EXPECT_THROW(makeIntegrator("Nothing", referenceScene("two_masses_45deg").chain), InputError);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
