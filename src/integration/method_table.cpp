@@ -3,7 +3,7 @@
 #include "integration/error_control/dense_output_integrator.hpp"
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include "integration/fixed_step/symplectic.hpp"
-#include "integration/implicit/rosenbrock.hpp"
+#include "integration/implicit/radau_stepper.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 #include "model/checks.hpp"
@@ -58,9 +58,9 @@ std::unique_ptr<Integrator> makeTaylor(const Method& method, const Chain& chain,
   return makeErrorControlled<Stepper>(chain, options, method.order);
 }
 
-std::unique_ptr<Integrator> makeRodas5P(const Method&, const Chain& chain,
-                                        const IntegratorOptions& options) {
-  return makeErrorControlled<RosenbrockStepper>(chain, options, kRodas5PTableau);
+std::unique_ptr<Integrator> makeRadau(const Method&, const Chain& chain,
+                                      const IntegratorOptions& options) {
+  return makeErrorControlled<RadauStepper>(chain, options);
 }
 
 std::unique_ptr<Integrator> makeAuto(const Method&, const Chain& chain,
@@ -121,13 +121,14 @@ std::deque<Method> builtInMethods() {
        "doi:10.2140/camcos.2012.7.247",
        "8 to 14 terms a step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
        nullptr, makeTaylor<StabilizedTaylorStepper>},
-      {"Rodas5P", 5, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
-       "G. Steinebach, BIT Numer. Math. 63 (2023) 27, doi:10.1007/s10543-023-00967-x",
-       "linearly implicit: for very light particles (k_d/m beyond 1e5/s) and coarse tolerances",
-       nullptr, makeRodas5P},
+      {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
+       "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
+       "doi:10.1016/S0377-0427(99)00134-X",
+       "implicit in the spring tensions: for very light particles (k_d/m beyond 1e4/s)", nullptr,
+       makeRadau},
       {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
-       "takes the cheapest of the Taylor methods and Rodas5P for the motion at hand", nullptr,
+       "takes the cheapest of the Taylor methods and Radau-9 for the motion at hand", nullptr,
        makeAuto},
   };
 }

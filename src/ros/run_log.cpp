@@ -29,7 +29,7 @@ void tellOfDisplayRate(const PendulumRun& run, const NodeOptions& options) {
       options.display_rate, run.scenario().time_step, states, options.real_time_factor));
 }
 
-/// The end of "Taylor-8 for 3.2 s, Rodas5P for 1 s, 1 switch", which changes with every choice.
+/// The end of "Taylor-8 for 3.2 s, Radau-9 for 1 s, 1 switch", which changes with every choice.
 std::string switchesOf(const std::string& report) {
   const std::size_t comma = report.rfind(", ");
   return comma == std::string::npos ? report : report.substr(comma + 2);

@@ -72,9 +72,8 @@ double worstError(Integrator& integrator, const Scene& scene, const std::string&
 
 // The promise, 10 tolerances, on the scenes that cost little; `scripts/benchmark.sh tolerance` puts
 // it to the test on all of them. Measured: at most 7.0 (Dormand-Prince-5), 5.4 (Dormand-Prince-8),
-// 1.3 (Taylor-8), 2.0 (Taylor-12), 5.0 (Stabilized-Taylor-4), 7.2 (Stabilized-Taylor-8), 6.9
-// (Rodas5P), 2.0 (Auto), all after 50 s of horizontal_11. At 1e-10 m steps must not lose their last
-// bits: plain sums of them made an error of 12 tolerances (Rodas5P).
+// 1.3 (Taylor-8), 2.0 (Taylor-12), 5.0 (Stabilized-Taylor-4), 7.2 (Stabilized-Taylor-8), 2.0
+// (Auto), all after 50 s of horizontal_11. At 1e-10 m steps must not lose their last bits.
 TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
   for (const double tolerance : kTolerances) {
     for (const char* name : {"single_vertical", "two_masses_45deg", "horizontal_11"}) {
@@ -86,7 +85,6 @@ TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
   }
 }
 
-// Measured: at most 0.08 (Rodas5P on light_100 at 1e-10).
 TEST_P(ErrorControlledMethod, KeepsItsToleranceOnLongAndLightChains) {
   for (const double tolerance : kTolerances) {
     const Scene light = referenceScene("light_100");
@@ -99,7 +97,7 @@ TEST_P(ErrorControlledMethod, KeepsItsToleranceOnLongAndLightChains) {
   }
 }
 
-// Here stability limits the steps of explicit methods. Measured: at most 0.01 (Rodas5P).
+// Here stability limits the steps of explicit methods. Measured: at most 0.01.
 TEST_P(ErrorControlledMethod, KeepsItsToleranceOnStiffChains) {
   const double tolerance = 1e-4;
   for (const char* name : {"lighter_100", "alternating_50"}) {

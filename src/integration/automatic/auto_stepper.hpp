@@ -1,13 +1,14 @@
 // Auto: takes the method that is cheapest for the chain, the tolerance and the motion at hand.
 //
-// It begins with a Taylor series method, of order 8 or 12 by tolerance, which nothing beats as long
-// as accuracy limits its steps. When they come near its stability limit (step * k_d μ, with the
-// chain's largest spring mode μ), the motion has turned stiff, and the stabilised series of order 8
-// takes over from the plain one of order 8, as it can only need less work. Then the methods race:
-// the plain series, the stabilised ones of order 4 and 8 and, for very light particles, Rodas5P.
+// It begins with a Taylor series method, of order 8 or 12 by tolerance, the cheapest as long as
+// accuracy limits its steps. When they come near its stability limit (step * k_d μ, with the
+// chain's largest spring mode μ), the motion has turned stiff. The stabilised series of order 8 then
+// takes over from the plain one of order 8, as it needs no more work. After that the methods race:
+// the plain series, the stabilised ones of order 4 and 8 and, for light particles, Radau-9.
 // Each takes a few steps from the same state, and what counts is the time it covers per work, in
-// force evaluations of Taylor-8. The work of a method's evaluation is a constant, no clock is read,
-// so every machine chooses alike and the bits stay the same.
+// force evaluations of Taylor-8. All control their error alike: long steps each, and short steps
+// per unit of time. The work of a method's evaluation is a constant, no clock is read, so every
+// machine chooses alike and the bits stay the same. A method is made when it is first needed.
 //
 // Races are held rarely enough to cost some percents of the work, and a challenger has to be
 // better by a fifth, so that two methods that are equally good do not take turns. Races go on while
@@ -50,8 +51,9 @@ class AutoStepper final : public DenseOutputStepper {
   struct Candidate {
     std::string_view name;
     double work_per_evaluation;  ///< in force evaluations of Taylor-8
-    std::unique_ptr<DenseOutputStepper> stepper;
-    double covered = 0.0;  ///< time integrated with it, s
+    std::unique_ptr<DenseOutputStepper> (*make)(const Chain& chain, double tolerance);
+    std::unique_ptr<DenseOutputStepper> stepper{};  ///< made when it is first used
+    double covered = 0.0;                           ///< time integrated with it, s
   };
   /// Time covered and the work it took.
   struct Pace {
@@ -62,15 +64,20 @@ class AutoStepper final : public DenseOutputStepper {
 
   const Candidate& active() const { return candidates_[active_]; }
   static std::int64_t evaluationsOf(const Candidate& candidate) {
-    return candidate.stepper->statistics().force_evaluations;
+    return candidate.stepper ? candidate.stepper->statistics().force_evaluations : 0;
   }
   static double workSince(const Candidate& candidate, std::int64_t evaluations);
-  static Pace paceOf(Candidate& candidate, const State& state);
+  Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
+  DenseOutputStepper& startedAt(Candidate& candidate, const State& state);
+  /// `state_` becomes the end of the last step.
+  void readState();
   void race();
   /// Goes on from `state_` with another candidate, or with the same one.
   void change(std::size_t to);
 
+  Chain chain_;
+  double tolerance_;
   double fastest_rate_;               ///< of the damped modes, 1/s
   bool successor_is_better_ = false;  ///< candidate 1 than the first, if the motion is stiff
   double explicit_limit_ = 0.0;       ///< h|λ| up to which the first candidate is stable

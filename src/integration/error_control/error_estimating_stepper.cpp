@@ -7,19 +7,30 @@
 #include <utility>
 
 namespace spring_pendulum {
+namespace {
 
-ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowed_error,
-                                               int error_order, const ChainKernels& kernels)
+/// First step, times the root of the allowed error; the controller lets it grow fivefold a step.
+constexpr double kFirstStep = 0.01;
+
+}  // namespace
+
+ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, const ErrorControl& control,
+                                               const ChainKernels& kernels)
     : chain_(chain),
-      allowed_error_(allowed_error),
-      error_order_(error_order),
+      control_(control),
       constants_(chain_),
       kernels_(kernels),
-      controller_(error_order),
+      controller_(control.order),
       begin_(chain.size()),
       end_(chain.size()),
       begin_carry_(chain.size()),
       end_carry_(chain.size()) {}
+
+ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowed_error,
+                                               int error_order, const ChainKernels& kernels)
+    : ErrorEstimatingStepper(
+          chain, {allowed_error, error_order, kFirstStep * root(allowed_error, error_order)},
+          kernels) {}
 
 void ErrorEstimatingStepper::start(const State& state) {
   requireSize(chain_.size(), state);
@@ -28,8 +39,7 @@ void ErrorEstimatingStepper::start(const State& state) {
   end_carry_.values().setZero();
   controller_.restart();
   restarted_ = true;
-  // Short for any scene at this tolerance; the controller makes five times as much of it a step.
-  next_step_ = std::max(0.01 * root(allowed_error_, error_order_), kShortestStep);
+  next_step_ = std::max(control_.first_step, kShortestStep);
 }
 
 double ErrorEstimatingStepper::step() {
@@ -39,7 +49,7 @@ double ErrorEstimatingStepper::step() {
   restarted_ = false;
   for (;;) {
     const double h = admissible(std::clamp(next_step_, kShortestStep, kLongestStep));
-    const double error = attempt(h) / allowed_error_;
+    const double error = attempt(h) / control_.allowed;
     next_step_ = controller_.next(h, error);
     const bool at_the_shortest = h <= kShortestStep;
     if (StepSizeController::accepts(error) || (at_the_shortest && std::isfinite(error))) {

@@ -25,8 +25,14 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   StepStatistics statistics() const override { return statistics_; }
 
  protected:
-  /// \param allowed_error position error allowed in a step, m
-  /// \param error_order   power of h with which the estimated error grows
+  struct ErrorControl {
+    double allowed;     ///< estimated error that a step may have, in the unit of `attempt`
+    int order;          ///< power of h with which the estimated error grows
+    double first_step;  ///< s
+  };
+  ErrorEstimatingStepper(const Chain& chain, const ErrorControl& control,
+                         const ChainKernels& kernels);
+  /// A first step that is short for any scene.
   ErrorEstimatingStepper(const Chain& chain, double allowed_error, int error_order,
                          const ChainKernels& kernels);
 
@@ -56,8 +62,7 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
 
  private:
   Chain chain_;
-  double allowed_error_;
-  int error_order_;
+  ErrorControl control_;
   KernelConstants constants_;
   const ChainKernels& kernels_;
   StepSizeController controller_;

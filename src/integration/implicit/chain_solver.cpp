@@ -2,54 +2,66 @@
 
 namespace spring_pendulum {
 
-ChainSolver::ChainSolver(const Chain& chain)
-    : masses_(chain.masses()),
+template <typename Scalar>
+ChainSolver<Scalar>::ChainSolver(const Chain& chain)
+    : chain_(chain),
       middle_(chain.size() / 2),
-      springs_(static_cast<std::size_t>(chain.size())),
-      pivots_(springs_.size()),
-      forward_(springs_.size()),
-      backward_(springs_.size()) {}
+      pivots_(static_cast<std::size_t>(chain.size())),
+      forward_(pivots_.size()),
+      backward_(pivots_.size()) {}
 
-ChainSolver::Block ChainSolver::product(const Block& a, const Block& b) {
+template <typename Scalar>
+typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::product(const Block& a, const Block& b) {
   return {a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx,
           a.yx * b.xy + a.yy * b.yy};
 }
 
-ChainSolver::Block ChainSolver::inverse(const Block& a) {
-  const double scale = 1.0 / (a.xx * a.yy - a.xy * a.yx);
+template <typename Scalar>
+typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::inverse(const Block& a) {
+  const Scalar scale = reciprocal(a.xx * a.yy - a.xy * a.yx);
   return {a.yy * scale, -a.xy * scale, -a.yx * scale, a.xx * scale};
 }
 
-ChainSolver::Block ChainSolver::diagonal(Eigen::Index particle) const {
-  const auto i = static_cast<std::size_t>(particle);
-  const Block &left = springs_[i - 1], &right = springs_[i];
-  const double mass = masses_[particle];
+template <typename Scalar>
+typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::springBlock(Eigen::Index i) const {
+  if (i + 1 >= chain_.size()) return {};
+  const LinearSpring& spring = (*springs_)[static_cast<std::size_t>(i)];
+  const double damping = chain_.spring().damping;
+  const auto row = [&](double r) {  // r times the row vector q k_d rᵀ + q² (a - e r)ᵀ
+    const PlaneVector<double>& s = spring.r;
+    return PlaneVector<Scalar>{r * (q_ * (damping * s.x + q_ * (spring.a.x - spring.e * s.x))),
+                               r * (q_ * (damping * s.y + q_ * (spring.a.y - spring.e * s.y)))};
+  };
+  const PlaneVector<Scalar> x = row(spring.r.x), y = row(spring.r.y);
+  const Scalar e = q_ * q_ * spring.e;
+  return {x.x + e, x.y, y.x, y.y + e};
+}
+
+template <typename Scalar>
+typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::diagonal(Eigen::Index particle) const {
+  const Block left = springBlock(particle - 1), right = springBlock(particle);
+  const Scalar mass = chain_.masses()[particle];
   return {mass + (left.xx + right.xx), left.xy + right.xy, left.yx + right.yx,
           mass + (left.yy + right.yy)};
 }
 
-void ChainSolver::eliminate(Eigen::Index from, const Block& spring, Block& neighbour,
-                            Block& forward) {
+template <typename Scalar>
+void ChainSolver<Scalar>::eliminate(Eigen::Index from, const Block& spring, Block& neighbour,
+                                    Block& forward) {
   const auto i = static_cast<std::size_t>(from);
   backward_[i] = product(pivots_[i], spring);
   forward = product(spring, pivots_[i]);
   const Block fill = product(spring, backward_[i]);
-  neighbour.xx -= fill.xx;
-  neighbour.xy -= fill.xy;
-  neighbour.yx -= fill.yx;
-  neighbour.yy -= fill.yy;
+  neighbour = {neighbour.xx - fill.xx, neighbour.xy - fill.xy, neighbour.yx - fill.yx,
+               neighbour.yy - fill.yy};
 }
 
-void ChainSolver::factor(const SpringJacobian& jacobian, double q) {
-  const Eigen::Index size = masses_.size();
+template <typename Scalar>
+void ChainSolver<Scalar>::factor(const std::vector<LinearSpring>& springs, Scalar q) {
+  const Eigen::Index size = chain_.size();
   if (size < 2) return;
-  const double q2 = q * q;
-  for (Eigen::Index i = 0; i + 1 < size; ++i) {
-    const auto entry = [&](int c) {
-      return q * jacobian.damping(i, c) + q2 * jacobian.stiffness(i, c);
-    };
-    springs_[static_cast<std::size_t>(i)] = {entry(0), entry(1), entry(2), entry(3)};
-  }
+  springs_ = &springs;
+  q_ = q;
   const auto at = [](std::vector<Block>& blocks, Eigen::Index i) -> Block& {
     return blocks[static_cast<std::size_t>(i)];
   };
@@ -59,27 +71,28 @@ void ChainSolver::factor(const SpringJacobian& jacobian, double q) {
     at(pivots_, left) = inverse(left_pivot);
     at(pivots_, right) = inverse(right_pivot);
     left_pivot = diagonal(left + 1);
-    eliminate(left, at(springs_, left), left_pivot, at(forward_, left + 1));
+    eliminate(left, springBlock(left), left_pivot, at(forward_, left + 1));
     if (left + 1 == right - 1) {
-      eliminate(right, at(springs_, right - 1), left_pivot, forward_middle_);
+      eliminate(right, springBlock(right - 1), left_pivot, forward_middle_);
     } else {
       right_pivot = diagonal(right - 1);
-      eliminate(right, at(springs_, right - 1), right_pivot, at(forward_, right - 1));
+      eliminate(right, springBlock(right - 1), right_pivot, at(forward_, right - 1));
     }
   }
   if (right > left) {  // an even number of moving particles: the right one goes before the left
     at(pivots_, right) = inverse(right_pivot);
-    eliminate(right, at(springs_, left), left_pivot, forward_middle_);
+    eliminate(right, springBlock(left), left_pivot, forward_middle_);
   }
   at(pivots_, left) = inverse(left_pivot);
 }
 
 // The last result of each recursion is carried along in registers: reading it back from memory
 // would lengthen the chain of dependent operations, which is what the time goes into.
-void ChainSolver::solve(double* x, double* y) const {
-  const auto size = static_cast<std::ptrdiff_t>(masses_.size());
+template <typename Scalar>
+void ChainSolver<Scalar>::solve(Scalar* x, Scalar* y) const {
+  const auto size = static_cast<std::ptrdiff_t>(chain_.size());
   if (size < 2) return;
-  using Vector = PlaneVector<double>;
+  using Vector = PlaneVector<Scalar>;
   const auto add = [x, y](std::ptrdiff_t i, const Block& a, const Vector& v) {
     const Vector sum{x[i] + (a.xx * v.x + a.xy * v.y), y[i] + (a.yx * v.x + a.yy * v.y)};
     x[i] = sum.x;
@@ -106,5 +119,8 @@ void ChainSolver::solve(double* x, double* y) const {
     if (left > 0) from_left = add(left, backward_[static_cast<std::size_t>(left)], from_left);
   }
 }
+
+template class ChainSolver<double>;
+template class ChainSolver<Complex>;
 
 }  // namespace spring_pendulum

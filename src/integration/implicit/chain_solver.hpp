@@ -1,13 +1,14 @@
 // The linear systems of implicit methods for a chain, solved in O(N).
 //
-// An implicit method with step h and coefficient γ has to solve (I - q J) w = r with q = hγ and J
-// the Jacobian of F. J has the shape [0 I; K C], so the positions can be eliminated; with the
-// masses multiplied in there remains, for two unknowns a moving particle,
+// An implicit method with step h and an eigenvalue λ of its inverse matrix has to solve
+// (I - q J) w = b with q = h/λ and J the Jacobian of F. J has the shape [0 I; M⁻¹K M⁻¹C], so the
+// positions can be eliminated; with the masses multiplied in there remains, for two unknowns a
+// moving particle,
 //
 //     (M - q C - q² K) u = b ,
 //
-// block tridiagonal with 2×2 blocks: a spring adds its block q dfdw + q² dfdd to the diagonal
-// blocks of its two ends and takes it off the two blocks that join them.
+// block tridiagonal with 2×2 blocks: a spring adds its block q df/dw + q² df/dd to the diagonal
+// blocks of its two ends and takes it off the two blocks that join them. q may be complex.
 //
 // Blocks are eliminated without pivoting from both ends at once towards the middle particle
 // ("twisted" or "burn at both ends" factorisation): two independent recursions keep the processor
@@ -18,45 +19,57 @@
 // Linear Algebra for High-Performance Computers, SIAM 1998, section 7.4 (twisted factorisation).
 #pragma once
 
-#include "model/jacobian.hpp"
+#include "integration/implicit/complex.hpp"
+#include "integration/implicit/linear_spring.hpp"
 #include <spring_pendulum/model/chain.hpp>
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace spring_pendulum {
 
+/// \tparam Scalar double or Complex
+template <typename Scalar>
 class ChainSolver {
  public:
+  /// \param chain must outlive the solver
   explicit ChainSolver(const Chain& chain);
 
   /// Factors M - q C - q² K.
-  /// \param q hγ, s
-  void factor(const SpringJacobian& jacobian, double q);
+  /// \param springs N-1
+  /// \param q h/λ, s
+  void factor(const std::vector<LinearSpring>& springs, Scalar q);
 
   /// Solves for one right-hand side, in place.
   /// \param x, y the N entries of a component; those of the fixed first particle are not touched
-  void solve(double* x, double* y) const;
+  void solve(Scalar* x, Scalar* y) const;
 
  private:
   struct Block {
-    double xx, xy, yx, yy;
+    Scalar xx, xy, yx, yy;
   };
   static Block product(const Block& a, const Block& b);
   static Block inverse(const Block& a);
 
+  /// q df/dw + q² df/dd of spring i; 0 behind the free end.
+  Block springBlock(Eigen::Index i) const;
   Block diagonal(Eigen::Index particle) const;
   /// Takes out what eliminating `from` does to its neighbour, to which `spring` joins it.
   void eliminate(Eigen::Index from, const Block& spring, Block& neighbour, Block& forward);
 
-  Eigen::VectorXd masses_;
-  Eigen::Index middle_;         ///< particle eliminated last
-  std::vector<Block> springs_;  ///< q dfdw + q² dfdd of spring i; one more, 0, behind the free end
-  std::vector<Block> pivots_;   ///< inverse diagonal block of particle i when its turn has come
-  std::vector<Block> forward_;  ///< what particle i takes of its outer neighbour's right-hand side
+  const Chain& chain_;
+  Eigen::Index middle_;  ///< particle eliminated last
+  const std::vector<LinearSpring>* springs_ = nullptr;
+  Scalar q_{};
+  std::vector<Block> pivots_;    ///< inverse diagonal block of particle i when its turn has come
+  std::vector<Block> forward_;   ///< what particle i takes of its outer neighbour's right-hand side
   std::vector<Block> backward_;  ///< what particle i takes of its inner neighbour's solution
   Block forward_middle_{};       ///< as forward_[middle_], which is from the left, from the right
 };
+
+extern template class ChainSolver<double>;
+extern template class ChainSolver<Complex>;
 
 }  // namespace spring_pendulum

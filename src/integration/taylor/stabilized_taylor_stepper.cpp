@@ -11,6 +11,10 @@ namespace {
 /// The last percents of a stability interval are left to the springs' own part of the rates.
 constexpr double kUsedStability = 0.97;
 
+/// Errors of shorter steps count as if they were made in every such time, s: there are many of
+/// them, and where a light particle vibrates they add up.
+constexpr double kLeastTimePerError = 1e-3;
+
 double longestStep(const StabilizedPolynomial& polynomial, double rate) {
   return kUsedStability * polynomial.real_stability_limit / rate;
 }
@@ -41,9 +45,8 @@ TaylorWeights errorOf(const StabilizedPolynomial& polynomial, double time) {
 }  // namespace
 
 StabilizedTaylorStepper::StabilizedTaylorStepper(const Chain& chain, int order, double tolerance,
-                                                 double share_of_tolerance,
                                                  const ChainKernels& kernels)
-    : ErrorEstimatingStepper(chain, share_of_tolerance * tolerance, order, kernels),
+    : ErrorEstimatingStepper(chain, kShareOfTolerance * tolerance, order, kernels),
       fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
       polynomials_(stabilizedPolynomials(order)),
       polynomial_(polynomials_.begin()),
@@ -86,7 +89,8 @@ double StabilizedTaylorStepper::attempt(double h) {
       kernels().springsChangeMuch(work.size, work.pitch, begin().data(), end().data())) {
     return std::numeric_limits<double>::infinity();
   }
-  return kernels().taylorLargestSum(work, errorOf(*polynomial_, h)).position;
+  const double error = kernels().taylorLargestSum(work, errorOf(*polynomial_, h)).position;
+  return error * std::max(1.0, kLeastTimePerError / h);
 }
 
 void StabilizedTaylorStepper::interpolate(double fraction, State& state) const {

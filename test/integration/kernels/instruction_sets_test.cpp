@@ -1,6 +1,6 @@
 // The error-controlled methods have the same bits whatever instruction set their kernels are for.
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
-#include "integration/implicit/rosenbrock.hpp"
+#include "integration/implicit/radau_stepper.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 
@@ -29,8 +29,7 @@ std::unique_ptr<DenseOutputStepper> makeTaylor(const Chain& chain, double tolera
 template <int order>
 std::unique_ptr<DenseOutputStepper> makeStabilized(const Chain& chain, double tolerance,
                                                    const ChainKernels& kernels) {
-  return std::make_unique<StabilizedTaylorStepper>(
-      chain, order, tolerance, StabilizedTaylorStepper::kShareOfTolerance, kernels);
+  return std::make_unique<StabilizedTaylorStepper>(chain, order, tolerance, kernels);
 }
 
 template <const EmbeddedPair& kPair>
@@ -39,9 +38,9 @@ std::unique_ptr<DenseOutputStepper> makePair(const Chain& chain, double toleranc
   return std::make_unique<EmbeddedRungeKuttaStepper>(chain, kPair, tolerance, kernels);
 }
 
-std::unique_ptr<DenseOutputStepper> makeRodas5P(const Chain& chain, double tolerance,
-                                                const ChainKernels& kernels) {
-  return std::make_unique<RosenbrockStepper>(chain, kRodas5PTableau, tolerance, kernels);
+std::unique_ptr<DenseOutputStepper> makeRadau(const Chain& chain, double tolerance,
+                                              const ChainKernels& kernels) {
+  return std::make_unique<RadauStepper>(chain, tolerance, kernels);
 }
 
 constexpr Maker kMakers[] = {{"Taylor-7", makeTaylor<7>},
@@ -50,7 +49,7 @@ constexpr Maker kMakers[] = {{"Taylor-7", makeTaylor<7>},
                              {"Stabilized-Taylor-8", makeStabilized<8>},
                              {"Dormand-Prince-5", makePair<kDormandPrince5>},
                              {"Dormand-Prince-8", makePair<kDormandPrince8>},
-                             {"Rodas5P", makeRodas5P}};
+                             {"Radau-9", makeRadau}};
 
 State stateAfterSteps(const test::Scene& scene, const Maker& maker, const ChainKernels& kernels) {
   const auto stepper = maker.make(scene.chain, 1e-5, kernels);

@@ -1,0 +1,25 @@
+#include <spring_pendulum/integration/smallest_tolerance.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+/// Rounding errors of a step are random; forces and the motion itself amplify them.
+constexpr double kRoundingErrors = 100.0;
+
+}  // namespace
+
+double smallestTolerance(const Chain& chain, const State& start) {
+  const double length = chain.spring().rest_length * static_cast<double>(chain.size() - 1);
+  double largest = std::abs(chain.gravity());  // m within a second
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    largest = std::max({largest, std::abs(start.x()[i]), std::abs(start.y()[i]),
+                        std::abs(start.vx()[i]), std::abs(start.vy()[i])});
+  }
+  return kRoundingErrors * std::numeric_limits<double>::epsilon() * std::max(length, largest);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,59 @@
+// A spring whose tension is an unknown of its own, linearised.
+//
+// With the direction r, the separation d, the approach w, the length L and the tension T, the
+// force on one end is f = T r and its change
+//
+//     df = r dT + e (I - r rᵀ) dd ,   e = T / L ,
+//     dT = a · dd + k_d r · dw ,      a = k_s r + k_d (w - (w · r) r) / L .
+//
+// With dT put into df, the derivatives are df/dd = r aᵀ + e (I - r rᵀ) and df/dw = k_d r rᵀ.
+#pragma once
+
+#include <spring_pendulum/model/spring_law.hpp>
+
+namespace spring_pendulum {
+
+struct LinearSpring {
+  PlaneVector<double> r{};  ///< direction; 0 for a spring without length
+  PlaneVector<double> a{};  ///< derivative of the tension by the separation, N/m
+  double e = 0.0;           ///< geometric stiffness, N/m
+
+  /// dT for changes of the separation and the approach, N.
+  double tensionChange(double damping, const PlaneVector<double>& separation,
+                       const PlaneVector<double>& approach) const {
+    return (a.x * separation.x + a.y * separation.y) +
+           damping * (r.x * approach.x + r.y * approach.y);
+  }
+
+  /// (df/dd) d
+  PlaneVector<double> stiffnessTimes(const PlaneVector<double>& d) const {
+    const double along = r.x * d.x + r.y * d.y;
+    const double change = (a.x * d.x + a.y * d.y) - e * along;
+    return {e * d.x + change * r.x, e * d.y + change * r.y};
+  }
+};
+
+/// k_s (L - L_0) + k_d w·r, N.
+inline double springTension(const SpringLaw& law, const PlaneVector<double>& separation,
+                            const PlaneVector<double>& approach) {
+  const double square = separation.x * separation.x + separation.y * separation.y;
+  const double inverse_length = inverseSquareRoot(square);
+  const double dot = approach.x * separation.x + approach.y * separation.y;
+  return law.stiffness * (square * inverse_length - law.rest_length) +
+         law.damping * (dot * inverse_length);
+}
+
+inline LinearSpring linearSpring(const SpringLaw& law, const PlaneVector<double>& separation,
+                                 const PlaneVector<double>& approach, double tension) {
+  const double square = separation.x * separation.x + separation.y * separation.y;
+  const double inverse_length = inverseSquareRoot(square);
+  const PlaneVector<double> r{separation.x * inverse_length, separation.y * inverse_length};
+  const double rate = approach.x * r.x + approach.y * r.y;
+  const double turn = law.damping * inverse_length;
+  return {r,
+          {law.stiffness * r.x + turn * (approach.x - rate * r.x),
+           law.stiffness * r.y + turn * (approach.y - rate * r.y)},
+          tension * inverse_length};
+}
+
+}  // namespace spring_pendulum

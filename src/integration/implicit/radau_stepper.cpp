@@ -1,0 +1,367 @@
+#include "integration/implicit/radau_stepper.hpp"
+
+#include "integration/implicit/radau_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+using radau::kStages;
+
+/// Part of the tolerance that the estimated error may reach per second.
+constexpr double kShareOfTolerance = 0.3;
+
+/// First step, times the root of the allowed error: short for any scene.
+constexpr double kFirstStep = 1e-4;
+
+/// Order of the error of a step.
+constexpr int kErrorOrder = static_cast<int>(kStages) + 1;
+
+/// The stage nearest to the middle of the step, where springs are linearised.
+constexpr std::size_t kMiddleStage = 2;
+
+/// The iteration ends when its error is this part of the error allowed in the step.
+constexpr double kIterationShare = 1e-3;
+constexpr int kMostIterations = 10;
+
+/// Changes that rounding errors alone make, relative to the positions, or m.
+constexpr double kRounding = 1e-14;
+
+/// A failed iteration counts as this many times the allowed error, which halves the step.
+constexpr double kErrorOfFailure = 32.0;
+
+void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]) {
+  for (std::ptrdiff_t c = 0; c < 4; ++c)
+    buffer.data()[c * buffer.pitch() + static_cast<std::ptrdiff_t>(particle)] = values[c];
+}
+
+}  // namespace
+
+double RadauStepper::Change::norm() const {
+  return std::max(position, velocity) + 0.0 * (position + velocity);
+}
+
+template <typename Scalar>
+void RadauStepper::System<Scalar>::factor(const std::vector<LinearSpring>& springs, double h) {
+  q = h * reciprocal(eigenvalue.value);
+  solver.factor(springs, q);
+}
+
+template <typename Scalar>
+void RadauStepper::System<Scalar>::setRightHandSide(std::size_t particle, double mass,
+                                                    const Increments& increments, const Row& fx,
+                                                    const Row& fy) {
+  x[particle] =
+      q * radau::dot(eigenvalue.left, fx) - mass * radau::dot(eigenvalue.left, increments.vx);
+  y[particle] =
+      q * radau::dot(eigenvalue.left, fy) - mass * radau::dot(eigenvalue.left, increments.vy);
+}
+
+template <typename Scalar>
+void RadauStepper::System<Scalar>::addChange(std::size_t particle, Increments& change) const {
+  radau::addTo(change.vx, eigenvalue.right, x[particle]);
+  radau::addTo(change.vy, eigenvalue.right, y[particle]);
+  radau::addTo(change.x, eigenvalue.right, q * x[particle]);
+  radau::addTo(change.y, eigenvalue.right, q * y[particle]);
+}
+
+RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKernels& kernels)
+    : ErrorEstimatingStepper(chain,
+                             {kShareOfTolerance * tolerance, static_cast<int>(kStages),
+                              kFirstStep * root(kShareOfTolerance * tolerance, kErrorOrder)},
+                             kernels),
+      allowed_rate_(kShareOfTolerance * tolerance),
+      stages_(chain.size()),
+      previous_(chain.size()),
+      springs_(static_cast<std::size_t>(chain.size() - 1)),
+      real_(this->chain(), radau::kReal),
+      pairs_{{{this->chain(), radau::kPairs[0]}, {this->chain(), radau::kPairs[1]}}},
+      change_(chain.size()) {}
+
+void RadauStepper::prepare(bool restarted) {
+  std::swap(stages_, previous_);
+  previous_length_ = restarted ? 0.0 : statistics().last_step;
+}
+
+double RadauStepper::attempt(double h) {
+  if (h <= kShortestStep) return stepExplicitly(h);
+  predict(h);
+  linearise();
+  real_.factor(springs_, h);
+  for (System<Complex>& pair : pairs_) pair.factor(springs_, h);
+  if (!solveStages(h)) return kErrorOfFailure * allowed_rate_;
+  const double error = estimateError(h);
+  setEndFromLastStage();
+  return error / h;
+}
+
+RadauStepper::Ends RadauStepper::endsOf(std::size_t spring, const StateBuffer& state) {
+  const std::ptrdiff_t pitch = state.pitch();
+  const double* z = state.data() + spring;
+  return {{z[1] - z[0], z[pitch + 1] - z[pitch]},
+          {z[2 * pitch + 1] - z[2 * pitch], z[3 * pitch + 1] - z[3 * pitch]}};
+}
+
+RadauStepper::Ends RadauStepper::endsOf(std::size_t spring, const Ends& start,
+                                        std::size_t stage) const {
+  const Increments& a = stages_.particles[spring];
+  const Increments& b = stages_.particles[spring + 1];
+  return {{start.separation.x + (b.x[stage] - a.x[stage]),
+           start.separation.y + (b.y[stage] - a.y[stage])},
+          {start.approach.x + (b.vx[stage] - a.vx[stage]),
+           start.approach.y + (b.vy[stage] - a.vy[stage])}};
+}
+
+void RadauStepper::predict(double h) {
+  const double ratio = previous_length_ > 0.0 ? h / previous_length_ : 0.0;
+  std::array<Row, kStages> weights{}, tension_weights{};
+  for (std::size_t s = 0; s < kStages; ++s) {
+    weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], true);
+    tension_weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], false);
+  }
+  const auto guess = [&](double velocity, const Row& old, Row& position, Row& change) {
+    for (std::size_t s = 0; s < kStages; ++s) {
+      change[s] = previous_length_ > 0.0 ? radau::dot(weights[s], old) - old.back() : 0.0;
+    }
+    for (std::size_t s = 0; s < kStages; ++s) {
+      position[s] = h * (radau::kNodes[s] * velocity + radau::dot(radau::kMatrix[s], change));
+    }
+  };
+  const std::ptrdiff_t pitch = begin().pitch();
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+    const double* velocity = begin().data() + 2 * pitch + i;
+    const Increments& old = previous_.particles[i];
+    Increments& next = stages_.particles[i];
+    guess(velocity[0], old.vx, next.x, next.vx);
+    guess(velocity[pitch], old.vy, next.y, next.vy);
+  }
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    Row& tensions = stages_.tensions[i];
+    const Ends ends = endsOf(i, begin());
+    tensions.fill(springTension(chain().spring(), ends.separation, ends.approach));
+    if (previous_length_ == 0.0) continue;
+    for (std::size_t s = 0; s < kStages; ++s) {
+      tensions[s] = radau::dot(tension_weights[s], previous_.tensions[i]);
+    }
+  }
+}
+
+void RadauStepper::linearise() {
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const Ends middle = endsOf(i, endsOf(i, begin()), kMiddleStage);
+    springs_[i] = linearSpring(chain().spring(), middle.separation, middle.approach,
+                               stages_.tensions[i][kMiddleStage]);
+  }
+}
+
+bool RadauStepper::solveStages(double h) {
+  const double wanted = kIterationShare * allowed_rate_ * h;
+  double last = 0.0;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    computeResiduals();
+    real_.solve();
+    for (System<Complex>& pair : pairs_) pair.solve();
+    const Change change = updateStages();
+    const double size = change.norm();
+    if (!std::isfinite(size)) return false;
+    const double contraction = iteration == 0 ? 1.0 : size / last;
+    // Without contraction rounding errors are all that is left, or the step is too long.
+    const bool settled = contraction < 1.0 && contraction * size <= (1.0 - contraction) * wanted;
+    if (settled || size <= kRounding) return true;
+    if (iteration > 0 && contraction >= 1.0) return change.position <= kRounding;
+    last = size;
+  }
+  return false;
+}
+
+void RadauStepper::springForces(std::size_t spring, Row& fx, Row& fy) {
+  const SpringLaw& law = chain().spring();
+  const Ends start = endsOf(spring, begin());
+  Row& tensions = stages_.tensions[spring];
+  const PlaneVector<double>& r = springs_[spring].r;
+  for (std::size_t s = 0; s < kStages; ++s) {
+    const Ends ends = endsOf(spring, start, s);
+    const PlaneVector<double>& d = ends.separation;
+    const double unit = tensions[s] * inverseSquareRoot(d.x * d.x + d.y * d.y);
+    const double tension = springTension(law, d, ends.approach);
+    const double residual = tension - tensions[s];
+    fx[s] = unit * d.x + residual * r.x;
+    fy[s] = unit * d.y + residual * r.y;
+    tensions[s] = tension;
+  }
+}
+
+void RadauStepper::computeResiduals() {
+  Row left_x{}, left_y{};
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+    Row right_x{}, right_y{};
+    if (i < springs_.size()) springForces(i, right_x, right_y);
+    const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
+    const double weight = mass * chain().gravity();
+    Row fx, fy;
+    for (std::size_t s = 0; s < kStages; ++s) {
+      fx[s] = right_x[s] - left_x[s];
+      fy[s] = (right_y[s] - left_y[s]) - weight;
+    }
+    const Increments& increments = stages_.particles[i];
+    real_.setRightHandSide(i, mass, increments, fx, fy);
+    for (System<Complex>& pair : pairs_) pair.setRightHandSide(i, mass, increments, fx, fy);
+    left_x = right_x;
+    left_y = right_y;
+  }
+  counters().force_evaluations += static_cast<std::int64_t>(kStages);
+}
+
+RadauStepper::Change RadauStepper::updateStages() {
+  const double damping = chain().spring().damping;
+  Change largest;
+  double finite = 0.0;
+  Increments left{};
+  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
+    Increments change{};
+    real_.addChange(i, change);
+    for (const System<Complex>& pair : pairs_) pair.addChange(i, change);
+    const LinearSpring& spring = springs_[i - 1];
+    Increments& stage = stages_.particles[i];
+    for (std::size_t s = 0; s < kStages; ++s) {
+      stage.x[s] += change.x[s];
+      stage.y[s] += change.y[s];
+      stage.vx[s] += change.vx[s];
+      stage.vy[s] += change.vy[s];
+      stages_.tensions[i - 1][s] +=
+          spring.tensionChange(damping, {change.x[s] - left.x[s], change.y[s] - left.y[s]},
+                               {change.vx[s] - left.vx[s], change.vy[s] - left.vy[s]});
+      largest.position = std::max({largest.position, std::abs(change.x[s]), std::abs(change.y[s])});
+      largest.velocity =
+          std::max({largest.velocity, std::abs(change.vx[s]), std::abs(change.vy[s])});
+      finite += 0.0 * (change.vx[s] + change.vy[s]);
+    }
+    left = change;
+  }
+  largest.velocity += finite;  // NaN, which a maximum loses
+  return largest;
+}
+
+double RadauStepper::estimateError(double h) {
+  const double error = filteredError(false);
+  if (previous_length_ > 0.0 && error <= allowed_rate_ * h) return error;
+  return filteredError(true);
+}
+
+// The tension at the start is the last step's: that of the spring law would turn the rounding of
+// the velocities into forces that throw a light particle about.
+PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected) const {
+  const LinearSpring& linear = springs_[spring];
+  Ends ends = endsOf(spring, begin());
+  double tension = previous_length_ > 0.0
+                       ? previous_.tensions[spring].back()
+                       : springTension(chain().spring(), ends.separation, ends.approach);
+  if (corrected) {
+    const Ends change = endsOf(spring, change_);
+    ends.separation.x += change.separation.x;
+    ends.separation.y += change.separation.y;
+    tension += linear.tensionChange(chain().spring().damping, change.separation, change.approach);
+  }
+  const PlaneVector<double>& d = ends.separation;
+  const double unit = tension * inverseSquareRoot(d.x * d.x + d.y * d.y);
+  return {unit * d.x, unit * d.y};
+}
+
+double RadauStepper::filteredError(bool corrected) {
+  const double q = real_.q;
+  const auto positionPart = [&](std::size_t i) {
+    const double* velocity = begin().data() + 2 * begin().pitch() + i;
+    const Increments& stage = stages_.particles[i];
+    return PlaneVector<double>{q * velocity[0] + radau::dot(radau::kError, stage.x),
+                               q * velocity[begin().pitch()] + radau::dot(radau::kError, stage.y)};
+  };
+  PlaneVector<double> here{}, left{};
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+    PlaneVector<double> right{}, next{};
+    if (i < springs_.size()) {
+      next = positionPart(i + 1);
+      const PlaneVector<double> force = startForce(i, corrected);
+      const PlaneVector<double> change =
+          springs_[i].stiffnessTimes({next.x - here.x, next.y - here.y});
+      right = {q * (force.x + change.x), q * (force.y + change.y)};
+    }
+    const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
+    const double fall = q * chain().gravity();
+    const Increments& stage = stages_.particles[i];
+    real_.x[i] = mass * radau::dot(radau::kError, stage.vx) + (right.x - left.x);
+    real_.y[i] = mass * (radau::dot(radau::kError, stage.vy) - fall) + (right.y - left.y);
+    here = next;
+    left = right;
+  }
+  real_.solve();
+  ++counters().force_evaluations;
+  double largest = 0.0, finite = 0.0;
+  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
+    const PlaneVector<double> part = positionPart(i);
+    const double errors[] = {part.x + q * real_.x[i], part.y + q * real_.y[i], real_.x[i],
+                             real_.y[i]};
+    setRow(change_, i, errors);
+    largest = std::max({largest, std::abs(errors[0]), std::abs(errors[1])});
+    finite += 0.0 * (errors[0] + errors[1]);
+  }
+  return largest + finite;
+}
+
+double RadauStepper::stepExplicitly(double h) {
+  kernels().stageSlope(kernelChain(), begin().data(), {}, change_.data());
+  ++counters().force_evaluations;
+  const std::ptrdiff_t pitch = begin().pitch();
+  double finite = 0.0;
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+    const double* slope = change_.data() + i;
+    Increments& stage = stages_.particles[i];
+    for (std::size_t s = 0; s < kStages; ++s) {
+      const double time = h * radau::kNodes[s];
+      stage.x[s] = time * slope[0];
+      stage.y[s] = time * slope[pitch];
+      stage.vx[s] = time * slope[2 * pitch];
+      stage.vy[s] = time * slope[3 * pitch];
+    }
+    finite += 0.0 * (stage.x[0] + stage.y[0] + stage.vx[0] + stage.vy[0]);
+  }
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const Ends ends = endsOf(i, begin());
+    stages_.tensions[i].fill(springTension(chain().spring(), ends.separation, ends.approach));
+  }
+  setEndFromLastStage();
+  return finite;
+}
+
+void RadauStepper::setEndFromLastStage() {
+  const std::ptrdiff_t pitch = begin().pitch();
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+    const Increments& stage = stages_.particles[i];
+    const double* lost = carry().data() + i;
+    const double changes[] = {lost[0] + stage.x.back(), lost[pitch] + stage.y.back(),
+                              lost[2 * pitch] + stage.vx.back(), lost[3 * pitch] + stage.vy.back()};
+    setRow(change_, i, changes);
+  }
+  setEnd(change_, {});
+}
+
+void RadauStepper::interpolate(double fraction, State& state) const {
+  if (fraction >= 1.0) {
+    state.values() = end().values();
+    return;
+  }
+  const Row weights = radau::lagrangeWeights(fraction, true);
+  state.values() = begin().values();
+  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
+    const Increments& stage = stages_.particles[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    state.x()[row] += radau::dot(weights, stage.x);
+    state.y()[row] += radau::dot(weights, stage.y);
+    state.vx()[row] += radau::dot(weights, stage.vx);
+    state.vy()[row] += radau::dot(weights, stage.vy);
+  }
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,48 @@
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/integration/smallest_tolerance.hpp>
+
+#include <gtest/gtest.h>
+
+#include "support/reference.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+TEST(SmallestTolerance, GrowsWithTheCoordinates) {
+  const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{}, 9.81);
+  State state(2);
+  state.x() << 0.0, 1.0;
+  EXPECT_NEAR(smallestTolerance(chain, state), 2.2e-13, 0.2e-13);
+  state.x() << 1e12, 1e12 + 1.0;
+  EXPECT_NEAR(smallestTolerance(chain, state), 0.022, 0.002);
+}
+
+// A tolerance at this limit is kept.
+TEST(SmallestTolerance, IsReached) {
+  test::Scene scene = test::referenceScene("two_masses_45deg");
+  const double tolerance = smallestTolerance(scene.chain, scene.start);
+  for (const char* method : {"Taylor-12", "Radau-9", "Auto"}) {
+    State state = scene.start;
+    makeIntegrator(method, scene.chain, {tolerance})->advance(state, 1.0, 1);
+    EXPECT_LT(test::positionError(state, test::referenceSolution("two_masses_45deg", 1)),
+              10.0 * tolerance)
+        << method;
+  }
+}
+
+// Impossible tolerances cost time, but not for ever.
+TEST(SmallestTolerance, BelowItEveryMethodEnds) {
+  const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{}, 9.81);
+  for (const Method& method : methodTable()) {
+    for (const double tolerance : {1e-18, 1e-300}) {
+      State state(2);
+      state.x()[1] = 1.0;
+      const auto integrator = makeIntegrator(method.name, chain, {tolerance});
+      integrator->advance(state, 1e-7, 10);
+      EXPECT_LT(integrator->forceEvaluations(), 1000000) << method.name << " at " << tolerance;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum
