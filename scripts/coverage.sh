@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Prints which lines and branches of the core (model, integration, simulation, io) the tests reach.
 # Usage: scripts/coverage.sh [LEAST]   (percent of lines and branches that must be reached, 95)
-# Branches that only an exception takes, and code that cannot be reached, do not count.
+# Branches that only an exception takes, and code that cannot be reached, do not count; which lines
+# that refuse something were taken is printed on its own.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -15,8 +16,10 @@ compile "$folder"
 find "$folder" -name '*.gcda' -delete
 (cd "$folder" && ctest --output-on-failure -j "$(nproc)" -L 'unit|process' > ctest.log) ||
   { tail -n 50 "$folder/ctest.log" >&2; die "a test failed"; }
-exec gcovr --root "$project" --object-directory "$folder" \
+gcovr --root "$project" --object-directory "$folder" \
   --filter 'src/(model|integration|simulation|io)/' \
   --filter 'include/spring_pendulum/' \
-  --exclude-throw-branches --exclude-unreachable-branches \
+  --exclude-throw-branches --exclude-unreachable-branches --json "$folder/coverage.json"
+"$project/scripts/error_branches.py" "$project" "$folder/coverage.json"
+exec gcovr --root "$project" --add-tracefile "$folder/coverage.json" \
   --fail-under-line "$least" --fail-under-branch "$least" --branches --print-summary

@@ -4,13 +4,14 @@
 #include "io/interruption.hpp"
 #include "io/progress.hpp"
 #include "io/run_files.hpp"
+#include "io/standard_streams.hpp"
+#include "simulation/interruptible.hpp"
 #include "simulation/run_monitor.hpp"
 #include "simulation/scenario_options.hpp"
 #include "simulation/sleep.hpp"
 #include "simulation/work.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
@@ -18,8 +19,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
-#include <cstdio>
 #include <exception>
 #include <string>
 
@@ -39,15 +38,18 @@ Summary simulate(const Scenario& scenario, State& state, Integrator& integrator,
   const FrameSteps step = frameSteps(scenario);
   Progress progress(scenario.frames);
   Summary summary;
-  while (summary.frames < scenario.frames && interruption() == 0) {
-    if (summary.frames > 0) {
-      integrator.advance(state, step.time_step, step.steps);
-      monitor.follow(step.time_step, step.steps);
+  try {
+    while (summary.frames < scenario.frames && interruption() == 0) {
+      if (summary.frames > 0) {
+        integrator.advance(state, step.time_step, step.steps);
+        monitor.follow(step.time_step, step.steps);
+      }
+      monitor.judge(step.timeOfFrame(summary.frames), state, integrator);
+      if (!monitor.isShown()) break;
+      files.write(summary.frames, state, monitor.energyEntry(), monitor.positionError().now);
+      progress.show(++summary.frames);
     }
-    monitor.judge(step.timeOfFrame(summary.frames), state, integrator);
-    if (!monitor.isShown()) break;
-    files.write(summary.frames, state, monitor.energyEntry(), monitor.positionError().now);
-    progress.show(++summary.frames);
+  } catch (const Interrupted&) {  // inside a frame, which is given up
   }
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return summary;
@@ -65,7 +67,7 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
   const std::int64_t steps =
       std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
   const std::string report = integrator.report();
-  fmt::print(
+  printOutput(fmt::format(
       "{}{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, {:.3f} s reference run, "
       "{}, verdict: {}\n",
       scenario.method, report.empty() ? "" : " (" + report + ")", counted(chain.size(), "particle"),
@@ -75,11 +77,11 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
       counted(integrator.forceEvaluations(), "force evaluation"),
       std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0),
       files.secondsWriting(), files.destination(), monitor.seconds(), monitor.measurements(),
-      toString(monitor.verdict().kind));
+      toString(monitor.verdict().kind)));
 }
 
 void warn(const std::string& text) {
-  if (!text.empty()) fmt::print(stderr, "warning: {}\n", text);
+  if (!text.empty()) printError("warning: " + text + "\n");
 }
 
 /// The warning or error on standard error, and the exit status.
@@ -87,7 +89,7 @@ int conclude(const Scenario& scenario, const Chain& chain, const State& start,
              const RunMonitor& monitor) {
   const Verdict& verdict = monitor.verdict();
   if (verdict.kind == VerdictKind::kDiverged) {
-    fmt::print(stderr, "{}; {}\n", verdict.text, remedyForDivergence(chain, start, scenario));
+    printError(fmt::format("{}; {}\n", verdict.text, remedyForDivergence(chain, start, scenario)));
     return kDiverged;
   }
   if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) warn(verdict.text);
@@ -97,7 +99,7 @@ int conclude(const Scenario& scenario, const Chain& chain, const State& start,
 
 void reportSkips(const Scenario& scenario, const Integrator& integrator, bool tracks_dissipation) {
   for (const std::string& skipped : skippedWork(scenario, integrator, tracks_dissipation)) {
-    fmt::print("skipped: {}\n", skipped);
+    printOutput(fmt::format("skipped: {}\n", skipped));
   }
 }
 
@@ -107,16 +109,16 @@ int run(const Scenario& scenario, const Switches& switches) {
   RunMonitor monitor(scenario, chain, particles.state, !scenario.energy.empty());
   const bool tracks_dissipation = monitor.tracksDissipation();
   SleepingIntegrator integrator(
-      makeIntegrator(scenario.method, chain, integratorOptions(scenario, tracks_dissipation)),
+      makeInterruptible(scenario, chain, particles.state, tracks_dissipation,
+                        [] { return interruption() != 0; }),
       chain, scenario.sleep);
   if (switches.report_skips) reportSkips(scenario, integrator, tracks_dissipation);
   if (switches.check) {
-    fmt::print("{}", describeStability(chain, particles.state, scenario));
+    printOutput(describeStability(chain, particles.state, scenario));
     return kDone;
   }
-  RunFiles files(scenario);
-
   catchInterruptions();
+  RunFiles files(scenario, switches.config);
   State state = particles.state;
   const Summary summary = simulate(scenario, state, integrator, monitor, files);
   files.finish();
@@ -133,7 +135,7 @@ int runCommandLine(int argc, const char* const* argv) {
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
   if (switches.answer.empty()) return run(scenario, switches);
-  fmt::print("{}", switches.answer);
+  printOutput(switches.answer);
   return kDone;
 }
 
@@ -142,14 +144,14 @@ int runCommandLine(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone away is an error like any other
+  prepareProcess();
   try {
     const int status = runCommandLine(argc, argv);
-    if (std::fflush(stdout) != 0) throw FileError("standard output: could not be written");
+    flushOutput();
     return status;
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
-    std::fprintf(stderr, "%s\n", failure.message.c_str());
+    printError(failure.message + "\n");
     return failure.status;
   }
 }

@@ -1,11 +1,13 @@
 // The ROS node: carries a chain through time, writes its frames and shows it.
 #include "io/failure.hpp"
 #include "io/interruption.hpp"
+#include "io/standard_streams.hpp"
 #include "ros/parameter_watch.hpp"
 #include "ros/parameters.hpp"
 #include "ros/player.hpp"
 #include "ros/publisher.hpp"
 #include "ros/run_log.hpp"
+#include "simulation/interruptible.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
@@ -22,8 +24,8 @@ namespace {
 constexpr double kLastMessages = 0.5;  // s for the last messages to leave the node
 
 /// The frame loop: advance, judge, hand the state to each output that is wanted.
-Totals play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& files, RunLog& log) {
-  Totals totals;
+void play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& files, RunLog& log,
+          Totals& totals) {
   ParameterWatch parameters;
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
@@ -45,7 +47,6 @@ Totals play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& fi
     log.follow(run, totals, files, publisher);
     parameters.look();
   }
-  return totals;
 }
 
 /// A parameter that is refused may come from an earlier run: it stays on the ROS master.
@@ -86,7 +87,12 @@ int runNode() {
   Player player(node, private_node, run, options, registration);
   registration.keep();
   publisher.waitForSubscribers(options);
-  const Totals totals = play(run, player, publisher, files, log);
+  catchInterruptions();  // from now on ROS lives on after a signal, until the files are closed
+  Totals totals;
+  try {
+    play(run, player, publisher, files, log, totals);
+  } catch (const Interrupted&) {  // inside a frame, which is given up
+  }
   files.finish();
   log.finish(run, totals, files, publisher);
 
@@ -99,12 +105,15 @@ int runNode() {
 
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
+  prepareProcess();
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a message is seen when it is said, also in a file
   // roscpp's own handler would end ROS before the files are closed and the closing line is out.
   ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
-  catchInterruptions();
+  // Without a master, ROS waits for one for ever; only a shutdown ends that.
+  catchInterruptions(ros::requestShutdown);
   ros::NodeHandle keeps_ros_started;
   try {
+    if (interruption() != 0) return kDone;
     return runNode();
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);

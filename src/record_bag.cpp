@@ -2,8 +2,11 @@
 // stamps, the same bytes in every run.
 #include "io/command_line.hpp"
 #include "io/failure.hpp"
+#include "io/interruption.hpp"
+#include "io/standard_streams.hpp"
 #include "ros/bag_recorder.hpp"
 #include "simulation/scenario_options.hpp"
+#include "simulation/tolerance.hpp"
 #include "simulation/work.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -11,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <string>
 
@@ -22,14 +24,15 @@ namespace {
 void report(const Scenario& scenario, bool track_energy, const Switches& switches) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
+  checkTolerance(scenario, chain, particles.state);
   const auto integrator =
       makeIntegrator(scenario.method, chain, integratorOptions(scenario, track_energy));
   if (switches.report_skips) {
     for (const std::string& skipped : skippedWork(scenario, *integrator, track_energy)) {
-      fmt::print("skipped: {}\n", skipped);
+      printOutput(fmt::format("skipped: {}\n", skipped));
     }
   }
-  if (switches.check) fmt::print("{}", describeStability(chain, particles.state, scenario));
+  if (switches.check) printOutput(describeStability(chain, particles.state, scenario));
 }
 
 int record(int argc, const char* const* argv) {
@@ -45,7 +48,7 @@ int record(int argc, const char* const* argv) {
   options.add(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
   if (!switches.answer.empty()) {
-    fmt::print("{}", switches.answer);
+    printOutput(switches.answer);
     return kDone;
   }
   if (!options.isGiven("output")) scenario.no_frames = true;
@@ -53,12 +56,16 @@ int record(int argc, const char* const* argv) {
     report(scenario, display.track_energy || !scenario.energy.empty(), switches);
   }
   if (switches.check) return kDone;
+  bag.config = switches.config;
+  catchInterruptions();
   const BagSummary summary = recordBag(scenario, display, bag);
-  fmt::print("{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}\n",
-             scenario.method, summary.frames, summary.messages, summary.bytes, summary.path,
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-             summary.measurements, summary.verdict.text);
-  return summary.verdict.kind == VerdictKind::kDiverged ? kDiverged : kDone;
+  printOutput(
+      fmt::format("{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}\n",
+                  scenario.method, summary.frames, summary.messages, summary.bytes, summary.path,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+                  summary.measurements, summary.verdict.text));
+  if (summary.verdict.kind == VerdictKind::kDiverged) return kDiverged;
+  return interruption() == 0 ? kDone : kSignalled + interruption();
 }
 
 }  // namespace
@@ -66,11 +73,14 @@ int record(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
+  prepareProcess();
   try {
-    return record(argc, argv);
+    const int status = record(argc, argv);
+    flushOutput();
+    return status;
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
-    std::fprintf(stderr, "%s\n", failure.message.c_str());
+    printError(failure.message + "\n");
     return failure.status;
   }
 }

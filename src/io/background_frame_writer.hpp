@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace spring_pendulum {
 
@@ -21,7 +22,8 @@ class BackgroundFrameWriter {
   static constexpr Eigen::Index kLargeFrame = 1000;
 
   /// As FrameWriter.
-  BackgroundFrameWriter(const std::string& folder, std::int64_t frames);
+  BackgroundFrameWriter(const std::string& folder, std::int64_t frames,
+                        const std::vector<std::string>& inputs = {});
   /// A frame that was handed over is still written.
   ~BackgroundFrameWriter();
   BackgroundFrameWriter(const BackgroundFrameWriter&) = delete;
@@ -37,6 +39,8 @@ class BackgroundFrameWriter {
 
   /// Absolute path of the folder.
   std::string folder() const { return writer_.folder(); }
+  /// As FrameWriter.
+  std::int64_t earlierFrames() const { return writer_.earlierFrames(); }
   /// Wall-clock time that callers of `write` spent in it, s.
   double secondsWaited() const { return seconds_waited_; }
   /// Wall-clock time spent formatting and writing, on whichever thread, s. Only after `finish`.

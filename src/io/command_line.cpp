@@ -153,13 +153,18 @@ void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& op
   }
 }
 
-void readConfig(const std::vector<po::option>& given, OptionSet& options) {
+/// \return the path of the file, empty if there is none
+std::string readConfig(const std::vector<po::option>& given, OptionSet& options) {
   std::string path;
   for (const po::option& option : given) {
     if (option.string_key == "config") path = option.value.front();
   }
-  if (!path.empty()) return readOptionFile(path, options);
-  if (has(given, "config")) throw InputError("--config: must be a file, got ''");
+  if (!path.empty()) {
+    readOptionFile(path, options);
+  } else if (has(given, "config")) {
+    throw InputError("--config: must be a file, got ''");
+  }
+  return path;
 }
 
 }  // namespace
@@ -169,10 +174,11 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   const po::options_description description = describe(options);
   const std::vector<po::option> given =
       split(std::vector<std::string>(argv + std::min(argc, 1), argv + argc), description);
-  if (has(given, "help")) return {false, false, helpText(program, description)};
-  if (has(given, "version")) return {false, false, "spring_pendulum " SPRING_PENDULUM_VERSION "\n"};
-  if (has(given, "list-methods")) return {false, false, listOfMethods()};
-  readConfig(given, options);
+  if (has(given, "help")) return {false, false, helpText(program, description), ""};
+  if (has(given, "version"))
+    return {false, false, "spring_pendulum " SPRING_PENDULUM_VERSION "\n", ""};
+  if (has(given, "list-methods")) return {false, false, listOfMethods(), ""};
+  const std::string config = readConfig(given, options);
   const std::vector<std::string_view> keys = setOptions(given, options);
   if (!options.isGiven(kMethodKey)) {
     throw InputError(fmt::format("METHOD is missing; try: {} {} (--help lists the options)",
@@ -180,7 +186,7 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   }
   checkScenario(scenario, options);
   refuseUnused(keys, options, scenario);
-  return {has(given, "check"), has(given, "report-skips"), ""};
+  return {has(given, "check"), has(given, "report-skips"), "", config};
 }
 
 }  // namespace spring_pendulum

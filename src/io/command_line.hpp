@@ -21,6 +21,7 @@ struct Switches {
   bool check = false;         ///< validate the input, print the stability advice, write nothing
   bool report_skips = false;  ///< print what the run leaves out
   std::string answer;         ///< text to print instead of a run: --help, --version, --list-methods
+  std::string config;         ///< the file given with --config, empty if none was
 };
 
 /// Sets `options` from the file given with --config and then from the other arguments, which win.

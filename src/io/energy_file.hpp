@@ -1,25 +1,23 @@
 // The energy balance of a run as CSV: a row a frame, units in the header.
 #pragma once
 
-#include "io/file_descriptor.hpp"
+#include "io/output_file.hpp"
 #include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace spring_pendulum {
 
-/// Writes under the name FILE.unfinished and renames at the end, so FILE is whole or absent; a FILE
-/// of an earlier run is replaced only then. Columns: frame, time in s, kinetic, gravity, spring,
+/// Whole or absent, as every OutputFile. Columns: frame, time in s, kinetic, gravity, spring,
 /// total, dissipated and residual energy in J, the residual in parts of the energy scale, and the
-/// position error in m (nan where it is not measured). Every number is the shortest text that reads back as the same double.
+/// position error in m (nan where it is not measured). Every number is the shortest text that reads
+/// back as the same double.
 class EnergyFile {
  public:
-  /// \throws FileError if the file can't be written, or another run is writing it
-  explicit EnergyFile(const std::string& path);
-  ~EnergyFile();
-  EnergyFile(const EnergyFile&) = delete;
-  EnergyFile& operator=(const EnergyFile&) = delete;
+  /// As OutputFile.
+  explicit EnergyFile(const std::string& path, const std::vector<std::string>& inputs = {});
 
   /// \param entry with residual, that is from an energy balance that tracks the dissipation
   /// \throws FileError naming the file
@@ -29,13 +27,11 @@ class EnergyFile {
   /// \throws FileError naming the file
   void finish();
 
- private:
-  void flush();
-  [[noreturn]] void refuse() const;
+  /// The whole path.
+  const std::string& path() const { return file_.path(); }
 
-  std::string path_;
-  std::string unfinished_path_;
-  FileDescriptor file_;
+ private:
+  OutputFile file_;
   std::string text_;  ///< not yet written
 };
 

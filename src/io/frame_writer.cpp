@@ -31,10 +31,11 @@ class Stopwatch {
 
 }  // namespace
 
-FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames)
+FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames,
+                         const std::vector<std::string>& inputs)
     : folder_([&] {
         const Stopwatch stopwatch(seconds_);
-        return std::make_unique<FrameFolder>(folder, frames);
+        return std::make_unique<FrameFolder>(folder, frames, inputs);
       }()) {}
 
 FrameWriter::FrameWriter(FrameWriter&&) noexcept = default;
@@ -42,6 +43,10 @@ FrameWriter::~FrameWriter() = default;
 
 const std::string& FrameWriter::folder() const {
   return folder_->path();
+}
+
+std::int64_t FrameWriter::earlierFrames() const {
+  return folder_->earlierFrames();
 }
 
 void FrameWriter::write(std::int64_t index, const State& state) {

@@ -1,25 +1,37 @@
 #include "io/interruption.hpp"
 
+#include <atomic>
 #include <csignal>
+#include <initializer_list>
 
 namespace spring_pendulum {
 namespace {
 
-volatile std::sig_atomic_t received_signal = 0;
+// Atomics instead of volatile sig_atomic_t, because other threads ask too.
+std::atomic<int> received_signal{0};
+std::atomic<void (*)()> called_too{nullptr};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<void (*)()>::is_always_lock_free,
+              "a signal handler must not wait for a lock");
 
 void remember(int signal_number) {
   received_signal = signal_number;
+  if (void (*const also)() = called_too) also();
 }
 
 }  // namespace
 
-void catchInterruptions() {
+void catchInterruptions(void (*also)()) {
+  called_too = also;
   struct sigaction action {};
   action.sa_handler = remember;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+    if (interruption() != 0) return;  // the next one ends the program already
+    struct sigaction present {};
+    sigaction(signal_number, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) sigaction(signal_number, &action, nullptr);
+  }
 }
 
 int interruption() {

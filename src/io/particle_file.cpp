@@ -34,7 +34,8 @@ class ParticleParser {
     }
     if (columns == 0) return;
     if (columns != kColumns) {
-      refuse(fmt::format("{} number{}, must be 3: x y m", columns, columns == 1 ? "" : "s"));
+      refuse(fmt::format("{} number{} in this line; a particle needs 3: x y m", columns,
+                         columns == 1 ? "" : "s"));
     }
     if (!rows_.empty()) checkMovingParticle(row);
     rows_.push_back(row);
@@ -43,7 +44,7 @@ class ParticleParser {
 
   Particles particles() const {
     if (rows_.empty()) {
-      throw InputError(fmt::format("{}: no particles, must hold a line 'x y m' for each", name_));
+      throw InputError(fmt::format("{}: no particles; write a line 'x y m' for each", name_));
     }
     const auto size = static_cast<Eigen::Index>(rows_.size());
     Particles result{AlignedNumbers(size), State(size)};
@@ -72,26 +73,27 @@ class ParticleParser {
   double parse(std::string_view word) const {
     const std::optional<double> value = parseNumber(word);
     if (!value) {
-      refuse(fmt::format("{} is no number, must be finite and decimal such as 0.5 or -2e-3",
-                         quoted(word)));
+      const bool has_comma = word.find(',') != std::string_view::npos;
+      refuse(fmt::format("{} is not a number; {}", quoted(word),
+                         has_comma ? "use a decimal point, and blanks between numbers"
+                                   : "write a finite one such as 0.5 or -2e-3"));
     }
     return *value + 0.0;  // turns -0.0 into 0.0
   }
 
   void checkMovingParticle(const Row& row) const {
     const double mass = row[2];
-    if (!(mass > 0.0 && std::isfinite(1.0 / mass))) {
-      refuse(fmt::format("mass {}, must be above 0 kg for a moving particle", mass));
-    }
+    if (!(mass > 0.0)) refuse(fmt::format("mass must be positive, got {} kg", mass));
+    if (!std::isfinite(1.0 / mass)) refuse(fmt::format("mass is too small, got {} kg", mass));
     const double dx = row[0] - rows_.back()[0];
     const double dy = row[1] - rows_.back()[1];
     const double square = dx * dx + dy * dy;
     if (std::isnormal(square)) return;
     refuse(std::isfinite(square)
-               ? fmt::format("same place as the particle of line {}, neighbours must lie apart",
+               ? fmt::format("same place as the particle in line {}; neighbours must be apart",
                              last_line_)
-               : fmt::format("too far from the particle of line {}, the square of their distance "
-                             "must be a finite number",
+               : fmt::format("too far from the particle in line {}; the square of their distance "
+                             "must be finite",
                              last_line_));
   }
 

@@ -1,8 +1,9 @@
 #include "io/progress.hpp"
 
+#include "io/standard_streams.hpp"
+
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <unistd.h>
 
 namespace spring_pendulum {
@@ -19,15 +20,15 @@ Progress::Progress(std::int64_t frames)
       next_time_(Clock::now() + kFirstDelay) {}
 
 Progress::~Progress() {
-  if (is_visible_) std::fputs("\r\x1b[K", stderr);
+  if (is_visible_) printError("\r\x1b[K");
 }
 
 void Progress::show(std::int64_t frames_done) {
   if (!is_terminal_ || Clock::now() < next_time_) return;
   next_time_ = Clock::now() + kNextDelay;
   is_visible_ = true;
-  fmt::print(stderr, "\r{} of {} frames, {:.0f} %\x1b[K", frames_done, frames_,
-             100.0 * static_cast<double>(frames_done) / static_cast<double>(frames_));
+  printError(fmt::format("\r{} of {} frames, {:.0f} %\x1b[K", frames_done, frames_,
+                         100.0 * static_cast<double>(frames_done) / static_cast<double>(frames_)));
 }
 
 }  // namespace spring_pendulum

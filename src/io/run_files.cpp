@@ -1,16 +1,17 @@
 #include "io/run_files.hpp"
 
-#include <filesystem>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
 
 namespace spring_pendulum {
 
-RunFiles::RunFiles(const Scenario& scenario) {
-  if (!scenario.energy.empty()) {
-    energy_.emplace(scenario.energy);
-    energy_path_ = std::filesystem::absolute(scenario.energy).lexically_normal().string();
-  }
+RunFiles::RunFiles(const Scenario& scenario, const std::string& config) {
+  const std::vector<std::string> inputs{scenario.particles, config};
+  if (!scenario.energy.empty()) energy_.emplace(scenario.energy, inputs);
   if (!scenario.no_frames && !scenario.output.empty()) {
-    frames_.emplace(scenario.output, scenario.frames);
+    frames_.emplace(scenario.output, scenario.frames, inputs);
   }
 }
 
@@ -25,14 +26,28 @@ void RunFiles::write(std::int64_t frame, const State& state, const EnergyEntry& 
 void RunFiles::finish() {
   if (finished_) return;
   finished_ = true;
-  if (frames_) frames_->finish();
   if (energy_) energy_->finish();
+  if (frames_) frames_->finish();
 }
 
 std::string RunFiles::description() const {
-  std::string text = frames_ ? "frames go to " + frames_->folder() : "no frame files";
-  if (energy_) text += ", the energy balance to " + energy_path_;
+  std::string text = "no frame files";
+  if (frames_) {
+    text = "frames go to " + frames_->folder();
+    const std::int64_t earlier = frames_->earlierFrames();
+    if (earlier > 0) text += fmt::format(" ({} earlier frames removed)", earlier);
+  }
+  if (energy_) text += ", energies go to " + energy_->path();
   return text;
+}
+
+std::string RunFiles::destination() const {
+  if (!frames_) return "";
+  const std::int64_t earlier = frames_->earlierFrames();
+  return " to " + frames_->folder() +
+         (earlier == 0 ? ""
+                       : fmt::format(" (after removing {} earlier frame{})", earlier,
+                                     earlier == 1 ? "" : "s"));
 }
 
 }  // namespace spring_pendulum

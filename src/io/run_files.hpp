@@ -17,8 +17,9 @@ class RunFiles {
  public:
   /// With `no_frames` or an empty `output` there are no frames, with an empty `energy` no energy
   /// balance.
-  /// \throws FileError naming the folder or file
-  explicit RunFiles(const Scenario& scenario);
+  /// \param config file that was read besides the particle file, empty if none was
+  /// \throws InputError, FileError as EnergyFile and FrameWriter
+  explicit RunFiles(const Scenario& scenario, const std::string& config = "");
 
   /// Writes a frame unless it has been written before.
   /// \param position_error m; NaN where it is not measured
@@ -29,10 +30,10 @@ class RunFiles {
   /// Closes the files; nothing is written after this.
   void finish();
 
-  /// "frames go to /home/me/frames, the energy balance to ..."
+  /// "frames go to /home/me/frames (500 earlier frames removed), energies go to ..."
   std::string description() const;
-  /// " to /home/me/frames", empty without frames
-  std::string destination() const { return frames_ ? " to " + frames_->folder() : ""; }
+  /// " to /home/me/frames (after removing 500 earlier frames)", empty without frames
+  std::string destination() const;
   std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
   /// Wall-clock time spent writing frames, s. Only after `finish`.
   double secondsWriting() const { return frames_ ? frames_->secondsWriting() : 0.0; }
@@ -41,7 +42,6 @@ class RunFiles {
 
  private:
   std::optional<EnergyFile> energy_;
-  std::string energy_path_;  ///< absolute
   std::optional<BackgroundFrameWriter> frames_;
   std::int64_t next_frame_ = 0;
   bool finished_ = false;

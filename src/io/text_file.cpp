@@ -1,6 +1,7 @@
 #include "io/text_file.hpp"
 
 #include "io/file_descriptor.hpp"
+#include "io/paths.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <system_error>
 
 namespace spring_pendulum {
 namespace {
@@ -19,11 +19,11 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kLongestQuote = 40;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  throw FileError(fmt::format("{}: could not be read: {}", path, reason));
+  throw FileError(fmt::format("{}: could not be read: {}", fullPath(path), reason));
 }
 
 [[noreturn]] void refuseForErrno(const std::string& path) {
-  refuse(path, std::generic_category().message(errno));
+  refuse(path, messageForErrno());
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ std::string readTextFile(const std::string& path) {
   if (!file.isOpen()) refuseForErrno(path);
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) refuseForErrno(path);
-  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder, must be a file");
-  if (!S_ISREG(status.st_mode)) refuse(path, "it is a pipe or a device, must be a regular file");
+  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder; give a file");
+  if (!S_ISREG(status.st_mode)) refuse(path, "it is a pipe or a device; give a regular file");
 
   // One byte more than the size tells the end of the file without a second read.
   std::string text(static_cast<std::size_t>(status.st_size) + 1, '\0');

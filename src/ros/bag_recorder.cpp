@@ -1,10 +1,14 @@
 #include "ros/bag_recorder.hpp"
 
+#include "io/interruption.hpp"
+#include "io/output_file.hpp"
+#include "io/paths.hpp"
 #include "io/run_files.hpp"
 #include "ros/marker_builder.hpp"
 #include "ros/publisher.hpp"
 #include "ros/stamps.hpp"
 #include "ros/state_builder.hpp"
+#include "simulation/interruptible.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <boost/make_shared.hpp>
@@ -12,7 +16,6 @@
 
 #include <rosbag/bag.h>
 
-#include <filesystem>
 #include <tf2_msgs/TFMessage.h>
 
 namespace spring_pendulum {
@@ -107,6 +110,20 @@ std::string topicPrefix(const std::string& name_space) {
   return prefix;
 }
 
+/// Until the run is over or a signal comes.
+void recordRun(PendulumRun& run, BagRecorder& recorder, RunFiles& files) {
+  recorder.write(run);
+  run.writeTo(files);
+  try {
+    while (!run.isOver() && interruption() == 0) {
+      run.advance(true);
+      recorder.write(run);
+      run.writeTo(files);
+    }
+  } catch (const Interrupted&) {  // inside a frame, which is given up
+  }
+}
+
 }  // namespace
 
 std::vector<Option> bagOptions(BagOptions& o) {
@@ -122,30 +139,26 @@ BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const
   PendulumRun run(scenario, readParticleFile(scenario.particles),
                   options.track_energy || !scenario.energy.empty(),
                   options.display_rate > 0.0 ? 1.0 / options.display_rate : 0.0);
-  RunFiles files(scenario);
+  OutputFile file(to.path, {scenario.particles, to.config});
+  RunFiles files(scenario, to.config);
   BagSummary summary;
+  summary.path = file.path();
   try {
-    summary.path = std::filesystem::absolute(to.path).lexically_normal().string();
-    const std::string written = to.append ? summary.path : summary.path + ".active";
-    rosbag::Bag bag(written, to.append ? rosbag::bagmode::Append : rosbag::bagmode::Write);
+    const bool has_earlier = to.append && file.copyEarlier();
+    rosbag::Bag bag(file.unfinishedPath(),
+                    has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     BagRecorder recorder(bag, run, options, topicPrefix(to.name_space));
-    recorder.write(run);
-    run.writeTo(files);
-    while (!run.isOver()) {
-      run.advance(true);
-      recorder.write(run);
-      run.writeTo(files);
-    }
-    files.finish();
+    recordRun(run, recorder, files);
     bag.close();
-    if (!to.append) std::filesystem::rename(written, summary.path);
     summary.messages = recorder.messages();
-    summary.bytes = std::filesystem::file_size(summary.path);
+  } catch (const rosbag::BagIOException&) {  // its text tells neither the file nor the reason
+    throw FileError(fmt::format("{}: could not be written: {}", file.path(), messageForErrno()));
   } catch (const rosbag::BagException& error) {
-    throw FileError(fmt::format("{}: {}", to.path, error.what()));
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw FileError(fmt::format("{}: {}", to.path, error.code().message()));
+    throw FileError(fmt::format("{}: {}", file.path(), error.what()));
   }
+  summary.bytes = file.size();
+  file.finish();
+  files.finish();
   summary.frames = run.frame() + (run.isShown() ? 1 : 0);
   summary.verdict = run.verdict();
   summary.measurements = run.measurements();

@@ -15,6 +15,7 @@ struct BagOptions {
   std::string path = "pendulum.bag";
   std::string name_space;  ///< put before the topics
   bool append = false;     ///< add to the bag instead of replacing it
+  std::string config;      ///< the YAML file that the run read, which must not be written
 };
 
 /// Bound to `options`.
@@ -30,8 +31,9 @@ struct BagSummary {
 };
 
 /// Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same scenario and options
-/// give the same bytes. A new bag is written as FILE.active and renamed at the end, so FILE is
-/// whole or absent. \throws InputError for a bad scenario, FileError naming the bag
+/// give the same bytes. The bag is whole or absent, as every OutputFile; one that is appended to is
+/// replaced by a longer copy at the end. A signal ends the run early, and the bag has what there is.
+/// \throws InputError for a bad scenario, FileError naming the bag
 BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to);
 
 }  // namespace spring_pendulum

@@ -103,7 +103,7 @@ MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
     : options_(options) {
   const Chain& chain = run.chain();
   const Eigen::Index stride =
-      (chain.size() + options.display_limit - 3) / (options.display_limit - 1);
+      std::max<Eigen::Index>(chain.size() - 2, 0) / (options.display_limit - 1) + 1;
   for (Eigen::Index i = 0; i + 1 < chain.size(); i += stride) drawn_.push_back(i);
   drawn_.push_back(chain.size() - 1);
   mass_colors_ = massColors(chain, drawn_, options.color);

@@ -1,10 +1,13 @@
 #include "ros/pacer.hpp"
 
+#include <algorithm>
+
 namespace spring_pendulum {
 namespace {
 
 constexpr double kLateness = 0.1;     // s behind that can still be caught up
 constexpr double kMeasureOver = 0.5;  // s
+constexpr double kLongestWait = 1e9;  // s; a duration of ROS has 32 bits for them
 
 }  // namespace
 
@@ -15,7 +18,8 @@ void Pacer::start(double simulated_time, ros::SteadyTime now) {
 
 ros::SteadyTime Pacer::dueTime(double simulated_time) const {
   if (factor_ <= 0.0) return start_;
-  return start_ + ros::WallDuration((simulated_time - start_simulated_) / factor_);
+  return start_ +
+         ros::WallDuration(std::min((simulated_time - start_simulated_) / factor_, kLongestWait));
 }
 
 bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {

@@ -1,7 +1,8 @@
 #include "ros/pendulum_run.hpp"
 
+#include "io/interruption.hpp"
+#include "simulation/interruptible.hpp"
 #include "simulation/sleep.hpp"
-#include "simulation/work.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <algorithm>
@@ -37,8 +38,8 @@ PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, b
       frame_steps_(frameSteps(scenario)),
       monitor_(scenario, chain_, start_, track_energy),
       integrator_(std::make_unique<SleepingIntegrator>(
-          makeIntegrator(scenario.method, chain_,
-                         integratorOptions(scenario, monitor_.tracksDissipation())),
+          makeInterruptible(scenario, chain_, start_, monitor_.tracksDissipation(),
+                            [] { return interruption() != 0; }),
           chain_, scenario.sleep)) {
   const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
   // Whether a chain falls asleep is asked once a call: with more calls the frames could differ.

@@ -24,6 +24,7 @@ class PendulumRun {
               double display_interval);
 
   /// On to the end of the frame's current part, or to the next frame.
+  /// \throws Interrupted after a signal; then the run can only be ended
   void advance(bool in_between);
   /// Back to frame 0. The verdict starts anew.
   void reset();

@@ -43,5 +43,11 @@ TEST(Pacer, MeasuresItsSpeed) {
   EXPECT_NEAR(pacer.speed(), 3.0, 1e-5);
 }
 
+TEST(Pacer, AWaitThatNoDurationHoldsIsCutShort) {
+  Pacer pacer(1e-300);
+  pacer.start(0.0, kStart);
+  EXPECT_GT(pacer.dueTime(1e6), after(1e8));
+}
+
 }  // namespace
 }  // namespace spring_pendulum

@@ -23,8 +23,11 @@ class FrameWriter {
   /// Makes the folder if it is absent, makes sure that it can be written, and removes the frames
   /// of an earlier run: regular files named `frame_` + at least four digits + `.txt`, nothing else.
   /// \param frames how many frames are going to be written
+  /// \param inputs files that the run reads, which are never removed
+  /// \throws InputError if one of the inputs has the name of a frame in this folder
   /// \throws FileError naming the folder or file
-  FrameWriter(const std::string& folder, std::int64_t frames);
+  FrameWriter(const std::string& folder, std::int64_t frames,
+              const std::vector<std::string>& inputs = {});
   FrameWriter(FrameWriter&&) noexcept;
   ~FrameWriter();
 
@@ -33,10 +36,13 @@ class FrameWriter {
   void write(std::int64_t index, const State& state);
 
   /// Ends the run; the folder is free for another one. No write after this.
+  /// \throws FileError if the folder was moved away during the run
   void finish();
 
   /// Absolute path of the folder.
   const std::string& folder() const;
+  /// How many frames of an earlier run were removed.
+  std::int64_t earlierFrames() const;
   /// Wall-clock time spent in this class, s.
   double seconds() const { return seconds_; }
 

@@ -1,0 +1,153 @@
+// Every call of the system that a run makes for its files fails once: one line, exit status 1, and
+// no file lost or half written. See support/fault_injection.cpp.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "process/exercise3.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using testing::AnyOf;
+
+using Files = std::map<std::string, std::string>;  // text by name
+
+Files filesIn(const std::string& folder) {
+  Files files;
+  for (const std::string& name : listFolder(folder)) files[name] = readFile(folder + "/" + name);
+  return files;
+}
+
+bool isUnfinished(const std::string& name) {
+  return name.find(".tmp") != std::string::npos || name.find(".unfinished") != std::string::npos;
+}
+
+/// Removes with these what it leaves behind, so if one of them fails, something may stay.
+bool cleansUp(const std::string& call) {
+  return call == "unlinkat" || call == "fstatat" || call == "fstat";
+}
+
+class FaultInjection : public testing::TestWithParam<std::string> {
+ protected:
+  /// The folder as a run finds it: frames and an energy file of an earlier run, and a file of a run that
+  /// was killed. Frames 0 and 1 have the length of the new ones, and 2 has not.
+  static void fill(const TemporaryFolder& folder) {
+    folder.write("particle.txt", kTwoParticles);
+    folder.write("run.yaml", "frames: 3\n");
+    folder.write("frame_0000.txt", "earlier");
+    folder.write("frame_0001.txt", "earlier");
+    folder.write("frame_0002.txt", std::string(200, 'e'));
+    folder.write("frame_0007.txt", "earlier");
+    folder.write(".frame_0004.tmp", "killed");
+    folder.write("e.csv.unfinished", "killed");
+    folder.write("e.csv", "earlier energies");
+  }
+
+  static Command command(const TemporaryFolder& folder) {
+    return exercise3(folder, {"Runge-Kutta-4", "--config", "run.yaml", "--energy", "e.csv"});
+  }
+
+  FaultInjection() {
+    TemporaryFolder folder;
+    fill(folder);
+    earlier_ = filesIn(folder.path());
+    EXPECT_EQ(run(command(folder)).status, 0);
+    finished_ = filesIn(folder.path());
+    EXPECT_EQ(finished_.size(), 6U);
+  }
+
+  /// A run with a fault at one of its calls.
+  /// \returns the name of the call; empty if there are not as many
+  std::string disturb(const TemporaryFolder& folder, int call, Result& result) const {
+    const TemporaryFolder outside;
+    Command disturbed = command(folder);
+    disturbed.environment = {{"LD_PRELOAD", FAULT_INJECTION},
+                             {"FAULT_FOLDER", folder.path()},
+                             {"FAULT_CALL", std::to_string(call)},
+                             {"FAULT_KIND", GetParam()},
+                             {"FAULT_REPORT", outside.path("call")}};
+    result = run(disturbed);
+    return readFile(outside.path("call"));
+  }
+
+  void expectNothingLost(const Files& files, const std::string& call) const {
+    EXPECT_EQ(files.at("particle.txt"), earlier_.at("particle.txt"));
+    EXPECT_EQ(files.at("run.yaml"), earlier_.at("run.yaml"));
+    EXPECT_THAT(files.at("e.csv"), AnyOf(earlier_.at("e.csv"), finished_.at("e.csv")));
+    std::set<std::string> earlier_frames, new_frames;
+    for (const auto& [name, text] : files) {
+      if (name.substr(0, 6) != "frame_") continue;
+      const bool is_new = finished_.count(name) == 1 && finished_.at(name) == text;
+      (is_new ? new_frames : earlier_frames).insert(name);
+      EXPECT_TRUE(is_new || text == earlier_.at(name)) << name;
+    }
+    EXPECT_TRUE(earlier_frames.empty() || new_frames.empty());
+    if (GetParam() != "fail" || cleansUp(call)) return;
+    for (const auto& [name, text] : files) {
+      EXPECT_TRUE(!isUnfinished(name) || earlier_.count(name) == 1) << name;
+    }
+    EXPECT_TRUE(earlier_frames.empty() || earlier_frames.size() == 4U);
+  }
+
+  void expectTold(const Result& result, const Files& files) const {
+    if (result.status == 0) {
+      EXPECT_EQ(result.errors, "");
+      for (const auto& [name, text] : finished_) EXPECT_EQ(files.at(name), text) << name;
+      return;
+    }
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1);
+    EXPECT_THAT(result.errors, testing::MatchesRegex("/.*: .*\n")) << result.errors;
+    EXPECT_EQ(result.output, "");
+  }
+
+  Files earlier_;
+  Files finished_;
+};
+
+TEST_P(FaultInjection, AtEveryCall) {
+  std::map<std::string, int> failures;  // by call
+  int count = 0;
+  for (;; ++count) {
+    const TemporaryFolder folder;
+    fill(folder);
+    Result result;
+    const std::string call = disturb(folder, count + 1, result);
+    if (call.empty()) break;
+    SCOPED_TRACE(call + ", call " + std::to_string(count + 1) + ": " + result.errors);
+    const Files files = filesIn(folder.path());
+    expectNothingLost(files, call);
+    if (GetParam() == "kill") {
+      EXPECT_EQ(result.status, 128 + SIGKILL);
+      ASSERT_EQ(run(command(folder)).status, 0);
+      EXPECT_EQ(filesIn(folder.path()), finished_);
+    } else if (GetParam() == "short" || GetParam() == "again") {
+      EXPECT_EQ(result.status, 0);
+      EXPECT_EQ(files, finished_);
+    } else {
+      expectTold(result, files);
+      failures[call] += result.status;
+    }
+    if (HasFailure()) break;
+  }
+  const bool only_data = GetParam() == "short" || GetParam() == "again";
+  EXPECT_GT(count, only_data ? 5 : 50);
+  if (GetParam() != "fail") return;
+  for (const char* call : {"open", "openat", "write", "read", "renameat"}) {
+    EXPECT_GT(failures[call], 0) << call;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, FaultInjection,
+                         testing::Values("fail", "broken", "kill", "short", "again"),
+                         [](const auto& kind) { return kind.param; });
+
+}  // namespace
+}  // namespace spring_pendulum

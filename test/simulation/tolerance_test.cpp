@@ -1,0 +1,40 @@
+#include "simulation/tolerance.hpp"
+
+#include <spring_pendulum/model/errors.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace spring_pendulum {
+namespace {
+
+/// Two particles, a metre apart.
+std::string messageFor(double tolerance, double place, const char* method = "Auto") {
+  State state(2);
+  state.x() << place, place + 1.0;
+  Scenario scenario;
+  scenario.method = method;
+  scenario.tolerance = tolerance;
+  try {
+    checkTolerance(scenario, Chain(Eigen::VectorXd::Ones(2), SpringLaw{}, 9.81), state);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Tolerance, IsAboveTheRoundingOfThePositions) {
+  EXPECT_EQ(messageFor(1e-14, 0.0), "");
+  EXPECT_THAT(messageFor(1e-300, 0.0),
+              testing::StartsWith("tolerance: must be at least 1.9e-15 m"));
+  EXPECT_EQ(messageFor(1.9e-15, 0.0), "");
+  EXPECT_THAT(messageFor(1e-6, 1e12), testing::StartsWith("tolerance: must be at least 9.3e-04 m"));
+  EXPECT_EQ(messageFor(9.4e-4, 1e12), "");
+}
+
+TEST(Tolerance, OfAFixedStepMethodIsNotUsed) {
+  EXPECT_EQ(messageFor(1e-300, 0.0, "Euler"), "");
+}
+
+}  // namespace
+}  // namespace spring_pendulum
