@@ -1,0 +1,110 @@
+#!/usr/bin/python3
+"""pendulum_node with calls of the system that fail, a clock that steps back, no master, a terminal
+that is gone."""
+import os
+import pty
+import signal
+import subprocess
+import time
+import unittest
+
+import rostest
+
+from fault_injection import (INJECTION, NO_MASTER, SCENE, files_in, fill, injection, read_report)
+from pendulum_process import Folder, PendulumNode, program, read_frames, wait_until
+
+
+class Node(unittest.TestCase):
+
+    def test_every_call_fails(self):
+        with Folder() as outside, Folder() as folder:
+            self.assertEqual(self.run_node(folder, {})[0], 0)
+            finished = files_in(folder)
+        call = 0
+        while True:
+            call += 1
+            with Folder() as outside, Folder() as folder:
+                fill(folder, None)
+                with open(folder + '/e.csv', 'wb') as file:
+                    file.write(b'earlier')
+                report = outside + '/call'
+                status, output = self.run_node(
+                    folder, injection(folder, report, call, 'fail'))
+                name = read_report(report)
+                if not name:
+                    break
+                with self.subTest(call=call, name=name, output=output):
+                    self.check_files(folder, finished, status)
+                    if status != 0:
+                        self.assertEqual(status, 1)
+                        self.assertEqual(output.count('[FATAL]'), 1)
+        self.assertGreater(call, 30)
+
+    def run_node(self, folder, environment):
+        if not os.path.exists(folder + '/particle.txt'):
+            fill(folder, None)
+        with PendulumNode(particles=folder + '/particle.txt', output=folder, frames=2,
+                          energy=folder + '/e.csv', env=environment) as node:
+            return node.wait(), node.output()
+
+    def check_files(self, folder, finished, status):
+        files = files_in(folder)
+        self.assertIn(files['e.csv'], (b'earlier', finished['e.csv']))
+        for name, text in files.items():
+            if name.startswith('frame_'):
+                self.assertEqual(text, finished[name])
+        if status == 0:
+            self.assertEqual({**finished, **files}, files)
+
+    def test_the_clock_steps_back(self):
+        with Folder() as folder:
+            start = time.monotonic()
+            with PendulumNode(particles=SCENE, output=folder, frames=31, real_time_factor=1.0,
+                              env={'LD_PRELOAD': INJECTION, 'CLOCK_BACK': '3600'}) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertGreater(time.monotonic() - start, 3.0)  # it was paced all the same
+            self.assertEqual(len(read_frames(folder)), 31)
+
+    def test_a_signal_ends_it_without_a_master(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            node = subprocess.Popen([program('pendulum_node'), '_particles:=' + SCENE],
+                                    env=dict(os.environ, **NO_MASTER), text=True,
+                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            try:
+                wait_until(lambda: 'master' in node.stdout.readline(), 'a try to find a master')
+                node.send_signal(number)
+                self.assertEqual(node.wait(60), 0)
+            finally:
+                node.kill()
+                node.communicate()
+
+    def test_a_signal_ends_it_inside_a_frame(self):
+        for parameters in ({'method': 'Taylor-8', 'frame_interval': 1e6},
+                           {'steps_per_frame': 2000000000}):
+            with Folder() as folder, PendulumNode(particles=SCENE, output=folder,
+                                                  **parameters) as node:
+                wait_until(lambda: os.path.exists(folder + '/frame_0000.txt'), 'frame 0')
+                node.interrupt()
+                self.assertEqual(node.wait(), 0, node.output())
+                self.assertEqual(list(read_frames(folder)), ['frame_0000.txt'])
+
+    def test_a_vanished_terminal_does_not_end_it(self):
+        ours, other_end = pty.openpty()
+        with Folder() as folder:
+            node = subprocess.Popen(
+                [program('pendulum_node'), '__name:=on_terminal', '_particles:=' + SCENE,
+                 '_output:=' + folder, '_frames:=30', '_at_end:=exit'],
+                stdin=subprocess.DEVNULL, stdout=other_end, stderr=other_end)
+            os.close(other_end)
+            try:
+                wait_until(lambda: os.path.exists(folder + '/frame_0003.txt'), 'frames')
+                os.close(ours)
+                self.assertEqual(node.wait(60), 0)
+                self.assertEqual(len(read_frames(folder)), 30)
+            finally:
+                node.kill()
+                node.wait()
+
+
+if __name__ == '__main__':
+    rostest.rosrun('spring_pendulum', 'node_faults', Node)
