@@ -11,7 +11,7 @@
 namespace spring_pendulum {
 namespace {
 
-enum MarkerIndex : std::size_t { kSprings, kParticles, kAnchor, kTrail, kText, kGrid };
+enum MarkerIndex : std::size_t { kSprings, kParticles, kAnchor, kTrail, kText, kGrid, kReference };
 
 /// rviz has been seen to crash on a LINE_STRIP of more than 16384 points.
 constexpr std::size_t kMostTrailPoints = 4096;
@@ -24,6 +24,7 @@ constexpr double kSpringWidth = 0.35;    ///< in diameters
 constexpr double kLeastWidth = 0.0035;
 constexpr int kTextLines = 3;  ///< of a chain that has the picture to itself
 constexpr double kGridWidth = 0.0015;
+constexpr double kReferenceDepth = 0.004;
 constexpr double kGridDepth = 0.02;  ///< behind the plane of the motion
 constexpr double kGridReach = 1.5;   ///< beyond the scene, for windows wider than it
 
@@ -114,6 +115,10 @@ MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
       emptyMarker("springs", Marker::LINE_LIST),     emptyMarker("particles", Marker::SPHERE_LIST),
       emptyMarker("anchor", Marker::CUBE),           emptyMarker("trail", Marker::LINE_STRIP),
       emptyMarker("text", Marker::TEXT_VIEW_FACING), emptyMarker("grid", Marker::LINE_LIST)};
+  if (options.show_reference) {
+    markers_.markers.push_back(emptyMarker("reference", Marker::LINE_LIST));
+    markers_.markers[kReference].color.a = 0.4F;
+  }
   markers_.markers[kAnchor].color = anchorColor();
   markers_.markers[kAnchor].pose.position = pointOf(run.start(), 0);
   // rviz blends a line only if its own colour is not opaque.
@@ -138,6 +143,7 @@ void MarkerBuilder::frame(const PendulumRun& run, const State& state) {
   setScale(markers_.markers[kSprings], width);
   setScale(markers_.markers[kParticles], diameter);
   setScale(markers_.markers[kAnchor], 1.5 * diameter);
+  if (options_.show_reference) setScale(markers_.markers[kReference], width);
   setScale(markers_.markers[kTrail], 0.5 * width);
   setScale(markers_.markers[kGrid], kGridWidth * size);
   setScale(markers_.markers[kText], view_->textHeight());
@@ -211,6 +217,7 @@ const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& r
   if (run.isFinite() && run.isShown()) place(run, shown.state());
   if (placed_) paint(run);
   drawTrail(shown);
+  if (options_.show_reference) drawReference(run);
   label(run, shown.time(), pace);
   placeText();
   for (const MarkerIndex list : {kSprings, kParticles, kTrail, kGrid}) {
@@ -239,6 +246,21 @@ void MarkerBuilder::place(const PendulumRun& run, const State& state) {
     const auto thinned = static_cast<double>(drawn_[n] - drawn_[n - 1]);
     strains_.push_back(strainOf(length / thinned, run.chain().spring().rest_length));
   }
+}
+
+void MarkerBuilder::drawReference(const PendulumRun& run) {
+  auto& reference = markers_.markers[kReference];
+  reference.points.clear();
+  const State* state = run.referenceState();
+  if (state != nullptr && state->size() == run.state().size() && state->values().allFinite()) {
+    for (std::size_t n = 1; n < drawn_.size(); ++n) {
+      reference.points.push_back(pointOf(*state, drawn_[n - 1]));
+      reference.points.push_back(pointOf(*state, drawn_[n]));
+    }
+  }
+  // A little behind, so that it does not flicker through the chain.
+  for (geometry_msgs::Point& point : reference.points) point.y += kReferenceDepth * view_->size();
+  hideIfEmpty(reference);
 }
 
 std_msgs::ColorRGBA MarkerBuilder::springColor(const PendulumRun& run, std::size_t spring) const {

@@ -1,4 +1,4 @@
-// The chain as rviz markers: six, whatever its length.
+// The chain as rviz markers: six, whatever its length, and one for the reference on request.
 //
 // Springs are one LINE_LIST coloured by strain, particles one SPHERE_LIST coloured by mass; rviz
 // draws thousands of them in one batch, where a marker a particle would stop it. Every marker has a
@@ -55,6 +55,7 @@ class MarkerBuilder {
   geometry_msgs::Point pointOf(const State& state, Eigen::Index i) const;
   void place(const PendulumRun& run, const State& state);
   void paint(const PendulumRun& run);
+  void drawReference(const PendulumRun& run);
   void drawTrail(const ShownState& shown);
   void label(const PendulumRun& run, double time, const std::string& pace);
   std_msgs::ColorRGBA springColor(const PendulumRun& run, std::size_t spring) const;

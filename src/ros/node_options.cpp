@@ -33,6 +33,8 @@ std::vector<Option> displayOptions(NodeOptions& o) {
        "one colour for the whole chain"},
       {"display_limit", Count{&o.display_limit, Range::atLeast(2)}, "",
        "largest number of particles drawn; a longer chain is thinned, in the markers only"},
+      {"show_reference", Flag{&o.show_reference}, "",
+       "draw the true motion, from the reference run, as a pale second chain"},
       {"y_offset", Number{&o.y_offset, Range::any()}, "m", "y of the plane of the motion"},
       {"text_row", Count{&o.text_row, Range::atLeast(0)}, "", "row of the text, counted upwards"},
       {"text_rows", Count{&o.text_rows, Range::atLeast(1)}, "",

@@ -25,6 +25,7 @@ struct NodeOptions {
   double trail = 2.0;                  ///< s, length of the tip's trail; 0: none
   std::string color;                   ///< "#rrggbb"; empty: by strain and mass
   std::int64_t display_limit = 10000;  ///< particles drawn at most
+  bool show_reference = false;         ///< draw the reference run as a pale second chain
   double y_offset = 0.0;               ///< m, where the plane of the motion lies
   std::int64_t text_row = 0;           ///< the text stands so many rows above the first one
   std::int64_t text_rows = 1;          ///< rows of text in the picture

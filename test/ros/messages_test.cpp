@@ -97,6 +97,18 @@ TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
             visualization_msgs::Marker::DELETE);
 }
 
+TEST(Markers, TheReferenceIsASecondChainOnRequest) {
+  PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  run.advance(false);
+  NodeOptions options;
+  options.show_reference = true;
+  const auto markers = markersOf(run, options).markers;
+  ASSERT_EQ(markers.size(), 7U);
+  ASSERT_NE(run.referenceState(), nullptr);
+  ASSERT_EQ(markers[6].points.size(), 4U);
+  EXPECT_EQ(markers[6].points[3].z, run.referenceState()->y()[2]);
+}
+
 TEST(Markers, SlowMotionShowsStatesBetween) {
   PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
   ShownState shown;
