@@ -87,13 +87,18 @@ class Grid {
 
 }  // namespace
 
-Trial TrialBench::run(const Method& method, double tolerance, const FrameSteps& frame,
-                      std::int64_t frames, bool with_reference, VerdictKind enough) const {
-  const auto integrator = makeIntegrator(method.name, chain_, {tolerance, true, 1});
+Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
+                      const FrameSteps& frame, std::int64_t frames, bool with_reference,
+                      VerdictKind enough) const {
+  IntegratorOptions integrator_options;
+  integrator_options.tolerance = tolerance.value_or(integrator_options.tolerance);
+  integrator_options.track_dissipation = true;
+  integrator_options.threads = 1;
+  const auto integrator = makeIntegrator(method.name, chain_, integrator_options);
   const bool fixed = method.control == StepControl::kFixed;
   Judge judge(chain_, start_, JudgeOptions{true, method.symplectic ? frame.time_step : 0.0});
   ReferenceOptions options;
-  if (!fixed) options.run_tolerance = tolerance;
+  options.run_tolerance = tolerance.value_or(options.run_tolerance);
   ReferenceRun reference(chain_, start_, options);
   State state = start_;
   Trial trial;
@@ -131,7 +136,8 @@ Trial TrialBench::run(const Method& method, double step, bool with_reference,
   }
   const FrameSteps frame{step, std::max<std::int64_t>(1, std::llround(frame_interval_ / step))};
   const double frames = std::ceil(duration_ / frame.timeOfFrame(1) * (1.0 - 1e-9));
-  return run(method, 0.0, frame, static_cast<std::int64_t>(frames), with_reference, enough);
+  return run(method, std::nullopt, frame, static_cast<std::int64_t>(frames), with_reference,
+             enough);
 }
 
 double TrialBench::leastStep(const Method& method) const {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace spring_pendulum {
 
@@ -37,8 +38,9 @@ class TrialBench {
         most_work_(most_work) {}
 
   /// Runs frame by frame to the end, or until the verdict reaches `enough`.
-  Trial run(const Method& method, double tolerance, const FrameSteps& frame, std::int64_t frames,
-            bool with_reference, VerdictKind enough = VerdictKind::kDiverged) const;
+  Trial run(const Method& method, std::optional<double> tolerance, const FrameSteps& frame,
+            std::int64_t frames, bool with_reference,
+            VerdictKind enough = VerdictKind::kDiverged) const;
 
   /// The same with frames of about the interval. With an error-controlled method `step` is the
   /// tolerance.

@@ -251,7 +251,7 @@ std::vector<Family> masses() {
          d.masses[d.size() - 1] = r.pick({20.0, 50.0});
          return d;
        }},
-      {"undamped, light tail",
+      {"undamped with a light tail",
        [](Random& r) {
          Draft d = chainOf(r, r.whole(2, 6), 0.5);
          d.spring.damping = 0.0;
