@@ -10,6 +10,6 @@ catkin_package(
   INCLUDE_DIRS include
   LIBRARIES spring_pendulum
   CATKIN_DEPENDS geometry_msgs message_runtime roscpp rosgraph_msgs std_msgs std_srvs
-    tf2_msgs visualization_msgs
+    visualization_msgs
   DEPENDS EIGEN3
   CFG_EXTRAS spring_pendulum-extras.cmake)

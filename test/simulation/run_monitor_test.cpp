@@ -99,11 +99,11 @@ TEST(RunMonitor, PositionsAreNotCheckedWithoutAReference) {
 }
 
 TEST(RunMonitor, SaysUntilWhenItMeasured) {
-  const test::Scene feather = test::horizontalChain("feather", 50, 1e-6);
+  const test::Scene light = test::horizontalChain("light", 5000, 1e-3);
   Scenario scenario = scenarioOf("Stabilized-Taylor-8");
   scenario.tolerance = 1e-3;
   scenario.frame_interval = 0.01;
-  const RunMonitor monitor = monitorAfter(scenario, feather, 1.0);
+  const RunMonitor monitor = monitorAfter(scenario, light, 1.0);
   EXPECT_EQ(monitor.verdict().kind, VerdictKind::kNotChecked);
   EXPECT_GT(monitor.positionError().measured_until, 0.0);
   EXPECT_THAT(monitor.measurements(), HasSubstr("(measured until t = "));
