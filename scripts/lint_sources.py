@@ -18,7 +18,7 @@ MOST_LINES = 400
 LAYERS = {'model': 0, 'integration': 1, 'simulation': 2, 'io': 3, 'ros': 4}
 ROOMS = {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3, 'implicit': 3,
          'automatic': 4}
-BELOW_ALL_ROOMS = ('integrator.hpp', 'butcher_tableau.hpp')
+BELOW_ALL_ROOMS = ('integrator.hpp', 'butcher_tableau.hpp', 'smallest_tolerance.hpp')
 TABLE = 5  # the method table and what else lies in integration/ itself
 
 

@@ -216,7 +216,9 @@ std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain&
                                            const IntegratorOptions& options) {
   const Method& row = findMethod(method);
   if (chain.size() < 1) throw InputError("the chain has no particles: it was moved from");
-  requireFinitePositive("tolerance", options.tolerance, "m");
+  if (row.control == StepControl::kErrorControlled) {
+    requireFinitePositive("tolerance", options.tolerance, "m");
+  }
   requireAtLeastZero("threads", options.threads);
   std::unique_ptr<Integrator> integrator = row.make(row, chain, options);
   if (!integrator)

@@ -91,6 +91,7 @@ TEST(Misuse, SlopeAndStateInOnePlace) {
 TEST(Misuse, OptionsOfIntegrators) {
   for (const Method& method : methodTable()) {
     for (const double tolerance : {0.0, -1.0, kNan, kInfinity}) {
+      if (method.control == StepControl::kFixed) continue;  // reads no tolerance
       EXPECT_THROW(makeIntegrator(method.name, chain(), {tolerance}), InputError) << method.name;
     }
     EXPECT_THROW(makeIntegrator(method.name, chain(), {1e-6, false, -1}), InputError);

@@ -55,8 +55,8 @@ const Method& findMethod(std::string_view name);
 /// "Euler, Runge-Kutta-2, ..."
 std::string knownMethodNames();
 
-/// \throws InputError for an unknown name, a chain without particles, a tolerance that is not finite
-///         and above 0, or a negative number of threads
+/// \throws InputError for an unknown name, a chain without particles, an error-controlled method
+///         with a tolerance that is not finite and above 0, or a negative number of threads
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
                                            const IntegratorOptions& options = {});
 
