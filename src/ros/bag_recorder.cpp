@@ -16,6 +16,7 @@
 
 #include <rosbag/bag.h>
 
+#include <memory>
 #include <tf2_msgs/TFMessage.h>
 
 namespace spring_pendulum {
@@ -143,18 +144,24 @@ BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const
   RunFiles files(scenario, to.config);
   BagSummary summary;
   summary.path = file.path();
+  auto bag = std::make_unique<rosbag::Bag>();
   try {
     const bool has_earlier = to.append && file.copyEarlier();
-    rosbag::Bag bag(file.unfinishedPath(),
-                    has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
-    BagRecorder recorder(bag, run, options, topicPrefix(to.name_space));
+    bag->open(file.unfinishedPath(),
+              has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
+    BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
     recordRun(run, recorder, files);
-    bag.close();
+    bag->close();
     summary.messages = recorder.messages();
-  } catch (const rosbag::BagIOException&) {  // its text tells neither the file nor the reason
-    throw FileError(fmt::format("{}: could not be written: {}", file.path(), messageForErrno()));
   } catch (const rosbag::BagException& error) {
-    throw FileError(fmt::format("{}: {}", file.path(), error.what()));
+    // The text of a BagIOException tells neither the file nor the reason.
+    const bool is_io = dynamic_cast<const rosbag::BagIOException*>(&error) != nullptr;
+    const std::string reason = is_io ? "could not be written: " + messageForErrno() : error.what();
+    static_cast<void>(bag.release());  // its destructor closes again, throws and ends the program
+    throw FileError(fmt::format("{}: {}", file.path(), reason));
+  } catch (...) {
+    static_cast<void>(bag.release());
+    throw;
   }
   summary.bytes = file.size();
   file.finish();
