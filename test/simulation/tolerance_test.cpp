@@ -24,12 +24,12 @@ std::string messageFor(double tolerance, double place, const char* method = "Aut
 }
 
 TEST(Tolerance, IsAboveTheRoundingOfThePositions) {
-  EXPECT_EQ(messageFor(1e-14, 0.0), "");
+  EXPECT_EQ(messageFor(1e-12, 0.0), "");
   EXPECT_THAT(messageFor(1e-300, 0.0),
-              testing::StartsWith("tolerance: must be at least 1.9e-15 m"));
-  EXPECT_EQ(messageFor(1.9e-15, 0.0), "");
-  EXPECT_THAT(messageFor(1e-6, 1e12), testing::StartsWith("tolerance: must be at least 9.3e-04 m"));
-  EXPECT_EQ(messageFor(9.4e-4, 1e12), "");
+              testing::StartsWith("tolerance: must be at least 2.3e-13 m"));
+  EXPECT_EQ(messageFor(2.3e-13, 0.0), "");
+  EXPECT_THAT(messageFor(1e-6, 1e12), testing::StartsWith("tolerance: must be at least 2.3e-02 m"));
+  EXPECT_EQ(messageFor(2.3e-2, 1e12), "");
 }
 
 TEST(Tolerance, OfAFixedStepMethodIsNotUsed) {
