@@ -122,10 +122,13 @@ class Bag(unittest.TestCase):
             with open(folder + '/energy.csv') as ours, open(expected_folder + '/energy.csv') as theirs:
                 self.assertEqual(ours.read(), theirs.read())
 
-    def test_energy_tracking_can_be_switched_off(self):
-        with Folder() as folder:
-            path, _ = record(folder, 'one.bag', '--frames', '2', '--track-energy', 'false')
-            self.assertTrue(math.isnan(contents(path, '/state')[-1][0].energy_error))
+    def test_energy_tracking_can_be_switched_off_where_it_costs(self):
+        for steps, tracked in (('10', True), ('1000000', False)):
+            with self.subTest(steps=steps), Folder() as folder:
+                path, _ = record(folder, 'one.bag', '--frames', '2', '--time-step', '1e-6',
+                                 '--steps-per-frame', steps, '--track-energy', 'false')
+                error = contents(path, '/state')[-1][0].energy_error
+                self.assertEqual(math.isnan(error), not tracked)
 
     def test_bad_use_leaves_no_file(self):
         cases = [(('--color', 'red'), 2, "--color: must be #rrggbb"), (('--frames', '0'), 2, 'frames'),
