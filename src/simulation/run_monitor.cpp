@@ -34,7 +34,8 @@ double toleranceOf(const Scenario& scenario) {
 
 JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation) {
   const bool symplectic = findMethod(scenario.method).symplectic;
-  return {tracks_dissipation, symplectic ? scenario.time_step : 0.0};
+  return {tracks_dissipation, symplectic ? scenario.time_step : 0.0,
+          isFixed(scenario) ? 0.0 : scenario.tolerance};
 }
 
 /// Steps that an error-controlled method is expected to take: some twenty per second, and more

@@ -96,7 +96,9 @@ Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
   integrator_options.threads = 1;
   const auto integrator = makeIntegrator(method.name, chain_, integrator_options);
   const bool fixed = method.control == StepControl::kFixed;
-  Judge judge(chain_, start_, JudgeOptions{true, method.symplectic ? frame.time_step : 0.0});
+  Judge judge(
+      chain_, start_,
+      JudgeOptions{true, method.symplectic ? frame.time_step : 0.0, tolerance.value_or(0.0)});
   ReferenceOptions options;
   options.run_tolerance = tolerance.value_or(options.run_tolerance);
   ReferenceRun reference(chain_, start_, options);

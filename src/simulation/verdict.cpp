@@ -114,7 +114,9 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
     : chain_(chain),
       balance_(chain, start, options.tracks_dissipation),
       chain_length_(chainLength(chain, start)),
-      symplectic_step_(options.symplectic_step) {}
+      symplectic_step_(options.symplectic_step),
+      tolerance_energy_(static_cast<double>(chain.size() - 1) * 0.5 * chain.spring().stiffness *
+                        (20.0 * options.tolerance) * (20.0 * options.tolerance)) {}
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated) {
   entry_ = balance_.entry(time, state, dissipated);
@@ -143,10 +145,13 @@ void Judge::measure(double time, const State& state, const ReferenceRun* referen
 
 Verdict Judge::judgeEnergy(const State& state) {
   // A state with a number that is not finite has no finite energy, so one test covers both.
-  if (!(entry_.relative_gain <= kDivergenceThreshold)) return diverged(chain_, state, entry_);
+  double allowance =
+      tolerance_energy_ > 0.0 ? tolerance_energy_ / balance_.scale(entry_.time) : 0.0;
+  if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
+    return diverged(chain_, state, entry_);
+  }
   double gain = entry_.relative_gain;
   double residual = entry_.relative_residual.value_or(0.0);
-  double allowance = 0.0;
   if (symplectic_step_ > 0.0) {
     // To first order the energy is off by h/2 dU/dt, with the potential energy U. The mean of
     // dU/dt over a time t is at most the energy scale / t.
@@ -155,7 +160,7 @@ Verdict Judge::judgeEnergy(const State& state) {
     frames_ += 1.0;
     gain = gain_sum_ / frames_;
     residual = residual_sum_ / frames_;
-    allowance = entry_.time > 0.0 ? symplectic_step_ / entry_.time : 0.0;
+    allowance += entry_.time > 0.0 ? symplectic_step_ / entry_.time : 0.0;
   }
   if (gain > kGainThreshold + allowance) return gainedEnergy(entry_);
   if (std::abs(residual) > kDriftThreshold + allowance) return drifted(entry_);

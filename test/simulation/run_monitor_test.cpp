@@ -140,6 +140,14 @@ TEST(RunMonitor, GrowingEnergyOfSymplecticMethodsIsFound) {
   EXPECT_GE(monitor.verdict().kind, VerdictKind::kGainedEnergy);
 }
 
+// A position error of 5e-6 m, far below the tolerance, holds 4 % of the energy of this scene.
+TEST(RunMonitor, ErrorWithinTheToleranceIsNotGainedEnergy) {
+  const test::Scene lightest = test::horizontalChain("two particles", 2, 1e-9);
+  Scenario scenario = scenarioOf("Auto");
+  scenario.tolerance = 1e-3;
+  EXPECT_EQ(monitorAfter(scenario, lightest, 10.0).verdict().text, "ok");
+}
+
 TEST(RunMonitor, SensitiveMotionIsNotBlamedOnTheRun) {
   Scenario scenario = scenarioOf("Auto");
   scenario.tolerance = 1e-8;

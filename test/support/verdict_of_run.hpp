@@ -20,7 +20,8 @@ inline Verdict verdictOfRun(const Scene& scene, const Method& method, double tim
                             VerdictKind enough = VerdictKind::kDiverged) {
   const auto integrator = makeIntegrator(method.name, scene.chain, {1e-6, with_energy});
   State state = scene.start;
-  Judge judge(scene.chain, state, JudgeOptions{with_energy, method.symplectic ? time_step : 0.0});
+  Judge judge(scene.chain, state,
+              JudgeOptions{with_energy, method.symplectic ? time_step : 0.0, 0.0});
   const std::int64_t steps =
       std::max<std::int64_t>(1, std::llround(std::min(0.1, duration) / time_step));
   for (std::int64_t n = 0; static_cast<double>(n) * time_step < duration; n += steps) {

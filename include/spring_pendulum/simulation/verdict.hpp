@@ -57,6 +57,10 @@ struct JudgeOptions {
   /// Step in s of a symplectic method; 0 for other methods. The energy then oscillates about its
   /// true value, so the mean error over the run so far is judged.
   double symplectic_step = 0.0;
+  /// Tolerance in m of an error-controlled method; 0 for fixed steps. Position errors within the
+  /// promised ten tolerances change the length of a spring by up to 20 of them. The energy of that is
+  /// allowed: for particles of 1e-9 kg it exceeds all that gravity can do.
+  double tolerance = 0.0;
 };
 
 /// Judges the frames of one run and remembers the worst.
@@ -71,7 +75,7 @@ class Judge {
   /// \throws InputError as EnergyBalance
   Judge(const Chain& chain, const State& start, const JudgeOptions& options);
   Judge(const Chain& chain, const State& start, bool tracks_dissipation)
-      : Judge(chain, start, JudgeOptions{tracks_dissipation, 0.0}) {}
+      : Judge(chain, start, JudgeOptions{tracks_dissipation, 0.0, 0.0}) {}
 
   /// Judges the state at `time` s by its energy alone. No allocation while the motion is good.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; read only if it is tracked
@@ -104,6 +108,7 @@ class Judge {
   EnergyBalance balance_;
   double chain_length_;
   double symplectic_step_;
+  double tolerance_energy_;    ///< J
   double gain_sum_ = 0.0;      ///< of the relative gains of the frames judged
   double residual_sum_ = 0.0;  ///< of their relative residuals
   double frames_ = 0.0;
