@@ -133,8 +133,9 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
 }
 
 void Judge::measure(double time, const State& state, const ReferenceRun* reference) {
-  const bool measured = reference != nullptr && reference->isMeasuring();
-  position_error_.now = measured ? reference->errorOf(state) : PositionError{}.now;
+  position_error_.now = PositionError{}.now;
+  if (reference == nullptr || !reference->isMeasuring()) return;
+  position_error_.now = reference->errorOf(state);
   if (std::isnan(position_error_.now)) return;
   position_error_.measured_until = time;
   position_error_.uncertainty = reference->uncertainty();

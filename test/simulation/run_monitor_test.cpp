@@ -19,7 +19,6 @@ namespace spring_pendulum {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 /// A run with its monitor, from frame to frame.
 class MonitoredRun {
