@@ -43,7 +43,7 @@ rviz() {
   "$(program record_bag)" Auto --particles "$project/data/random_masses.txt" --stiffness 400 \
     --frame-interval 0.04 --frames 200 --display-rate 0 --bag "$work/rviz.bag"
   "$project/scripts/film.sh" "$work/rviz.bag" "$docs/rviz.gif" --duration 7 --fps 15 --size 600x460
-  "$project/scripts/film.sh" "$work/rviz.bag" "$docs/rviz_window.png" --start 3 --window --size 1280x800
+  "$project/scripts/film.sh" "$work/rviz.bag" "$docs/rviz_window.png" --start 5.5 --window --size 1280x800
 }
 
 if [ $# -gt 0 ]; then
