@@ -84,7 +84,8 @@ class ParticleParser {
   void checkMovingParticle(const Row& row) const {
     const double mass = row[2];
     if (!(mass > 0.0)) refuse(fmt::format("mass must be positive, got {} kg", mass));
-    if (!std::isfinite(1.0 / mass)) refuse(fmt::format("mass is too small, got {} kg", mass));
+    if (!std::isfinite(1.0 / mass))
+      refuse(fmt::format("mass must be large enough for 1/mass to be finite, got {} kg", mass));
     const double dx = row[0] - rows_.back()[0];
     const double dy = row[1] - rows_.back()[1];
     const double square = dx * dx + dy * dy;

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"0 0 1\n1 0 0\n", "particle.txt:2: mass must be positive, got 0 kg"},
         BadText{"0 0 1\n1 0 -0\n", "particle.txt:2: mass must be positive, got 0 kg"},
         BadText{"0 0 1\n1 0 -2\n", "particle.txt:2: mass must be positive, got -2 kg"},
-        BadText{"0 0 1\n1 0 1e-310\n", "particle.txt:2: mass is too small, got 1e-310 kg"},
+        BadText{"0 0 1\n1 0 1e-310\n", "particle.txt:2: mass must be large enough for 1/mass to be finite, got 1e-310 kg"},
         BadText{"0 0 1\n\n0 -0 1\n",
                 "particle.txt:3: same place as the particle in line 1; neighbours must be apart"},
         BadText{"0 0 1\n1e-170 0 1\n",
