@@ -42,14 +42,14 @@ for release in "$@"; do
     debootstrap --variant=minbase "$release" "$root" "$mirror" > "$root.log" 2>&1 ||
       { tail -n 20 "$root.log"; die "debootstrap failed"; }
   fi
-  rm -rf "$root/root/spring_pendulum"
-  mkdir "$root/root/spring_pendulum"
+  rm -rf "$root/srv/spring_pendulum"
+  mkdir "$root/srv/spring_pendulum"
   (cd "$project" && git -c safe.directory="$project" ls-files -z | tar --null -T - -c) |
-    tar -x -C "$root/root/spring_pendulum"
+    tar -x -C "$root/srv/spring_pendulum"
   cp /etc/resolv.conf /etc/hosts "$root/etc/"
   trap 'unmount_in "$root"' EXIT
   mount_in "$root"
-  inside "$root" 'cd /root/spring_pendulum && scripts/run.sh && scripts/test.sh' ||
+  inside "$root" 'cd /srv/spring_pendulum && scripts/run.sh && scripts/test.sh' ||
     failed+=("$release")
   unmount_in "$root"
 done
