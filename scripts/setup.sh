@@ -37,7 +37,8 @@ packages_of() {
     releases) echo debootstrap git ;;
     arm64) echo g++-aarch64-linux-gnu qemu-user ;;
     benchmark)
-      echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev python3 ;;
+      echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev python3 \
+           libpython3-dev python3-scipy ;;
     *) die "setup.sh: unknown component '$1'" ;;
   esac
 }

@@ -29,6 +29,9 @@ std::vector<PeerRow> makeList() {
 #ifdef BENCHMARK_HAS_SIMBODY
   add(simbodyRows());
 #endif
+#ifdef BENCHMARK_HAS_PYTHON
+  add(dop853Rows());
+#endif
   return list;
 }
 
@@ -40,7 +43,8 @@ const std::vector<PeerRow>& allPeers() {
 }
 
 std::vector<std::string> missingPeers() {
-  std::vector<std::string> missing{"Boost.odeint", "GSL", "SUNDIALS", "MuJoCo", "Simbody"};
+  std::vector<std::string> missing{"Boost.odeint", "GSL",     "SUNDIALS",
+                                   "MuJoCo",       "Simbody", "DOP853"};
   for (const PeerRow& row : allPeers()) {
     missing.erase(std::remove(missing.begin(), missing.end(), row.library), missing.end());
   }

@@ -13,6 +13,8 @@ std::vector<PeerRow> arkodeRows();
 std::vector<PeerRow> cvodeRows();
 std::vector<PeerRow> mujocoRows();
 std::vector<PeerRow> simbodyRows();
+/// Empty if Python finds no SciPy.
+std::vector<PeerRow> dop853Rows();
 
 /// The usual `PeerRow::make`: a `Kind` made from problem, run, and whatever else it needs.
 template <typename Kind, typename... More>
