@@ -9,6 +9,7 @@
 #include "simulation/run_monitor.hpp"
 #include "simulation/scenario_options.hpp"
 #include "simulation/sleep.hpp"
+#include "simulation/stability_warning.hpp"
 #include "simulation/work.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
@@ -119,6 +120,7 @@ int run(const Scenario& scenario, const Switches& switches) {
   }
   catchInterruptions();
   RunFiles files(scenario, switches.config);
+  warn(stabilityWarning(chain, scenario));
   State state = particles.state;
   const Summary summary = simulate(scenario, state, integrator, monitor, files);
   files.finish();

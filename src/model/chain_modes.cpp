@@ -25,13 +25,18 @@ class SpringMatrix {
     return pivot > 0.0;
   }
 
+  double largestDiagonal() const {
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i + 1 < inverse_masses_.size(); ++i) {
+      largest = std::max(largest, diagonal(i));
+    }
+    return largest;
+  }
+
   /// Bisection between the largest diagonal entry and twice that, as A is diagonally dominant after
   /// scaling by M.
   double largestEigenvalue() const {
-    double least = 0.0;
-    for (Eigen::Index i = 0; i + 1 < inverse_masses_.size(); ++i) {
-      least = std::max(least, diagonal(i));
-    }
+    double least = largestDiagonal();
     double most = 2.0 * least;
     while (most - least > kPrecision * least) {
       const double middle = 0.5 * (least + most);
@@ -48,6 +53,10 @@ class SpringMatrix {
 
 double largestSpringMode(const Chain& chain) {
   return chain.size() < 2 ? 0.0 : SpringMatrix(chain).largestEigenvalue();
+}
+
+double stiffestSpring(const Chain& chain) {
+  return SpringMatrix(chain).largestDiagonal();
 }
 
 double slowSwing(const Chain& chain) {

@@ -16,6 +16,10 @@ namespace spring_pendulum {
 /// Largest μ in 1/kg, from above and within 1e-4 of it; 0 for a chain without springs. O(N).
 double largestSpringMode(const Chain& chain);
 
+/// Largest diagonal entry of B M^-1 B^T in 1/kg: what one spring between its two particles gives.
+/// A lower bound of the largest μ in every shape of the chain; 0 without springs. One pass.
+double stiffestSpring(const Chain& chain);
+
 /// Angular frequency in rad/s of the hanging chain swinging as if rigid, a few percent above that
 /// of the slowest sideways mode. Of a long chain only the ten springs at the free end, as in a run
 /// of any practical length it swings in parts. 0 without gravity or without springs. O(N).

@@ -23,7 +23,8 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
 
 class RunLog {
  public:
-  /// Says what will be run, and at INFO that the display rate is above the number of states.
+  /// Says what will be run, warns of a time step that is too large, and says at INFO that the display
+  /// rate is above the number of states.
   void start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) const;
 
   /// To be called after every action. Says once each: a bad verdict, the divergence with what to

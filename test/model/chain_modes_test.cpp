@@ -44,6 +44,13 @@ TEST(ChainModes, SpringModesAgreeWithADenseSolver) {
   }
 }
 
+TEST(ChainModes, StiffestSpringJoinsTheLightestPair) {
+  const Chain chain((Eigen::VectorXd(4) << 1.0, 2.0, 0.5, 4.0).finished(), SpringLaw{}, 9.81);
+  EXPECT_DOUBLE_EQ(stiffestSpring(chain), 1.0 / 2.0 + 1.0 / 0.5);
+  const Chain short_chain((Eigen::VectorXd(2) << 0.001, 2.0).finished(), SpringLaw{}, 9.81);
+  EXPECT_DOUBLE_EQ(stiffestSpring(short_chain), 0.5);  // the first particle is fixed
+}
+
 TEST(ChainModes, UniformChainHasTheClosedForm) {
   // One end fixed, one free: 4/m sin²((2n - 1)/(2n + 1) π/2) for n springs.
   const Chain chain(Eigen::VectorXd::Constant(31, 0.5), SpringLaw{}, 9.81);
@@ -66,6 +73,7 @@ TEST(ChainModes, LongChainsSwingAtTheirFreeEnd) {
 TEST(ChainModes, AreZeroWhereNothingMoves) {
   const Chain fixed(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
   EXPECT_EQ(largestSpringMode(fixed), 0.0);
+  EXPECT_EQ(stiffestSpring(fixed), 0.0);
   EXPECT_EQ(slowSwing(fixed), 0.0);
   const Chain floating(Eigen::VectorXd::Ones(3), SpringLaw{}, 0.0);
   EXPECT_EQ(slowSwing(floating), 0.0);

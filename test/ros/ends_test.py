@@ -106,6 +106,17 @@ class Ends(unittest.TestCase):
             self.assertEqual(node.wait(), 0, node.output())
             self.assertTrue(any('gained energy' in line for line in node.lines('WARN')), node.output())
 
+    def test_a_time_step_above_the_stability_limit_is_a_warning_at_the_start(self):
+        with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=1) as node:
+            warning = wait_until(lambda: node.lines('WARN'), 'the warning')[0]
+            self.assertRegex(warning, r'Euler is unstable with a time step of 0\.01 s .*; largest stable '
+                                      r'step for Euler: [\d.e-]+ s; Auto would do')
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
+        with PendulumNode(method='Runge-Kutta-4', particles=HORIZONTAL, frames=30) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(node.lines('WARN'), [])
+
     def test_the_method_that_auto_chose_is_said(self):
         with PendulumNode(method='Auto', particles=HORIZONTAL, frames=30) as node:
             self.assertEqual(node.wait(), 0, node.output())

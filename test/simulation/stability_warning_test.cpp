@@ -1,0 +1,90 @@
+#include "simulation/stability_warning.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/random_scenes.hpp"
+#include "support/verdict_of_run.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using test::Scene;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+Scenario scenarioOf(const Scene& scene, const std::string& method, double step, double duration) {
+  Scenario scenario;
+  scenario.method = method;
+  scenario.time_step = step;
+  scenario.stiffness = scene.chain.spring().stiffness;
+  scenario.damping = scene.chain.spring().damping;
+  scenario.rest_length = scene.chain.spring().rest_length;
+  scenario.gravity = scene.chain.gravity();
+  scenario.steps_per_frame = 1;
+  scenario.frames = std::llround(duration / step) + 1;
+  return scenario;
+}
+
+TEST(StabilityWarning, NeverComesBeforeAStableRun) {
+  constexpr double kDuration = 5.0;  // s
+  const auto bad = VerdictKind::kGainedEnergy;
+  int unstable = 0;
+  int warned = 0;
+  for (unsigned seed = 0; seed < 90; ++seed) {
+    const Scene scene = test::randomScene(seed);
+    SCOPED_TRACE(scene.name);
+    for (const Method& method : methodTable()) {
+      if (method.control != StepControl::kFixed) continue;
+      for (const double step : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 0.3}) {
+        const bool warns =
+            !stabilityWarning(scene.chain, scenarioOf(scene, method.name, step, kDuration)).empty();
+        const bool is_unstable =
+            test::verdictOfRun(scene, method, step, kDuration, false, bad).kind >= bad;
+        EXPECT_TRUE(!warns || is_unstable) << method.name << ", " << step << " s";
+        unstable += is_unstable ? 1 : 0;
+        warned += warns ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(warned, unstable / 2) << "of " << unstable;
+}
+
+TEST(StabilityWarning, NamesTheStepTheLimitAndAMethodThatWouldDo) {
+  const Scene light = test::horizontalChain("", 11, 0.001);
+  const std::string text =
+      stabilityWarning(light.chain, scenarioOf(light, "Runge-Kutta-4", 0.01, 5.0));
+  EXPECT_THAT(text, StartsWith("Runge-Kutta-4 may be unstable with a time step of 0.01 s; largest "
+                               "stable step: about 0.000"));
+  EXPECT_THAT(text, HasSubstr("; Auto would do"));
+}
+
+TEST(StabilityWarning, TriesTheStartOfAShortChain) {
+  const Scene scene = test::horizontalChain("", 11, 1.0);
+  const Scenario slow = scenarioOf(scene, "Euler", 0.01, 20.0);  // no spring is unstable by itself
+  EXPECT_THAT(stabilityWarning(scene.chain, slow), IsEmpty());
+  EXPECT_THAT(stabilityWarning(scene.chain, scene.start, slow),
+              StartsWith("Euler is unstable with a time step of 0.01 s (gained energy: "));
+  EXPECT_THAT(
+      stabilityWarning(scene.chain, scene.start, scenarioOf(scene, "Runge-Kutta-4", 0.01, 20.0)),
+      IsEmpty());
+  EXPECT_THAT(stabilityWarning(scene.chain, scene.start, scenarioOf(scene, "Auto", 0.01, 20.0)),
+              IsEmpty());
+}
+
+TEST(StabilityWarning, IsSilentWithoutSpringsOrSteps) {
+  const Scene light = test::horizontalChain("", 11, 0.001);
+  Scenario still = scenarioOf(light, "Euler", 0.01, 5.0);
+  still.frames = 1;
+  EXPECT_THAT(stabilityWarning(light.chain, light.start, still), IsEmpty());
+  const Chain alone(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
+  EXPECT_THAT(stabilityWarning(alone, State(1), Scenario{}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace spring_pendulum
