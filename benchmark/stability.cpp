@@ -1,8 +1,7 @@
 // Puts stability to the test.
 // Two reports, as CSV in DIR:
-// - stability_map.csv, stability_border.csv: the verdict on a grid of time steps against mass,
-//   stiffness, damping and length of the chain, for each method with a fixed step, and the border
-//   that the linear advice predicts;
+// - stability_map.csv, stability_limit.csv: the verdict on a chain of eleven particles on a grid of
+//   masses and time steps, for each method with a fixed step, and the linear limit of the step;
 // - stability_advice.csv: steps advised on random scenes, and how runs with 0.9, 0.95, 1.05 and 1.1
 //   times the step end.
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,34 +28,7 @@ constexpr double kDuration = 10.0;  // s, of a run
 constexpr double kMostSteps = 1e6;  // a longer run is left out
 constexpr unsigned kScenes = 120;   // random ones
 
-/// One property of the exercise's chain of eleven particles, varied on a logarithmic scale.
-struct Axis {
-  std::string name;
-  double least;
-  double most;
-  std::function<Scene(double)> scene;
-};
-
-std::vector<Axis> axes() {
-  const auto with_spring = [](const SpringLaw& spring) {
-    return test::horizontalChain("", 11, 1.0, spring);
-  };
-  return {
-      {"mass", 1e-4, 1e2, [](double mass) { return test::horizontalChain("", 11, mass); }},
-      {"stiffness", 1.0, 1e6,
-       [=](double value) {
-         return with_spring({value, 1.0, 1.0});
-       }},
-      {"damping", 1e-2, 1e3,
-       [=](double value) {
-         return with_spring({50.0, value, 1.0});
-       }},
-      {"particles", 2.0, 200.0,
-       [](double value) { return test::horizontalChain("", std::llround(value), 1.0); }},
-  };
-}
-
-/// Cells on a side of a map.
+/// Cells on a side of the map.
 int cells(const Options& options) {
   return options.smoke ? 4 : 48;
 }
@@ -79,24 +50,22 @@ int colorCode(VerdictKind kind) {
   return std::max(static_cast<int>(kind) - static_cast<int>(VerdictKind::kDrift) + 1, 0);
 }
 
-void writeMaps(const Options& options) {
+void writeMap(const Options& options) {
   auto map = fmt::output_file(options.output + "/stability_map.csv");
-  auto border = fmt::output_file(options.output + "/stability_border.csv");
-  map.print("axis,method,value,time_step [s],verdict,code\n");
-  border.print("axis,method,value,linear limit [s]\n");
-  for (const Axis& axis : axes()) {
-    for (const Method* method : fixedStepMethods()) {
-      for (int column = 0; column < cells(options); ++column) {
-        const double value = onScale(axis.least, axis.most, column, cells(options));
-        const Scene scene = axis.scene(value);
-        border.print("{},{},{:.6g},{:.6g}\n", axis.name, method->name, value,
-                     linearStepLimit(*method, scene.chain, kDuration));
-        for (int row = 0; row < cells(options); ++row) {
-          const double step = onScale(1e-4, 1.0, row, cells(options));
-          const VerdictKind kind = verdictOfRun(scene, *method, step, kDuration, true).kind;
-          map.print("{},{},{:.6g},{:.6g},{},{}\n", axis.name, method->name, value, step,
-                    toString(kind), colorCode(kind));
-        }
+  auto limits = fmt::output_file(options.output + "/stability_limit.csv");
+  map.print("method,mass [kg],time step [s],verdict,code\n");
+  limits.print("method,mass [kg],linear limit [s]\n");
+  for (const Method* method : fixedStepMethods()) {
+    for (int column = 0; column < cells(options); ++column) {
+      const double mass = onScale(1e-4, 1e2, column, cells(options));
+      const Scene scene = test::horizontalChain("", 11, mass);
+      limits.print("{},{:.6g},{:.6g}\n", method->name, mass,
+                   linearStepLimit(*method, scene.chain, kDuration));
+      for (int row = 0; row < cells(options); ++row) {
+        const double step = onScale(1e-4, 1.0, row, cells(options));
+        const VerdictKind kind = verdictOfRun(scene, *method, step, kDuration, true).kind;
+        map.print("{},{:.6g},{:.6g},{},{}\n", method->name, mass, step, toString(kind),
+                  colorCode(kind));
       }
     }
   }
@@ -134,8 +103,8 @@ void writeAdvice(const Options& options) {
 }  // namespace
 
 int run(const Options& options) {
+  writeMap(options);
   writeAdvice(options);
-  writeMaps(options);
   return 0;
 }
 

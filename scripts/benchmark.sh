@@ -53,6 +53,7 @@ tolerance() {
 stability() {
   run stability "$@"
   (cd "$results" && gnuplot "$reports/stability_map.plt")
+  [ "$what" = smoke ] || mv "$results/stability_map.png" "$project/docs/"
 }
 
 case $what in

@@ -1,52 +1,47 @@
-# Draws stability_map.csv and stability_border.csv of the folder it is called in as
-# stability_map.png and stability_map.svg: gnuplot .../stability_map.plt
-columnsOf(file, column) = system("awk -F, 'NR > 1 && $" . column . \
-    " != \"\" && !seen[$" . column . "]++ {print $" . column . "}' " . file)
+# Draws stability_map.csv and stability_limit.csv of the folder it is called in as
+# stability_map.png: gnuplot .../stability_map.plt
 map = "stability_map.csv"
-border = "stability_border.csv"
-axes = columnsOf(map, "1")
-methods = columnsOf(map, "2")
-select(file, axis, method) = "< awk -F, '$1 == \"" . axis . "\" && $2 == \"" . method . "\"' " . file
-unit(axis) = axis eq "mass" ? "m in kg" : axis eq "stiffness" ? "k_s in N/m" : \
-             axis eq "damping" ? "k_d in N·s/m" : "particles"
+limit = "stability_limit.csv"
+methods = "Euler Runge-Kutta-2 Runge-Kutta-4"
+of(file, method) = "< awk -F, '$1 == \"" . method . "\"' " . file
 
+# Blue against yellow to brown, getting darker: also told apart without seeing red and green.
+colors = "#c6dbef #fee391 #f98e1b #662506"
+names = "stable run energy drifts gains energy run diverges"
 set datafile separator ","
-set palette maxcolors 4 defined (0 "#7fbf7b", 1 "#ffffbf", 2 "#fdae61", 3 "#c0392b")
+set palette maxcolors 4 defined (0 word(colors, 1), 1 word(colors, 2), \
+    2 word(colors, 3), 3 word(colors, 4))
 set cbrange [-0.5:3.5]
 unset colorbox
+unset key
 set tics out nomirror scale 0.5
 set format x "10^{%.0f}"
-set format y "10^{%.0f}"
-set xtics 1
+set xtics 2
 set ytics 1
+set xlabel "mass of a particle in kg" offset 0, 0.2
+set xrange [-4:2]
+set yrange [-4:0]
 
-do for [kind in "png svg"] {
-  width = 60 + 330 * words(methods)
-  height = 90 + 290 * words(axes)
-  if (kind eq "png") { set terminal pngcairo size width, height font "sans,11" }
-  if (kind eq "svg") { set terminal svg standalone size width, height font "sans,11" background "white" }
-  set output "stability_map." . kind
-  set multiplot layout words(axes), words(methods) margins 0.07, 0.985, 0.06, 0.935 \
-      spacing 0.045, 0.05 title "Verdict on ten seconds of a chain of eleven particles: \
-green ok, yellow drift, orange gained energy, red diverged\n\
-line: largest step advised without a trial"
-  do for [row = 1:words(axes)] {
-    axis = word(axes, row)
-    do for [column = 1:words(methods)] {
-      method = word(methods, column)
-      set title (row == 1 ? method : "")
-      set xlabel unit(axis) offset 0, 0.6
-      set ylabel (column == 1 ? "step in s" : "") offset 1.5, 0
-      set xrange [*:*]
-      set yrange [*:*]
-      stats select(map, axis, method) using (log10($3)) nooutput
-      set xrange [STATS_min:STATS_max]
-      set yrange [-4:0]
-      plot select(map, axis, method) using (log10($3)):(log10($4)):6 with image notitle, \
-           select(border, axis, method) using (log10($3)):(log10($4)) with lines \
-               linewidth 2.5 linecolor "black" notitle
-    }
-  }
-  unset multiplot
-  set output
+# The legend, in the coordinates of the whole picture.
+do for [n = 1:4] {
+  x = real(word("0.075 0.22 0.385 0.55", n))
+  set object n rectangle from screen x, 0.04 to screen x + 0.028, 0.095 fillcolor rgb word(colors, n) \
+      fillstyle solid border linecolor "gray50"
+  set label n word(names, 2 * n - 1) . " " . word(names, 2 * n) at screen x + 0.035, 0.0675
 }
+set arrow 1 from screen 0.72, 0.0675 rto screen 0.03, 0 nohead linewidth 3 linecolor "black" front
+set label 5 "linear limit with margin" at screen 0.76, 0.0675
+
+set terminal pngcairo size 1200, 460 font "sans,15"
+set output "stability_map.png"
+set multiplot layout 1, words(methods) margins 0.075, 0.985, 0.28, 0.92 spacing 0.055, 0
+do for [column = 1:words(methods)] {
+  method = word(methods, column)
+  set title method offset 0, -0.4
+  set ylabel (column == 1 ? "step size in s" : "") offset 0.5, 0
+  set format y (column == 1 ? "10^{%.0f}" : "")
+  plot of(map, method) using (log10($2)):(log10($3)):5 with image, \
+       of(limit, method) using (log10($2)):(log10($3)) with lines linewidth 3 linecolor "black"
+  if (column == 1) { unset object; unset label; unset arrow }  # drawn once is enough
+}
+unset multiplot
