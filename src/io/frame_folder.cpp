@@ -82,7 +82,10 @@ FrameFolder::~FrameFolder() {
 void FrameFolder::open() {
   std::error_code error;
   std::filesystem::create_directories(given_path_, error);
-  if (error) throw FileError(fmt::format("{}: could not be made: {}", path_, error.message()));
+  if (error == std::errc::not_a_directory) {
+    throw FileError(path_ + ": could not be created: it is a file or lies in one; give a folder");
+  }
+  if (error) throw FileError(fmt::format("{}: could not be created: {}", path_, error.message()));
   descriptor_ = FileDescriptor(::open(given_path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor_.isOpen()) {
     throw FileError(fmt::format("{}: could not be opened: {}", path_, messageForErrno()));

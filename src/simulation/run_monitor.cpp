@@ -135,7 +135,7 @@ std::string RunMonitor::measurements() const {
     }
   }
   text += judge_.entry().relative_residual
-              ? fmt::format(", largest energy error {:.1e}", worst_residual_)
+              ? fmt::format(", largest energy error {:.1e} of the energy scale", worst_residual_)
               : ", energy balance not checked";
   return text;
 }

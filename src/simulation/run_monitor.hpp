@@ -52,7 +52,7 @@ class RunMonitor {
   /// Null if no reference runs, or none runs any more.
   const ReferenceRun* reference() const;
 
-  /// "largest position error 0.0039 m at t = 49.3 s, largest energy error 1.2e-07"
+  /// "largest position error 0.0039 m at t = 49.3 s, largest energy error 1.2e-07 of the energy scale"
   std::string measurements() const;
   /// A tolerance that was not kept, and why; empty if it was, or there is none.
   std::string toleranceRemark() const;

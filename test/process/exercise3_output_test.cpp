@@ -268,9 +268,11 @@ TEST(Exercise3Output, FolderThatCannotBeUsed) {
   chmod(folder.path("locked").c_str(), 0555);
   const std::vector<std::pair<std::string, std::string>> cases{
       {"locked", "/locked: could not be written: Permission denied\n"},
-      {"locked/new", "/locked/new: could not be made: Permission denied\n"},
-      {"particle.txt", "/particle.txt: could not be made: Not a directory\n"},
-      {"particle.txt/new", "/particle.txt/new: could not be made: Not a directory\n"},
+      {"locked/new", "/locked/new: could not be created: Permission denied\n"},
+      {"particle.txt",
+       "/particle.txt: could not be created: it is a file or lies in one; give a folder\n"},
+      {"particle.txt/new",
+       "/particle.txt/new: could not be created: it is a file or lies in one; give a folder\n"},
   };
   for (const auto& [output, message] : cases) {
     Command command = exercise3(folder, {"Euler", "--output", output});
