@@ -106,9 +106,10 @@ done
 calculate() { awk "BEGIN { printf \"%.4f\", $1 }"; }
 
 if [[ $out = *.png ]]; then
-  start rosbag play --clock --quiet --delay 1 -s "$start" -u 0.2 "$bag"
-  tail --pid="${started[-1]}" -f /dev/null
-  sleep 1
+  # So slowly that only the first frame comes: rviz takes the markers of a frame one by one, and can
+  # leave some of those waiting that come just before the player ends.
+  start rosbag play --clock --quiet --delay 1 --rate 0.002 -s "$start" "$bag"
+  sleep 4
   import -silent -window root "$out"
   say "$out"
   exit

@@ -3,6 +3,7 @@
 # Usage: record.sh BAG TOPIC ...
 set -euo pipefail
 
+[ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 bag=$1; shift
 [[ $bag = *.bag ]] || bag+=.bag
 topics=()
@@ -14,7 +15,7 @@ mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be made"
 rm -f "$bag" 2> /dev/null || fail "there is one that cannot be replaced"
 
 # In a group of its own, so that the recorder gets one SIGINT, from here.
-setsid env --default-signal=INT rosbag record -O "$bag" "${topics[@]}" & recorder=$!
+setsid env --default-signal=INT rosrun rosbag record -O "$bag" "${topics[@]}" & recorder=$!
 trap 'kill -INT "$recorder" 2> /dev/null' INT TERM
 status=0
 until wait "$recorder"; do status=$?; kill -0 "$recorder" 2> /dev/null || break; done

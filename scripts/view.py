@@ -5,6 +5,9 @@ Usage: view.py CONFIG BAG [arguments of rviz]
 
 BAG is "none", or a bag that will be played. Then rviz shows every topic of markers in it. If the bag
 holds no camera transform, which shows the whole scene, the view is set from the markers."""
+import signal
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while Python starts is no reason for a traceback
+
 import math
 import os
 import sys
@@ -74,6 +77,8 @@ def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     config, bag, *others = sys.argv[1:]
+    if not any(os.environ.get(name) for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM')):
+        sys.exit('rviz needs a display, and DISPLAY is not set; without one, use rviz:=false')
     try:
         if bag != 'none':
             config = adapted(config, bag)

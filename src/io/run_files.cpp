@@ -35,7 +35,8 @@ std::string RunFiles::description() const {
   if (frames_) {
     text = "frames go to " + frames_->folder();
     const std::int64_t earlier = frames_->earlierFrames();
-    if (earlier > 0) text += fmt::format(" ({} earlier frames removed)", earlier);
+    if (earlier > 0)
+      text += fmt::format(" ({} earlier frame{} removed)", earlier, earlier == 1 ? "" : "s");
   }
   if (energy_) text += ", energies go to " + energy_->path();
   return text;

@@ -51,8 +51,8 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
       run.verdict().text);
 }
 
-void RunLog::start(const PendulumRun& run, const NodeOptions& options,
-                   const RunFiles& files) const {
+void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {
+  holds_ = options.at_end == AtEnd::kHold;
   const Scenario& scenario = run.scenario();
   ROS_INFO_STREAM(
       scenario.method << " on "
@@ -86,6 +86,7 @@ void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles
   if (!run.isOver() || said_frames_ != 0) return;
   said_frames_ = totals.frames;
   ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
+  if (holds_) ROS_INFO("the last frame stays shown until Ctrl-C (at_end: hold)");
 }
 
 void RunLog::finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,

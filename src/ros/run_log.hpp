@@ -25,7 +25,7 @@ class RunLog {
  public:
   /// Says what will be run, warns of a time step that is too large, and says at INFO that the display
   /// rate is above the number of states.
-  void start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) const;
+  void start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files);
 
   /// To be called after every action. Says once each: a bad verdict, the divergence with what to
   /// do about it, what Auto chose, the end of the run.
@@ -44,6 +44,7 @@ class RunLog {
   std::string said_choice_;
   bool said_tolerance_ = false;
   int choices_said_ = 0;
+  bool holds_ = false;  ///< the node lives on at the end of the run
 };
 
 }  // namespace spring_pendulum

@@ -77,7 +77,8 @@ class Ends(unittest.TestCase):
                 # All of this is said when it happens, not when the node ends.
                 for part in ('diverged at t = ', 'particle 11', 'step'):
                     self.assertIn(part, node.lines('ERROR')[0])
-                self.assertIn('verdict: diverged', node.lines('INFO')[-1])
+                self.assertIn('verdict: diverged', node.lines('INFO')[-2])
+                self.assertIn('until Ctrl-C (at_end: hold)', node.lines('INFO')[-1])
                 rospy.wait_for_service('/pendulum/pause', timeout=30)
                 answer = rospy.ServiceProxy('/pendulum/pause', SetBool)(True)
                 self.assertFalse(answer.success)

@@ -113,6 +113,25 @@ class Launch(unittest.TestCase):
     def test_record_says_that_no_bag_was_written(self):
         output = launch('record.launch', 'bag:=/dev/null/one.bag', 'frames:=12')
         self.assertIn('no bag was written to /dev/null/one.bag', output)
+        with Folder() as folder:
+            output = launch('record.launch', 'bag:=one.bag', 'method:=Oiler', cwd=folder)
+        self.assertIn("unknown method 'Oiler'", output)
+        self.assertNotIn('Traceback', output)
+
+    def test_rviz_without_a_display_says_so(self):
+        environment = dict(os.environ)
+        for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM'):
+            environment.pop(name, None)
+        done = subprocess.run([project('scripts/view.py'), project('rviz/pendulum.rviz'), 'none'],
+                              env=environment, capture_output=True, text=True, timeout=120)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.stderr, 'rviz needs a display, and DISPLAY is not set; without one, use '
+                                      'rviz:=false\n')
+
+    def test_record_sh_without_topics_shows_its_use(self):
+        done = subprocess.run([project('scripts/record.sh'), 'one.bag'], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('Usage: record.sh BAG TOPIC ...', done.stderr)
 
     def test_nodes_scripts_are_found_where_rosrun_looks(self):
         for name in ('pendulum_node', 'record_bag', 'Exercise3'):
