@@ -1,9 +1,8 @@
 #include "io/energy_file.hpp"
 
-#include <fmt/compile.h>
-#include <fmt/format.h>
+#include "model/numbers.hpp"
 
-#include <iterator>
+#include <array>
 
 namespace spring_pendulum {
 namespace {
@@ -19,10 +18,16 @@ EnergyFile::EnergyFile(const std::string& path, const std::vector<std::string>& 
     : file_(path, inputs), text_(kHeader) {}
 
 void EnergyFile::write(std::int64_t frame, const EnergyEntry& entry, double position_error) {
-  fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{},{},{},{},{},{},{},{},{},{}\n"), frame,
-                 entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
-                 entry.energy.total(), entry.dissipated.value(), entry.residual.value(),
-                 entry.relative_residual.value(), position_error);
+  text_ += std::to_string(frame);
+  std::array<char, kLongestNumber> number;
+  for (const double value :
+       {entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
+        entry.energy.total(), entry.dissipated.value(), entry.residual.value(),
+        entry.relative_residual.value(), position_error}) {
+    text_ += ',';
+    text_.append(number.data(), writeNumber(value, number.data()));
+  }
+  text_ += '\n';
   if (text_.size() < kBufferSize) return;
   file_.write(text_);
   text_.clear();

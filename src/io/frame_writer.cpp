@@ -1,8 +1,6 @@
 #include "io/frame_folder.hpp"
+#include "model/numbers.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
-
-#include <fmt/compile.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,8 +8,6 @@
 namespace spring_pendulum {
 namespace {
 
-// The longest shortest text of a double is -2.2250738585072014e-308.
-constexpr std::size_t kLongestNumber = 24;
 constexpr std::size_t kLongestLine = 2 * (kLongestNumber + 1);
 constexpr Eigen::Index kLinesAtOnce = 4096;
 
@@ -59,7 +55,10 @@ void FrameWriter::write(std::int64_t index, const State& state) {
   for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
     char* end = text_.data();
     for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
-      end = fmt::format_to(end, FMT_COMPILE("{} {}\n"), x[i], y[i]);
+      end = writeNumber(x[i], end);
+      *end++ = ' ';
+      end = writeNumber(y[i], end);
+      *end++ = '\n';
     }
     folder_->write(text_.data(), static_cast<std::size_t>(end - text_.data()));
   }

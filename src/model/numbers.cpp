@@ -1,5 +1,8 @@
 #include "model/numbers.hpp"
 
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -73,6 +76,16 @@ std::optional<std::int64_t> parseInteger(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end) return std::nullopt;
   return value;
+}
+
+char* writeNumber(double value, char* text) {
+#ifdef FMT_COMPILE
+  return fmt::format_to(text, FMT_COMPILE("{}"), value);
+#else  // {fmt} 6, which writes 2 as 2.0
+  char* const end = fmt::format_to(text, "{}", value);
+  const bool whole = end - text > 2 && end[-2] == '.' && end[-1] == '0';
+  return whole ? end - 2 : end;
+#endif
 }
 
 }  // namespace spring_pendulum

@@ -1,6 +1,7 @@
-// Numbers from text, the same in every locale.
+// Numbers from and to text, the same in every locale and with every release of {fmt}.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -16,5 +17,11 @@ std::optional<double> parseNumberPortably(std::string_view text);
 
 /// Returns a decimal whole number, or nothing if characters are left over or it does not fit.
 std::optional<std::int64_t> parseInteger(std::string_view text);
+
+/// The longest text of a double is -2.2250738585072014e-308.
+constexpr std::size_t kLongestNumber = 24;
+
+/// Writes the fewest digits that read back as the same double, and returns the end of the text.
+char* writeNumber(double value, char* text);
 
 }  // namespace spring_pendulum

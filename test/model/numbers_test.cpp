@@ -1,14 +1,18 @@
-// Numbers from text: both parsers give the same bits, and refuse the same texts.
+// Numbers from text: both parsers give the same bits, and refuse the same texts. Numbers to text: the
+// same characters with every release of {fmt}.
 #include "model/numbers.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -67,6 +71,39 @@ TEST(Numbers, AreTheSameWithBothParsers) {
     EXPECT_TRUE(i % 2 == 1 || sameBits(*one, value)) << text;
   }
   EXPECT_GT(numbers, 80000);  // 94,000 or so
+}
+
+std::string written(double value) {
+  std::array<char, kLongestNumber> text;
+  return {text.data(), writeNumber(value, text.data())};
+}
+
+TEST(Numbers, AreWrittenWithTheFewestCharacters) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::pair<double, const char*> rows[] = {
+      {0.0, "0"},         {-0.0, "-0"},
+      {2.0, "2"},         {-10.0, "-10"},
+      {0.1, "0.1"},       {1e-4, "0.0001"},
+      {1e-5, "1e-05"},    {1e15, "1000000000000000"},
+      {1e16, "1e+16"},    {9007199254740993.0, "9007199254740992"},
+      {5e-324, "5e-324"}, {-1.7976931348623157e308, "-1.7976931348623157e+308"},
+      {infinity, "inf"},  {std::nan(""), "nan"}};
+  for (const auto& [value, text] : rows) EXPECT_EQ(written(value), text);
+}
+
+TEST(Numbers, AreWrittenTheSameEverywhere) {
+  std::mt19937_64 random(1);
+  std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+  for (int i = 0; i < 100000; ++i) {
+    const std::uint64_t bits = random();
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof(double));
+    if (!std::isfinite(value)) continue;
+    const std::string text = written(value);
+    ASSERT_TRUE(sameBits(*parseNumber(text), value)) << text;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  }
+  EXPECT_EQ(hash, 16683278571705022989U);
 }
 
 }  // namespace
