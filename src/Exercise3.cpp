@@ -6,6 +6,7 @@
 #include "io/run_files.hpp"
 #include "io/standard_streams.hpp"
 #include "simulation/interruptible.hpp"
+#include "simulation/memory.hpp"
 #include "simulation/run_monitor.hpp"
 #include "simulation/scenario_options.hpp"
 #include "simulation/sleep.hpp"
@@ -108,6 +109,8 @@ int run(const Scenario& scenario, const Switches& switches) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   RunMonitor monitor(scenario, chain, particles.state, !scenario.energy.empty());
+  const std::string memory = memoryRemark(scenario, chain.size());
+  if (!memory.empty()) printError(memory + "\n");
   const bool tracks_dissipation = monitor.tracksDissipation();
   SleepingIntegrator integrator(
       makeInterruptible(scenario, chain, particles.state, tracks_dissipation,

@@ -87,49 +87,49 @@ std::deque<Method> builtInMethods() {
        "E. Hairer, C. Lubich, G. Wanner, Acta Numer. 12 (2003) 399-450, "
        "doi:10.1017/S0962492902000144",
        "symplectic without damping: rough, but swinging never grows; what games use", nullptr,
-       makeSymplectic<SemiImplicitEuler>, true},
+       makeSymplectic<SemiImplicitEuler>, true, 80},
       {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
        "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
        "symplectic and reversible without damping: for very long undamped runs", nullptr,
-       makeSymplectic<VelocityVerlet>, true},
+       makeSymplectic<VelocityVerlet>, true, 80},
       {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
        "doi:10.1016/0771-050X(80)90013-3",
        "the best known pair, for comparisons: Taylor-8 needs less time for the same error",
-       &kDormandPrince5.tableau, makeEmbeddedPair<kDormandPrince5>},
+       &kDormandPrince5.tableau, makeEmbeddedPair<kDormandPrince5>, false, 430},
       {"Dormand-Prince-8", 8, 12, StepControl::kErrorControlled, 6.3936515228, 5.9603598117,
        "E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, 2nd ed., Springer 1993, section II.10",
        "Hairer's DOP853, for comparisons: Taylor-12 needs less time for the same error",
-       &kDormandPrince8.tableau, makeEmbeddedPair<kDormandPrince8>},
+       &kDormandPrince8.tableau, makeEmbeddedPair<kDormandPrince8>, false, 710},
       {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
        "the fastest for tolerances down to 1e-6 m, as long as no particle is very light", nullptr,
-       makeTaylor<TaylorStepper>},
+       makeTaylor<TaylorStepper>, false, 630},
       {"Taylor-12", 12, 12, StepControl::kErrorControlled, kTaylor12RealStabilityLimit,
        3.3793773141575327,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
        "the fastest for tighter tolerances, as long as no particle is very light", nullptr,
-       makeTaylor<TaylorStepper>},
+       makeTaylor<TaylorStepper>, false, 820},
       {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
        "4 to 10 terms a step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse tolerances",
-       nullptr, makeTaylor<StabilizedTaylorStepper>},
+       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 820},
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
        "8 to 14 terms a step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
-       nullptr, makeTaylor<StabilizedTaylorStepper>},
+       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 1000},
       {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
        "doi:10.1016/S0377-0427(99)00134-X",
        "implicit in the spring tensions: for very light particles (k_d/m beyond 1e4/s)", nullptr,
-       makeRadau},
+       makeRadau, false, 1190},
       {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
        "takes the cheapest of the Taylor methods and Radau-9 for the motion at hand", nullptr,
-       makeAuto},
+       makeAuto, false, 2200},
   };
 }
 
@@ -168,6 +168,7 @@ void checkMethod(const Method& method) {
   }
   if (method.order < 1) refuse("order must be at least 1");
   if (method.stages < 1) refuse("stages must be at least 1");
+  if (!(method.bytes_per_particle >= 0.0)) refuse("bytes_per_particle must be at least 0");
   if (!(method.real_stability_limit >= 0.0) || !(method.imaginary_stability_limit >= 0.0)) {
     refuse("stability limits must be at least 0");
   }

@@ -4,11 +4,13 @@
 #include "io/output_file.hpp"
 #include "io/paths.hpp"
 #include "io/run_files.hpp"
+#include "io/standard_streams.hpp"
 #include "ros/marker_builder.hpp"
 #include "ros/publisher.hpp"
 #include "ros/stamps.hpp"
 #include "ros/state_builder.hpp"
 #include "simulation/interruptible.hpp"
+#include "simulation/memory.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <boost/make_shared.hpp>
@@ -140,6 +142,8 @@ BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const
   PendulumRun run(scenario, readParticleFile(scenario.particles),
                   options.track_energy || !scenario.energy.empty(),
                   options.display_rate > 0.0 ? 1.0 / options.display_rate : 0.0);
+  const std::string memory = memoryRemark(scenario, run.chain().size());
+  if (!memory.empty()) printError(memory + "\n");
   OutputFile file(to.path, {scenario.particles, to.config});
   RunFiles files(scenario, to.config);
   BagSummary summary;

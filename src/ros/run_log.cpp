@@ -1,5 +1,6 @@
 #include "ros/run_log.hpp"
 
+#include "simulation/memory.hpp"
 #include "simulation/stability_warning.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -60,6 +61,8 @@ void RunLog::start(const PendulumRun& run, const NodeOptions& options, const Run
                       << ", " << files.description());
   const std::string warning = stabilityWarning(run.chain(), run.start(), scenario);
   if (!warning.empty()) ROS_WARN_STREAM(warning);
+  const std::string memory = memoryRemark(scenario, run.chain().size());
+  if (!memory.empty()) ROS_INFO_STREAM(memory);
   tellOfDisplayRate(run, options);
   if (!options.follow.empty()) {
     ROS_INFO_STREAM("waiting for states of another node on " << options.follow << " (follow)");

@@ -1,6 +1,7 @@
 #include "simulation/run_monitor.hpp"
 
 #include "model/chain_modes.hpp"
+#include "simulation/memory.hpp"
 
 #include <fmt/format.h>
 
@@ -66,6 +67,7 @@ RunMonitor::RunMonitor(const Scenario& scenario, const Chain& chain, const State
                           (wants_energy || energyBalanceIsCheap(scenario, chain))),
       tolerance_(toleranceOf(scenario)),
       judge_(chain, start, judgeOptions(scenario, tracks_dissipation_)) {
+  checkMemory(scenario, chain.size());
   if (scenario.reference == ReferenceUse::kNever) return;
   const bool always = scenario.reference == ReferenceUse::kAlways;
   reference_.emplace(chain, start, ReferenceOptions{tolerance_, always});

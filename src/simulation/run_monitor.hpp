@@ -20,7 +20,7 @@ bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain);
 class RunMonitor {
  public:
   /// \param wants_energy the energy balance is computed whatever it costs
-  /// \throws InputError as Judge
+  /// \throws InputError as Judge, std::runtime_error as checkMemory
   RunMonitor(const Scenario& scenario, const Chain& chain, const State& start, bool wants_energy);
 
   /// What the integrator of the run must be told. Without damping there is nothing to track.

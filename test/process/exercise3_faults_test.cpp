@@ -204,7 +204,7 @@ TEST(Exercise3Faults, MoreParticlesThanMemory) {
   folder.write("particle.txt", chainOf(1000000));
   Command command = exercise3(folder, {"Runge-Kutta-4"});
   command.prepare = [] {
-    const rlimit memory{100U << 20U, 100U << 20U};
+    const rlimit memory{60U << 20U, 60U << 20U};
     if (setrlimit(RLIMIT_AS, &memory) != 0) _exit(1);
   };
   const Result result = run(command);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -67,9 +68,12 @@ void Process::sendSignal(int signal_number) const {
 
 Result Process::wait() {
   int status = 0;
-  if (waitpid(std::exchange(pid_, -1), &status, 0) < 0) throw std::runtime_error("no such child");
+  rusage usage{};
+  if (wait4(std::exchange(pid_, -1), &status, 0, &usage) < 0)
+    throw std::runtime_error("no such child");
   const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {exit_status, takeText(output_), takeText(errors_)};
+  return {exit_status, takeText(output_), takeText(errors_),
+          1024.0 * static_cast<double>(usage.ru_maxrss)};
 }
 
 Result run(const Command& command) {

@@ -23,6 +23,7 @@ struct Result {
   int status = 0;  ///< exit status; 128 + signal if a signal ended the program
   std::string output;
   std::string errors;
+  double peak_memory = 0.0;  ///< B
 };
 
 /// A running program, killed if it is still running at the end of its scope.

@@ -38,6 +38,8 @@ struct Method {
   const ButcherTableau* tableau = nullptr;  ///< null unless it is an explicit Runge-Kutta method
   IntegratorFactory make = {};              ///< empty: fixed steps of the tableau
   bool symplectic = false;  ///< without damping, the energy oscillates but does not grow
+  /// Memory for each particle in a run, beyond that of Runge-Kutta-4, B; 0: little, or not known.
+  double bytes_per_particle = 0.0;
 };
 
 /// All methods in the order in which users see them. References to rows stay valid.

@@ -78,8 +78,11 @@ bool AutoStepper::Pace::isFasterThan(const Pace& other) const {
   return time * other.work > kHysteresis * other.time * work;
 }
 
-AutoStepper::AutoStepper(const Chain& chain, double tolerance)
-    : chain_(chain), tolerance_(tolerance), fastest_rate_(fastestDampingRate(chain)) {
+AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keeps_up_to)
+    : chain_(chain),
+      tolerance_(tolerance),
+      keeps_up_to_(keeps_up_to),
+      fastest_rate_(fastestDampingRate(chain)) {
   const bool order_12 = needsOrder12(chain, tolerance);
   explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
   successor_is_better_ = !order_12;
@@ -99,7 +102,16 @@ DenseOutputStepper& AutoStepper::startedAt(Candidate& candidate, const State& st
   return *candidate.stepper;
 }
 
+void AutoStepper::release(Candidate& candidate) {
+  if (!candidate.stepper || chain_.size() <= keeps_up_to_) return;
+  const StepStatistics statistics = candidate.stepper->statistics();
+  candidate.earlier_evaluations += statistics.force_evaluations;
+  candidate.earlier_rejected += statistics.rejected;
+  candidate.stepper.reset();
+}
+
 void AutoStepper::start(const State& state) {
+  if (active_ != 0) release(candidates_[active_]);
   active_ = 0;
   recent_ = {};
   recent_steps_ = 0;
@@ -169,6 +181,7 @@ void AutoStepper::race() {
     const std::int64_t before = evaluationsOf(candidates_[i]);
     const Pace pace = paceOf(candidates_[i], state_);
     work += workSince(candidates_[i], before);
+    release(candidates_[i]);
     if (pace.isFasterThan(best)) {
       fastest = i;
       best = pace;
@@ -182,6 +195,7 @@ void AutoStepper::change(std::size_t to) {
   recent_ = {};
   recent_steps_ = 0;
   if (to == active_) return;
+  release(candidates_[active_]);
   active_ = to;
   ++switches_;
   startedAt(candidates_[active_], state_);
@@ -190,10 +204,9 @@ void AutoStepper::change(std::size_t to) {
 StepStatistics AutoStepper::statistics() const {
   StepStatistics sum;
   for (const Candidate& candidate : candidates_) {
-    if (!candidate.stepper) continue;
-    const StepStatistics statistics = candidate.stepper->statistics();
-    sum.force_evaluations += statistics.force_evaluations;
-    sum.rejected += statistics.rejected;
+    sum.force_evaluations += evaluationsOf(candidate);
+    sum.rejected += candidate.earlier_rejected;
+    if (candidate.stepper) sum.rejected += candidate.stepper->statistics().rejected;
   }
   sum.accepted = steps_;
   sum.last_step = last_step_;

@@ -14,6 +14,9 @@
 // better by a fifth, so that two methods that are equally good do not take turns. Races go on while
 // a stiff method is at work, so it is left again when the motion stops being stiff.
 //
+// A method for a million particles takes about a gigabyte: for long chains, only the method at work
+// and one challenger exist at a time.
+//
 // Reference for the idea: L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148,
 // doi:10.1137/0904010.
 #pragma once
@@ -32,7 +35,11 @@ namespace spring_pendulum {
 
 class AutoStepper final : public DenseOutputStepper {
  public:
-  AutoStepper(const Chain& chain, double tolerance);
+  /// The longest chain for which methods that are not at work are kept; making one anew costs less
+  /// than its first step, but asks for memory.
+  static constexpr Eigen::Index kKeepsUpTo = 10'000;
+
+  AutoStepper(const Chain& chain, double tolerance, Eigen::Index keeps_up_to = kKeepsUpTo);
 
   void start(const State& state) override;
   double step() override;
@@ -52,8 +59,10 @@ class AutoStepper final : public DenseOutputStepper {
     std::string_view name;
     double work_per_evaluation;  ///< in force evaluations of Taylor-8
     std::unique_ptr<DenseOutputStepper> (*make)(const Chain& chain, double tolerance);
-    std::unique_ptr<DenseOutputStepper> stepper{};  ///< made when it is first used
+    std::unique_ptr<DenseOutputStepper> stepper{};  ///< made when it is used
     double covered = 0.0;                           ///< time integrated with it, s
+    std::int64_t earlier_evaluations = 0;           ///< of steppers that were given up
+    std::int64_t earlier_rejected = 0;
   };
   /// Time covered and the work it took.
   struct Pace {
@@ -64,12 +73,15 @@ class AutoStepper final : public DenseOutputStepper {
 
   const Candidate& active() const { return candidates_[active_]; }
   static std::int64_t evaluationsOf(const Candidate& candidate) {
-    return candidate.stepper ? candidate.stepper->statistics().force_evaluations : 0;
+    return candidate.earlier_evaluations +
+           (candidate.stepper ? candidate.stepper->statistics().force_evaluations : 0);
   }
   static double workSince(const Candidate& candidate, std::int64_t evaluations);
   Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
   DenseOutputStepper& startedAt(Candidate& candidate, const State& state);
+  /// Gives up the memory of a candidate that is not at work, if the chain is long.
+  void release(Candidate& candidate);
   /// `state_` becomes the end of the last step.
   void readState();
   void race();
@@ -78,6 +90,7 @@ class AutoStepper final : public DenseOutputStepper {
 
   Chain chain_;
   double tolerance_;
+  Eigen::Index keeps_up_to_;
   double fastest_rate_;               ///< of the damped modes, 1/s
   bool successor_is_better_ = false;  ///< candidate 1 than the first, if the motion is stiff
   double explicit_limit_ = 0.0;       ///< h|λ| up to which the first candidate is stable

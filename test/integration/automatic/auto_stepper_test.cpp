@@ -76,6 +76,31 @@ TEST(Auto, WorksLessThanTheWrongMethods) {
   }
 }
 
+// Whether the methods that are not at work are kept decides about memory alone.
+TEST(Auto, HasTheSameBitsIfItForgetsMethods) {
+  for (const char* name : {"lighter_100", "feather_50"}) {
+    const test::Scene scene = test::referenceScene(name);
+    AutoStepper keeps(scene.chain, 1e-3), forgets(scene.chain, 1e-3, 0);
+    State kept(scene.chain.size()), forgotten = kept;
+    for (int start = 0; start < 2; ++start) {
+      keeps.start(scene.start);
+      forgets.start(scene.start);
+      for (double time = 0.0; time < 1.0;) {
+        const double h = keeps.step();
+        ASSERT_EQ(forgets.step(), h) << name << " at " << time;
+        time += h;
+      }
+      keeps.interpolate(0.5, kept);
+      forgets.interpolate(0.5, forgotten);
+      EXPECT_EQ(kept.values(), forgotten.values()) << name;
+    }
+    EXPECT_EQ(keeps.report(), forgets.report());
+    EXPECT_EQ(keeps.statistics().force_evaluations, forgets.statistics().force_evaluations);
+    EXPECT_EQ(keeps.statistics().rejected, forgets.statistics().rejected);
+    EXPECT_EQ(keeps.report().find("0 switches"), std::string::npos) << keeps.report();
+  }
+}
+
 TEST(Auto, ReportsWhatItUsed) {
   const test::Scene scene = test::referenceScene("feather_50");
   const auto integrator = makeIntegrator("Auto", scene.chain, {1e-2, false, 1});

@@ -1,0 +1,53 @@
+#include "simulation/memory.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace spring_pendulum {
+namespace {
+
+/// Of every run for each particle, B: mostly for reading the particle file.
+constexpr double kBytesPerParticle = 160.0;
+/// Of two reference runs, if they are asked for.
+constexpr double kBytesOfReference = 2.0 * 2200.0;
+/// Most that is not worth a word, B.
+constexpr double kMuch = 5e8;
+
+std::string needOf(const Scenario& scenario, Eigen::Index particles) {
+  return fmt::format("{} takes up to {:.2f} GB of memory for {} particles", scenario.method,
+                     1e-9 * expectedMemory(scenario, particles), particles);
+}
+
+}  // namespace
+
+double expectedMemory(const Scenario& scenario, Eigen::Index particles) {
+  const double reference = scenario.reference == ReferenceUse::kAlways ? kBytesOfReference : 0.0;
+  return static_cast<double>(particles) *
+         (kBytesPerParticle + findMethod(scenario.method).bytes_per_particle + reference);
+}
+
+double usableMemory() {
+  const auto pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
+  const double memory = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return memory;
+  return std::min(memory, static_cast<double>(limit.rlim_cur));
+}
+
+std::string memoryRemark(const Scenario& scenario, Eigen::Index particles) {
+  return expectedMemory(scenario, particles) < kMuch ? "" : needOf(scenario, particles);
+}
+
+void checkMemory(const Scenario& scenario, Eigen::Index particles, double usable) {
+  if (expectedMemory(scenario, particles) <= usable) return;
+  throw std::runtime_error(fmt::format("not enough memory: {}, and this process may use {:.2f} GB",
+                                       needOf(scenario, particles), 1e-9 * usable));
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,78 @@
+// The memory that Exercise3 takes is what it says before the run.
+#include "simulation/memory.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "process/exercise3.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+constexpr int kShort = 25000, kLong = 100000;
+
+/// Peak memory of a run, B.
+double peakMemory(const TemporaryFolder& folder, const std::string& method,
+                  const std::string& particles, double interval) {
+  Command command = exercise3(folder, {method, "--no-frames", "--frames", "2", "--particles",
+                                       particles, "--reference", "never"});
+  if (findMethod(method).control == StepControl::kErrorControlled) {
+    command.arguments.insert(command.arguments.end(),
+                             {"--frame-interval", std::to_string(interval)});
+  }
+  const Result result = run(command);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return result.peak_memory;
+}
+
+class Exercise3Memory : public testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers take memory of their own";
+#endif
+    folder_.write("short.txt", chainOf(kShort));
+    folder_.write("long.txt", chainOf(kLong));
+    folder_.write("light.txt", chainOf(kLong, "1e-5"));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Exercise3Memory, IsThatOfTheTableOfMethods) {
+  Scenario scenario;
+  for (const Method& method : methodTable()) {
+    scenario.method = method.name;
+    const double measured = peakMemory(folder_, method.name, "long.txt", 1e-3) -
+                            peakMemory(folder_, method.name, "short.txt", 1e-3);
+    const double expected = expectedMemory(scenario, kLong) - expectedMemory(scenario, kShort);
+    EXPECT_LT(measured, 1.3 * expected) << method.name;
+    if (method.name != "Auto") EXPECT_GT(measured, 0.7 * expected) << method.name;
+  }
+}
+
+TEST_F(Exercise3Memory, OfAutoIsThatOfTwoMethodsAlsoWhereItTriesAll) {
+  Scenario scenario;
+  scenario.method = "Auto";
+  EXPECT_LT(peakMemory(folder_, "Auto", "light.txt", 0.005), 1.1 * expectedMemory(scenario, kLong));
+}
+
+TEST_F(Exercise3Memory, IsRefusedBeforeTheRunIfThereIsLess) {
+  Command command = exercise3(folder_, {"Radau-9", "--particles", "long.txt"});
+  command.prepare = [] {
+    const rlimit memory{60U << 20U, 60U << 20U};
+    if (setrlimit(RLIMIT_AS, &memory) != 0) _exit(1);
+  };
+  const Result result = run(command);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors,
+            "not enough memory: Radau-9 takes up to 0.14 GB of memory for 100000 "
+            "particles, and this process may use 0.06 GB\n");
+}
+
+}  // namespace
+}  // namespace spring_pendulum

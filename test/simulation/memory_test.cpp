@@ -1,0 +1,56 @@
+// What a run says about its memory before it starts. That the figures are true is tested with
+// Exercise3 (process_exercise3_memory_test).
+#include "simulation/memory.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace spring_pendulum {
+namespace {
+
+Scenario scenarioOf(const char* method) {
+  Scenario scenario;
+  scenario.method = method;
+  return scenario;
+}
+
+TEST(Memory, IsSaidWhereItIsMuch) {
+  EXPECT_EQ(memoryRemark(scenarioOf("Radau-9"), 100000), "");
+  EXPECT_EQ(memoryRemark(scenarioOf("Runge-Kutta-4"), 1000000), "");
+  EXPECT_EQ(memoryRemark(scenarioOf("Runge-Kutta-4"), 4000000),
+            "Runge-Kutta-4 takes up to 0.64 GB of memory for 4000000 particles");
+}
+
+TEST(Memory, IsRefusedWhereThereIsLess) {
+  const Scenario scenario = scenarioOf("Runge-Kutta-4");
+  checkMemory(scenario, 1000000, 1e9);
+  checkMemory(scenario, 1000000);
+  try {
+    checkMemory(scenario, 10000000, 1e9);
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "not enough memory: Runge-Kutta-4 takes up to 1.60 GB of memory for "
+                 "10000000 particles, and this process may use 1.00 GB");
+  }
+}
+
+TEST(Memory, OfReferenceRunsCountsIfTheyAreAskedFor) {
+  Scenario scenario = scenarioOf("Euler");
+  const double without = expectedMemory(scenario, 1000);
+  scenario.reference = ReferenceUse::kAlways;
+  EXPECT_GT(expectedMemory(scenario, 1000), 10.0 * without);
+}
+
+// Auto has the method at work and one challenger, as the reference runs do.
+TEST(Memory, OfAutoIsThatOfTwoMethods) {
+  const double largest = findMethod("Radau-9").bytes_per_particle;
+  const double second = findMethod("Stabilized-Taylor-8").bytes_per_particle;
+  EXPECT_GE(findMethod("Auto").bytes_per_particle, largest + second);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
