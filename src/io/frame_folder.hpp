@@ -50,6 +50,9 @@ class FrameFolder {
   /// \throws FileError if the path does not lead to the folder any more
   void close();
 
+  /// Until close().
+  bool isOpen() const { return descriptor_.isOpen(); }
+
   /// The whole path.
   const std::string& path() const { return path_; }
   /// How many frames of an earlier run were taken away.

@@ -1,6 +1,9 @@
 #include "io/frame_folder.hpp"
+#include "model/checks.hpp"
 #include "model/numbers.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -29,7 +32,8 @@ class Stopwatch {
 
 FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames,
                          const std::vector<std::string>& inputs)
-    : folder_([&] {
+    : frames_(frames), folder_([&] {
+        requireAtLeastZero("frames", frames);
         const Stopwatch stopwatch(seconds_);
         return std::make_unique<FrameFolder>(folder, frames, inputs);
       }()) {}
@@ -37,21 +41,31 @@ FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames,
 FrameWriter::FrameWriter(FrameWriter&&) noexcept = default;
 FrameWriter::~FrameWriter() = default;
 
+FrameFolder& FrameWriter::frameFolder() const {
+  if (!folder_) throw InputError("the frame writer was moved from");
+  return *folder_;
+}
+
 const std::string& FrameWriter::folder() const {
-  return folder_->path();
+  return frameFolder().path();
 }
 
 std::int64_t FrameWriter::earlierFrames() const {
-  return folder_->earlierFrames();
+  return frameFolder().earlierFrames();
 }
 
 void FrameWriter::write(std::int64_t index, const State& state) {
   const Stopwatch stopwatch(seconds_);
+  FrameFolder& folder = frameFolder();
+  if (!folder.isOpen()) throw InputError("the frame writer has finished");
+  if (index < 0 || index >= frames_) {
+    throw InputError(fmt::format("frame {}: must be 0 to {}", index, frames_ - 1));
+  }
   const Eigen::Index size = state.size();
   const double* const x = state.x().data();
   const double* const y = state.y().data();
   text_.resize(static_cast<std::size_t>(std::min(size, kLinesAtOnce)) * kLongestLine);
-  folder_->beginFrame(index);
+  folder.beginFrame(index);
   for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
     char* end = text_.data();
     for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
@@ -60,14 +74,14 @@ void FrameWriter::write(std::int64_t index, const State& state) {
       end = writeNumber(y[i], end);
       *end++ = '\n';
     }
-    folder_->write(text_.data(), static_cast<std::size_t>(end - text_.data()));
+    folder.write(text_.data(), static_cast<std::size_t>(end - text_.data()));
   }
-  folder_->endFrame();
+  folder.endFrame();
 }
 
 void FrameWriter::finish() {
   const Stopwatch stopwatch(seconds_);
-  folder_->close();
+  if (frameFolder().isOpen()) folder_->close();
 }
 
 }  // namespace spring_pendulum

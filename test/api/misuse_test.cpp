@@ -1,11 +1,17 @@
 // Wrong use of every public function ends in an InputError, also in a release build.
+#include "simulation/run_monitor.hpp"
 #include <spring_pendulum/spring_pendulum.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -136,6 +142,99 @@ TEST(Misuse, StatesThatAreNotFinite) {
       EXPECT_FALSE(state.values().allFinite() && value != 1e308) << method.name << " " << value;
     }
   }
+}
+
+TEST(Misuse, FrameWriters) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(FrameWriter("", 1), FileError);
+  EXPECT_THROW(FrameWriter(folder.path(), -1), InputError);
+  FrameWriter source(folder.path(), 2);
+  FrameWriter writer(std::move(source));
+  // NOLINTBEGIN(bugprone-use-after-move)
+  EXPECT_THROW(source.write(0, horizontal()), InputError);
+  EXPECT_THROW(source.finish(), InputError);
+  EXPECT_THROW(static_cast<void>(source.folder()), InputError);
+  EXPECT_THROW(static_cast<void>(source.earlierFrames()), InputError);
+  // NOLINTEND(bugprone-use-after-move)
+  for (const std::int64_t index : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1},
+                                   std::int64_t{2}, std::numeric_limits<std::int64_t>::max()}) {
+    EXPECT_THROW(writer.write(index, horizontal()), InputError) << index;
+  }
+  writer.write(1, State(0));
+  writer.finish();
+  writer.finish();
+  EXPECT_THROW(writer.write(0, horizontal()), InputError);
+  EXPECT_EQ(listFolder(folder.path()), std::vector<std::string>{"frame_0001.txt"});
+}
+
+TEST(Misuse, Files) {
+  const TemporaryFolder folder;
+  for (const std::string& path : {std::string(), folder.path(), folder.path("absent")}) {
+    EXPECT_THROW(readParticleFile(path), FileError) << path;
+    EXPECT_THROW(readScenarioFile(path), FileError) << path;
+  }
+}
+
+TEST(Misuse, ScenariosThatWereNotValidated) {
+  Scenario scenario;
+  scenario.method = "none";
+  EXPECT_THROW(frameSteps(scenario), InputError);
+  EXPECT_THROW(RunMonitor(scenario, chain(), horizontal(), false), InputError);
+  for (const char* method : {"Euler", "Taylor-8", "Semi-Implicit-Euler"}) {
+    for (const double value : {kNan, -kInfinity, kInfinity, -1.0, 0.0}) {
+      Scenario wrong;
+      wrong.method = method;
+      wrong.time_step = wrong.frame_interval = wrong.tolerance = value;
+      wrong.frames = wrong.steps_per_frame = -1;
+      const auto integrator = makeIntegrator("Euler", chain());
+      State state = horizontal();
+      try {
+        RunMonitor monitor(wrong, chain(), horizontal(), true);
+        monitor.judge(value, state, *integrator);
+        monitor.follow(value, -1);
+        ADD_FAILURE() << method << " " << value;
+      } catch (const InputError&) {
+      }
+    }
+  }
+}
+
+/// A method of a program that does all it must not.
+class Wrong final : public Integrator {
+ public:
+  void advance(State& state, double, std::int64_t) override {
+    state = State(state.size() + 1);
+    state.values().setConstant(kNan);
+  }
+  void restart() override {}
+  std::int64_t forceEvaluations() const override { return -1; }
+  double dissipatedEnergy() const override { return kNan; }
+};
+
+TEST(Misuse, MethodsOfPrograms) {
+  Method method;
+  method.name = "Wrong";
+  method.order = 1;
+  method.stages = 1;
+  method.make = [](const Method&, const Chain&, const IntegratorOptions&) {
+    return std::make_unique<Wrong>();
+  };
+  Method worse = method;
+  worse.bytes_per_particle = kNan;
+  EXPECT_THROW(registerMethod(worse), InputError);
+  registerMethod(method);
+  EXPECT_THROW(registerMethod(method), InputError);
+  Scenario scenario;
+  scenario.method = "Wrong";
+  RunMonitor monitor(scenario, chain(), horizontal(), true);
+  const auto integrator = makeIntegrator("Wrong", chain());
+  State state = horizontal();
+  integrator->advance(state, 0.01, 1);
+  EXPECT_THROW(monitor.judge(0.01, state, *integrator), InputError);
+  State nothing_finite = horizontal();
+  nothing_finite.values().setConstant(kNan);
+  EXPECT_EQ(monitor.judge(0.02, nothing_finite, *integrator).kind, VerdictKind::kDiverged);
+  EXPECT_FALSE(monitor.isShown());
 }
 
 TEST(Misuse, MessagesNameTheValue) {

@@ -24,7 +24,8 @@ class FrameWriter {
   /// of an earlier run: regular files named `frame_` + at least four digits + `.txt`, nothing else.
   /// \param frames how many frames are going to be written
   /// \param inputs files that the run reads, which are never removed
-  /// \throws InputError if one of the inputs has the name of a frame in this folder
+  /// \throws InputError if one of the inputs has the name of a frame in this folder, or `frames` is
+  ///         negative
   /// \throws FileError naming the folder or file
   FrameWriter(const std::string& folder, std::int64_t frames,
               const std::vector<std::string>& inputs = {});
@@ -32,10 +33,12 @@ class FrameWriter {
   ~FrameWriter();
 
   /// Writes frame `index`, 0 <= index < frames.
+  /// \throws InputError for another index, after finish(), or if the writer was moved from
   /// \throws FileError naming the file
   void write(std::int64_t index, const State& state);
 
-  /// Ends the run; the folder is free for another one. No write after this.
+  /// Ends the run; the folder is free for another one. No write after this. A second call does
+  /// nothing.
   /// \throws FileError if the folder was moved away during the run
   void finish();
 
@@ -47,7 +50,10 @@ class FrameWriter {
   double seconds() const { return seconds_; }
 
  private:
+  FrameFolder& frameFolder() const;
+
   double seconds_ = 0.0;
+  std::int64_t frames_;
   std::unique_ptr<FrameFolder> folder_;
   std::vector<char> text_;  ///< of some lines, reused
 };
