@@ -15,6 +15,7 @@ namespace {
 constexpr double kShowAgainInterval = 0.5;  // s, while the run stands
 constexpr double kLongestWait = 0.1;        // s, how fast the end of ROS is noticed
 constexpr double kSlowStates = 1.5;         // states that display_rate wants for each of the run's
+constexpr double kLongestInterval = 1e9;    // s; a duration of ROS has 32 bits for them
 constexpr double kLoopPause = 1.0;          // s, the last frame is looked at before a loop
 
 void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
@@ -54,7 +55,8 @@ Player::Action Player::next() {
     if (reset_wanted_) return reset();
     if (isAhead()) {
       if (now < next_between_) continue;
-      next_between_ = now + ros::WallDuration(1.0 / options_.display_rate);
+      next_between_ =
+          now + ros::WallDuration(std::min(1.0 / options_.display_rate, kLongestInterval));
       return Action::kShowBetween;
     }
     if (isDue()) {

@@ -15,6 +15,7 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kPollInterval = 0.01;  // s, how closely subscribers are waited for
+constexpr double kLongestWait = 1e9;    // s; a duration of ROS has 32 bits for them
 
 /// A subscriber that is slow loses messages; it never makes the node grow. As many states wait for
 /// it as fit into this.
@@ -91,7 +92,7 @@ bool Publisher::isWatched() const {
 
 void Publisher::waitForSubscribers(const NodeOptions& options) {
   const ros::SteadyTime start = ros::SteadyTime::now();
-  const ros::WallDuration timeout(options.wait_timeout);
+  const ros::WallDuration timeout(std::min(options.wait_timeout, kLongestWait));
   const auto is_ready = [&] { return subscribers() >= options.wait_for_subscribers; };
   if (is_ready()) return;
   PendulumStatus waiting;

@@ -15,6 +15,7 @@ class Stamps {
 
   /// \param simulated_time s since the start of the run. When it jumps back (a reset), stamps go on
   ///   from where they are.
+  /// \throws InputError if simulated time has become too long for a stamp
   ros::Time next(double simulated_time);
 
  private:

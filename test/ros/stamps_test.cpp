@@ -1,5 +1,7 @@
 #include "ros/stamps.hpp"
 
+#include <spring_pendulum/model/errors.hpp>
+
 #include <gtest/gtest.h>
 
 namespace spring_pendulum {
@@ -22,6 +24,16 @@ TEST(Stamps, StrictlyIncreaseWhenTimeStandsOrJumpsBack) {
   }
   // 1 s, then 0.25 s and 0.1 s after the jumps back, and nanoseconds.
   EXPECT_NEAR(last.toSec(), 1.0 + 1.0 + 0.25 + 0.1, 1e-6);
+}
+
+TEST(Stamps, TimesThatDoNotFitAreRefusedWhereTheyAreStamped) {
+  Stamps simulated(true);
+  EXPECT_EQ(simulated.next(1e9), ros::Time(1000000001, 0));
+  EXPECT_THROW(simulated.next(1e10), InputError);
+  ros::Time::init();
+  ros::Time::setNow(ros::Time(100, 0));
+  Stamps real(false);
+  EXPECT_EQ(real.next(1e300), ros::Time(100, 0));
 }
 
 TEST(Stamps, RosTimeIsTakenAndNeverTurnsBack) {
