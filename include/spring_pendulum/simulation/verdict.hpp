@@ -3,7 +3,8 @@
 // Two things are judged after every frame, before it is written. A chain that nothing drives never
 // gains energy, whatever its damping, so energy above the start proves an unstable or inaccurate
 // integration even while every number stays finite. And a reference run, where there is one, tells
-// the position error itself.
+// the position error itself, and whether it is the energy or only the dissipated energy that is off
+// when the two do not add up.
 #pragma once
 
 #include <spring_pendulum/model/export.hpp>
@@ -101,6 +102,8 @@ class Judge {
  private:
   void measure(double time, const State& state, const ReferenceRun* reference);
   Verdict judgeEnergy(const State& state);
+  /// Whether the energy of the state judged last is right.
+  bool hasEnergyOf(const ReferenceRun* reference) const;
   Verdict judgePositions(double time, const ReferenceRun* reference) const;
   const Verdict& remember(Verdict verdict);
 
