@@ -103,13 +103,15 @@ for try in first second; do
   say "rviz crashed as it started: once more"
 done
 
-calculate() { awk "BEGIN { printf \"%.4f\", $1 }"; }
+calculate() { awk "BEGIN { printf \"%.4f\", ($1) }"; }
 
 if [[ $out = *.png ]]; then
-  # So slowly that only the first frame comes: rviz takes the markers of a frame one by one, and can
-  # leave some of those waiting that come just before the player ends.
-  start rosbag play --clock --quiet --delay 1 --rate 0.002 -s "$start" "$bag"
-  sleep 4
+  # rviz leaves some of the first markers waiting if they come before their transform, so these are
+  # from the second before.
+  from=$(calculate "$start > 1 ? $start - 1 : 0")
+  start rosbag play --clock --quiet --delay 1 -s "$from" -u "$(calculate "$start - $from + 0.02")" "$bag"
+  tail --pid="${started[-1]}" -f /dev/null
+  sleep 1
   import -silent -window root "$out"
   say "$out"
   exit

@@ -8,6 +8,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,18 @@ TEST(Documents, ShowTheExamplesAsTheyAre) {
   const std::string shown = methods.substr(methods.find("/// Ralston"));
   ASSERT_GT(shown.size(), 500U);
   EXPECT_THAT(textOf("docs/methods.md"), testing::HasSubstr("```cpp\n" + shown + "```"));
+}
+
+TEST(Documents, ReadmeShowsLinesOfAnExample) {
+  const std::string readme = textOf("README.md");
+  const std::size_t begin = readme.find("```cpp\n") + 7;
+  std::istringstream shown(readme.substr(begin, readme.find("```", begin) - begin));
+  const std::string example = textOf("examples/simulate.cpp");
+  int lines = 0;
+  for (std::string line; std::getline(shown, line); ++lines) {
+    EXPECT_THAT(example, testing::HasSubstr(line + "\n"));
+  }
+  EXPECT_GT(lines, 5);
 }
 
 TEST(Documents, ReadmeIsShort) {
