@@ -25,10 +25,10 @@ constexpr double kChange = 1000.0;
 /// Rounding limits what can be resolved, in parts of the largest coordinate.
 constexpr double kRounding = 1e-14;
 
-/// Work in force evaluations per particle that is always allowed: some 0.2 s. A chain costs as if
-/// it had `kOverhead` more particles.
-constexpr double kFreeWork = 2.5e7;
-constexpr double kOverhead = 4.0;
+/// Work in force evaluations of Taylor-8 per particle that is always allowed: up to 0.2 s, measured
+/// as 2 to 5 ns each. A chain costs as if it had `kOverhead` more particles.
+constexpr double kFreeWork = 4e7;
+constexpr double kOverhead = 8.0;
 /// Longer chains would take too much memory to be measured unasked.
 constexpr Eigen::Index kMostParticles = 100'000;
 
@@ -133,14 +133,13 @@ void ReferenceRun::makeTrajectories() {
                              other_tolerance);
 }
 
-void ReferenceRun::advance(double time_step, std::int64_t steps, std::int64_t run_evaluations) {
+void ReferenceRun::advance(double time_step, std::int64_t steps, double run_work) {
   requireFinitePositive("time_step", time_step, "s");
   requireAtLeastZero("steps", steps);
   if (!isMeasuring() || start_.size() < 2) return;
   if (trajectories_.empty()) makeTrajectories();
   // Equal shares, so that the step at which one is used up does not depend on the output times.
-  const std::int64_t share =
-      allowedEvaluations(run_evaluations) / static_cast<std::int64_t>(trajectories_.size());
+  const double share = allowedWork(run_work) / static_cast<double>(trajectories_.size());
   for (Trajectory& trajectory : trajectories_) {
     if (trajectory.controlled().advanceWithin(trajectory.state, time_step, steps, share)) continue;
     stop(Status::kCostTooMuch);
@@ -175,10 +174,9 @@ void ReferenceRun::stop(Status status) {
   trajectories_.clear();
 }
 
-std::int64_t ReferenceRun::allowedEvaluations(std::int64_t run_evaluations) const {
-  if (always_) return std::numeric_limits<std::int64_t>::max() / 2;
-  const double free = kFreeWork / (static_cast<double>(chain_.size()) + kOverhead);
-  return std::max(static_cast<std::int64_t>(free), run_evaluations);
+double ReferenceRun::allowedWork(double run_work) const {
+  if (always_) return std::numeric_limits<double>::infinity();
+  return std::max(kFreeWork / (static_cast<double>(chain_.size()) + kOverhead), run_work);
 }
 
 }  // namespace spring_pendulum

@@ -2,6 +2,7 @@
 
 #include "model/chain_modes.hpp"
 #include "simulation/memory.hpp"
+#include "simulation/work.hpp"
 
 #include <fmt/format.h>
 
@@ -66,7 +67,8 @@ RunMonitor::RunMonitor(const Scenario& scenario, const Chain& chain, const State
       tracks_dissipation_(scenario.damping > 0.0 &&
                           (wants_energy || energyBalanceIsCheap(scenario, chain))),
       tolerance_(toleranceOf(scenario)),
-      judge_(chain, start, judgeOptions(scenario, tracks_dissipation_)) {
+      judge_(chain, start, judgeOptions(scenario, tracks_dissipation_)),
+      work_per_evaluation_(workPerEvaluation(findMethod(scenario.method), chain.size())) {
   checkMemory(scenario, chain.size());
   if (scenario.reference == ReferenceUse::kNever) return;
   const bool always = scenario.reference == ReferenceUse::kAlways;
@@ -76,19 +78,18 @@ RunMonitor::RunMonitor(const Scenario& scenario, const Chain& chain, const State
 void RunMonitor::restart() {
   judge_.restart();
   if (reference_) reference_->restart();
-  run_evaluations_ = 0;
-  worst_residual_ = exceeded_time_ = exceeded_growth_ = 0.0;
+  run_work_ = worst_residual_ = exceeded_time_ = exceeded_growth_ = 0.0;
 }
 
 void RunMonitor::follow(double time_step, std::int64_t steps) {
   if (!reference_ || !reference_->isMeasuring()) return;
   const auto start = std::chrono::steady_clock::now();
-  reference_->advance(time_step, steps, run_evaluations_);
+  reference_->advance(time_step, steps, run_work_);
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 const Verdict& RunMonitor::judge(double time, const State& state, const Integrator& integrator) {
-  run_evaluations_ = integrator.forceEvaluations();
+  run_work_ = work_per_evaluation_ * static_cast<double>(integrator.forceEvaluations());
   judge_.judge(time, state, integrator.dissipatedEnergy(), reference_ ? &*reference_ : nullptr);
   worst_residual_ =
       std::max(worst_residual_, std::abs(judge_.entry().relative_residual.value_or(0.0)));

@@ -67,9 +67,10 @@ class RunMonitor {
   double tolerance_;  ///< m; infinite for a fixed-step method
   Judge judge_;
   std::optional<ReferenceRun> reference_;
-  std::int64_t run_evaluations_ = 0;  ///< at the frame judged last
-  double worst_residual_ = 0.0;       ///< of the energy balance, relative
-  double exceeded_time_ = 0.0;        ///< s, when the error exceeded ten tolerances; 0: it did not
+  double work_per_evaluation_;
+  double run_work_ = 0.0;        ///< until the frame judged last
+  double worst_residual_ = 0.0;  ///< of the energy balance, relative
+  double exceeded_time_ = 0.0;   ///< s, when the error exceeded ten tolerances; 0: it did not
   double exceeded_growth_ = 0.0;
   double seconds_ = 0.0;
 };

@@ -66,9 +66,15 @@ TrialBench benchFor(const Chain& chain, const State& start, const Scenario& scen
   return {chain, start, durationOf(scenario), frameSteps(scenario).timeOfFrame(1), most_work};
 }
 
+/// To three digits and never up, as the next step size up may fail.
+std::string digits(double step) {
+  const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
+  return fmt::format("{:.3g}", std::floor(step / unit * (1.0 + 1e-9)) * unit);
+}
+
 std::string stepText(double step) {
   if (step == 0.0) return "none that could be tried";
-  return std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", step);
+  return std::isinf(step) ? "the whole run" : digits(step) + " s";
 }
 
 std::string errorText(const Trial& trial) {
@@ -95,34 +101,40 @@ std::string linearText(const Method& method, const Chain& chain, double duration
 struct Candidate {
   const Method* method = nullptr;
   double step = 0.0;  ///< s, or the tolerance in m
-  std::int64_t evaluations = std::numeric_limits<std::int64_t>::max();
+  std::int64_t evaluations = 0;
+  double work = kUnlimited;
 };
 
-Candidate cheapestStep(const TrialBench& bench, const Method& method, double first, double wanted,
-                       std::int64_t most_evaluations) {
-  Candidate candidate{&method, 0.0};
-  const double least = std::max(bench.leastStep(method), bench.duration() * method.stages /
-                                                             static_cast<double>(most_evaluations));
-  const auto passes = [&](const Trial& trial) {
-    return isStable(trial) && trial.measured && trial.position_error.largest <= wanted;
-  };
-  if (method.control == StepControl::kErrorControlled) {
-    for (double tolerance = 10.0 * wanted; tolerance > 0.005 * wanted; tolerance *= 0.1) {
-      const Trial trial = bench.run(method, tolerance, true, VerdictKind::kGainedEnergy);
-      if (!trial.affordable || passes(trial)) {
-        if (trial.affordable) candidate = {&method, tolerance, trial.evaluations};
-        break;
-      }
+/// The error must be this part of what is wished: a smaller step or tolerance may happen to give a
+/// larger error.
+constexpr double kShareOfWanted = 0.5;
+
+bool reaches(const Trial& trial, double wanted) {
+  return isStable(trial) && trial.measured &&
+         trial.position_error.largest <= kShareOfWanted * wanted;
+}
+
+Candidate cheapestTolerance(const TrialBench& bench, const Method& method, double wanted) {
+  for (double tolerance = wanted; tolerance > 0.005 * wanted; tolerance *= 0.1) {
+    const Trial trial = bench.run(method, tolerance, true, VerdictKind::kGainedEnergy);
+    if (!trial.affordable) break;
+    if (reaches(trial, wanted)) {
+      return {&method, tolerance, trial.evaluations, trial.work};
     }
-    return candidate;
   }
-  candidate.step = largestPassingStep(first, least, bench.duration(), [&](double step) {
-    return passes(bench.run(method, step, true, VerdictKind::kGainedEnergy));
+  return {};
+}
+
+/// \param most_work of interest
+Candidate cheapestStep(const TrialBench& bench, const Method& method, double first, double wanted,
+                       double most_work) {
+  const double least = std::max(bench.leastStep(method), bench.workOf(method, 1.0) / most_work);
+  const double step = largestPassingStep(first, least, bench.duration(), [&](double tried) {
+    return reaches(bench.run(method, tried, true, VerdictKind::kGainedEnergy), wanted);
   });
-  if (candidate.step > 0.0 && std::isfinite(candidate.step)) {
-    candidate.evaluations = std::llround(bench.duration() / candidate.step * method.stages);
-  }
-  return candidate;
+  if (step == 0.0 || std::isinf(step)) return {};
+  const double evaluations = bench.duration() / step * method.stages;
+  return {&method, step, std::llround(evaluations), bench.workOf(method, step)};
 }
 
 std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
@@ -132,8 +144,10 @@ std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
     for (const Method& method : methodTable()) {
       if (method.control != control) continue;
       const Candidate candidate =
-          cheapestStep(bench, method, scenario.time_step, wanted, best.evaluations);
-      if (candidate.evaluations < best.evaluations) best = candidate;
+          control == StepControl::kFixed
+              ? cheapestStep(bench, method, scenario.time_step, wanted, best.work)
+              : cheapestTolerance(bench, method, wanted);
+      if (candidate.work < best.work) best = candidate;
     }
   }
   if (best.method == nullptr) {
@@ -141,9 +155,9 @@ std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
   }
   const bool fixed = best.method->control == StepControl::kFixed;
   return fmt::format(
-      "position error of at most {:.3g} m: {} with a {} of {:.3g} {}, {} force "
-      "evaluations\n",
-      wanted, best.method->name, fixed ? "step size" : "tolerance", best.step, fixed ? "s" : "m",
+      "position error of at most {:.3g} m: {} with a {} of {} {}, {} force evaluations\n", wanted,
+      best.method->name, fixed ? "step size" : "tolerance",
+      fixed ? digits(best.step) : fmt::format("{:.3g}", best.step), fixed ? "s" : "m",
       best.evaluations);
 }
 

@@ -1,6 +1,7 @@
 #include "simulation/trial.hpp"
 
 #include "integration/error_control/dense_output_integrator.hpp"
+#include "simulation/work.hpp"
 #include <spring_pendulum/simulation/reference_run.hpp>
 
 #include <algorithm>
@@ -12,9 +13,12 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kRatio = 1.02;  ///< from one step size of the grid to the next
-constexpr int kStride = 16;      ///< of the coarse search, in points of the grid
-constexpr int kLookBack = 6;     ///< points below the result that have to pass as well
+constexpr double kRatio = 1.01;  ///< from one step size of the grid to the next
+constexpr int kStride = 32;      ///< of the coarse search, in points of the grid
+/// Points below the result that have to pass as well: nearly undamped chains have narrow windows of
+/// unstable steps. Fewer where trials are costly, which is on stiff and damped chains.
+constexpr int kLeastLookBack = 10;
+constexpr int kMostLookBack = 40;
 
 /// A chain costs as if it had this many particles more.
 constexpr double kOverhead = 4.0;
@@ -23,15 +27,21 @@ double weight(const Chain& chain) {
   return static_cast<double>(chain.size()) + kOverhead;
 }
 
-/// Advances by one frame, or until the force has been evaluated `most` times.
+/// Advances by one frame, or until as much work is done as `most` force evaluations.
 /// \returns whether the frame was finished
-bool advanceWithin(Integrator& integrator, State& state, const FrameSteps& frame,
-                   std::int64_t most) {
+bool advanceWithin(Integrator& integrator, State& state, const FrameSteps& frame, double most) {
   if (auto* controlled = dynamic_cast<DenseOutputIntegrator*>(&integrator)) {
     return controlled->advanceWithin(state, frame.time_step, frame.steps, most);
   }
   integrator.advance(state, frame.time_step, frame.steps);
   return true;
+}
+
+double workDone(const Method& method, const Chain& chain, const Integrator& integrator) {
+  const auto* controlled = dynamic_cast<const DenseOutputIntegrator*>(&integrator);
+  if (controlled != nullptr) return controlled->statistics().work();
+  return workPerEvaluation(method, chain.size()) *
+         static_cast<double>(integrator.forceEvaluations());
 }
 
 /// Whether a step size passes, by its place on a geometric grid. Tries each only once.
@@ -69,10 +79,17 @@ class Grid {
     return good;
   }
 
-  /// The highest of the points just below `good` that fails.
+  /// The highest of the points just below `good` that fails; or a point below a step size with one
+  /// of the usual safety margins, if that fails.
   std::optional<int> failureBelow(int good) {
-    for (int i = good - 1; i >= good - kLookBack && !isTooSmall(i); --i) {
+    const double count =
+        std::clamp(kLeastLookBack * step(good) / least_, 1.0 * kLeastLookBack, 1.0 * kMostLookBack);
+    for (int i = good - 1; i >= good - static_cast<int>(count) && !isTooSmall(i); --i) {
       if (!passes(i)) return i;
+    }
+    for (const double share : {0.95, 0.9}) {
+      const int below = good - static_cast<int>(std::ceil(-std::log(share) / std::log(kRatio)));
+      if (!isTooSmall(below) && !passes_(share * step(good))) return below;
     }
     return std::nullopt;
   }
@@ -104,17 +121,18 @@ Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
   ReferenceRun reference(chain_, start_, options);
   State state = start_;
   Trial trial;
-  const auto most = static_cast<std::int64_t>(most_work_ / weight(chain_));
+  const double most = most_work_ / weight(chain_);
   if (fixed) {
     const double steps = static_cast<double>(frames) * static_cast<double>(frame.steps);
-    trial.affordable = steps * method.stages <= static_cast<double>(most);
+    trial.affordable = steps * method.stages <= most;
   }
   for (std::int64_t n = 1; n <= frames && trial.affordable; ++n) {
     trial.affordable = advanceWithin(*integrator, state, frame, most);
     trial.evaluations = integrator->forceEvaluations();
+    trial.work = workDone(method, chain_, *integrator);
     const double time = frame.timeOfFrame(n);
     if (with_reference) {
-      reference.advance(frame.time_step, frame.steps, trial.evaluations);
+      reference.advance(frame.time_step, frame.steps, trial.work);
       judge.judge(time, state, integrator->dissipatedEnergy(), &reference);
     } else {
       judge.judge(time, state, integrator->dissipatedEnergy());
@@ -140,6 +158,10 @@ Trial TrialBench::run(const Method& method, double step, bool with_reference,
   const double frames = std::ceil(duration_ / frame.timeOfFrame(1) * (1.0 - 1e-9));
   return run(method, std::nullopt, frame, static_cast<std::int64_t>(frames), with_reference,
              enough);
+}
+
+double TrialBench::workOf(const Method& method, double step) const {
+  return duration_ / step * method.stages * workPerEvaluation(method, chain_.size());
 }
 
 double TrialBench::leastStep(const Method& method) const {

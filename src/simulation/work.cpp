@@ -13,6 +13,11 @@ IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipa
   return options;
 }
 
+double workPerEvaluation(const Method& method, Eigen::Index particles) {
+  if (method.control == StepControl::kErrorControlled) return 1.0;
+  return 0.35 + 0.007 * static_cast<double>(particles);
+}
+
 std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator,
                                      bool tracks_dissipation) {
   const Skips skips = integrator.skips();

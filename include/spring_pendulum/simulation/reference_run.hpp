@@ -10,7 +10,7 @@
 // the start keeps a straight chain straight: its motion would otherwise count as sensitive although
 // no error ever leaves the line.)
 //
-// The cost is bounded by a count of force evaluations, not by a clock, so how long a run is
+// The cost is bounded by a count of work, not by a clock, so how long a run is
 // measured does not depend on the machine. The run itself is never touched.
 #pragma once
 
@@ -56,9 +56,9 @@ class ReferenceRun {
 
   /// Follows the run on by `steps` steps of `time_step` s; see Integrator::advance for the times
   /// that this means. Does nothing once the measurement has stopped.
-  /// \param run_evaluations `Integrator::forceEvaluations()` of the run so far; the reference may
-  ///   cost as much as the run, or some 0.2 s if that is more
-  void advance(double time_step, std::int64_t steps, std::int64_t run_evaluations);
+  /// \param run_work cost of the run so far, in force evaluations of Taylor-8; the reference may
+  ///   cost as much, or some 0.2 s if that is more
+  void advance(double time_step, std::int64_t steps, double run_work);
 
   /// Back to the start.
   void restart();
@@ -87,7 +87,7 @@ class ReferenceRun {
   void makeTrajectories();
   void compare();
   void stop(Status status);
-  std::int64_t allowedEvaluations(std::int64_t run_evaluations) const;
+  double allowedWork(double run_work) const;
 
   Chain chain_;
   State start_;

@@ -64,11 +64,11 @@ void DenseOutputIntegrator::takeStep() {
 }
 
 void DenseOutputIntegrator::advance(State& state, double time_step, std::int64_t steps) {
-  advanceWithin(state, time_step, steps, std::numeric_limits<std::int64_t>::max());
+  advanceWithin(state, time_step, steps, std::numeric_limits<double>::infinity());
 }
 
 bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::int64_t steps,
-                                          std::int64_t most_evaluations) {
+                                          double most_work) {
   requireAdvance(started_ ? particles_ : state.size(), state, time_step, steps);
   if (!started_) {
     stepper_->start(state);  // knows the size of its chain
@@ -88,7 +88,7 @@ bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::i
   outputs_ += steps;
   const double output_time = output_origin_ + static_cast<double>(outputs_) * time_step;
   while (!diverged_ && step_end_ < output_time) {
-    if (forceEvaluations() >= most_evaluations) return false;
+    if (statistics().work() >= most_work) return false;
     takeStep();
   }
   if (diverged_) {

@@ -31,11 +31,11 @@ class DenseOutputIntegrator final : public Integrator {
   /// the first output time on that can't be reached.
   void advance(State& state, double time_step, std::int64_t steps) override;
 
-  /// As `advance`, but gives up before a step once `most_evaluations` of F have been spent since the
-  /// integrator was made. \returns whether the output time was reached; if not, `state` is as it was
-  /// and only `restart` may be called.
-  bool advanceWithin(State& state, double time_step, std::int64_t steps,
-                     std::int64_t most_evaluations);
+  /// As `advance`, but gives up before a step once the work done since the integrator was made has
+  /// reached `most_work`; see StepStatistics::work.
+  /// \returns whether the output time was reached; if not, `state` is as it was and only `restart`
+  ///          may be called
+  bool advanceWithin(State& state, double time_step, std::int64_t steps, double most_work);
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
   double dissipatedEnergy() const override { return dissipated_before_step_ + dissipated_in_step_; }
   void restart() override;

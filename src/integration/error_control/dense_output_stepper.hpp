@@ -13,13 +13,17 @@ namespace spring_pendulum {
 /// What a stepper has done since it was made.
 struct StepStatistics {
   std::int64_t force_evaluations = 0;  ///< of F for the whole chain
-  std::int64_t accepted = 0;           ///< steps
-  std::int64_t rejected = 0;           ///< steps whose error was too large
-  double last_step = 0.0;              ///< length of the last accepted step, s
+  /// What the evaluations of dearer methods cost beyond those of Taylor-8, in those of Taylor-8.
+  double extra_work = 0.0;
+  std::int64_t accepted = 0;  ///< steps
+  std::int64_t rejected = 0;  ///< steps whose error was too large
+  double last_step = 0.0;     ///< length of the last accepted step, s
   /// Largest |λ| of the motion seen in the last step, 1/s, where the method notices it for free;
   /// else 0. A method whose last_step * fastest_rate is near its stability limit is held back by
   /// stability, not by accuracy.
   double fastest_rate = 0.0;
+
+  double work() const { return static_cast<double>(force_evaluations) + extra_work; }
 };
 
 /// No stepper takes a shorter step: at this length it goes on whatever the estimated error, so a

@@ -40,6 +40,17 @@ void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]
 
 }  // namespace
 
+double RadauStepper::workPerEvaluation(Eigen::Index particles) {
+  return 2.1 * std::sqrt(static_cast<double>(std::max<Eigen::Index>(particles - 1, 1)));
+}
+
+StepStatistics RadauStepper::statistics() const {
+  StepStatistics statistics = ErrorEstimatingStepper::statistics();
+  statistics.extra_work =
+      (workPerEvaluation(chain().size()) - 1.0) * static_cast<double>(statistics.force_evaluations);
+  return statistics;
+}
+
 double RadauStepper::Change::norm() const {
   return std::max(position, velocity) + 0.0 * (position + velocity);
 }
