@@ -44,8 +44,11 @@ def set_view(config, bag, topics):
     points, frame = [], 'world'
     for _, message, _ in bag.read_messages(topics=topics):
         for marker in message.markers:
+            if marker.ns == 'grid':
+                continue  # reaches beyond the picture
             frame = marker.header.frame_id
-            points += [(p.x, p.z) for p in marker.points if math.isfinite(p.x + p.z)]
+            shown = marker.points or [marker.pose.position]
+            points += [(p.x, p.z) for p in shown if math.isfinite(p.x + p.z)]
     xs, zs = zip(*points) if points else ((0, 1), (0, 1))
     size = max(max(zs) - min(zs), (max(xs) - min(xs)) / ASPECT)
     position = {'X': (min(xs) + max(xs)) / 2, 'Y': -0.5 * 1.4 * size / math.tan(HALF_VIEW),

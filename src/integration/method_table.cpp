@@ -73,21 +73,22 @@ std::deque<Method> builtInMethods() {
   return {
       {"Euler", 1, 1, StepControl::kFixed, 2.0, 0.0,
        "L. Euler, Institutionum calculi integralis I, 1768, §650",
-       "for lessons: undamped swinging grows at every step size", &kEulerTableau,
+       "for teaching: undamped oscillations grow at every step size", &kEulerTableau,
        makeExplicitRungeKutta},
       {"Runge-Kutta-2", 2, 2, StepControl::kFixed, 2.0, 0.0,
        "C. Runge, Math. Ann. 46 (1895) 167-178, doi:10.1007/BF01446807",
-       "the explicit midpoint rule: for lessons; swinging still grows, but slowly",
+       "the explicit midpoint rule, for teaching: undamped oscillations grow slowly",
        &kMidpointTableau, makeExplicitRungeKutta},
       {"Runge-Kutta-4", 4, 4, StepControl::kFixed, 2.785293563405282, 2.8284271247461903,
        "W. Kutta, Z. Math. Phys. 46 (1901) 435-453",
-       "the sound choice with a fixed step, as long as no particle is very light",
+       "the best choice with a fixed step, unless particles are very light",
        &kClassicalRungeKuttaTableau, makeExplicitRungeKutta},
       {"Semi-Implicit-Euler", 1, 1, StepControl::kFixed, 2.0, 2.0,
        "E. Hairer, C. Lubich, G. Wanner, Acta Numer. 12 (2003) 399-450, "
        "doi:10.1017/S0962492902000144",
-       "symplectic without damping: rough, but swinging never grows; what games use", nullptr,
-       makeSymplectic<SemiImplicitEuler>, true, 80},
+       "symplectic without damping: inaccurate, but the energy error stays bounded; common in "
+       "games",
+       nullptr, makeSymplectic<SemiImplicitEuler>, true, 80},
       {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
        "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
        "symplectic and reversible without damping: for very long undamped runs", nullptr,
@@ -104,22 +105,23 @@ std::deque<Method> builtInMethods() {
       {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
-       "the fastest for tolerances down to 1e-6 m, as long as no particle is very light", nullptr,
+       "the fastest for tolerances down to 1e-6 m, unless particles are very light", nullptr,
        makeTaylor<TaylorStepper>, false, 630},
       {"Taylor-12", 12, 12, StepControl::kErrorControlled, kTaylor12RealStabilityLimit,
        3.3793773141575327,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
-       "the fastest for tighter tolerances, as long as no particle is very light", nullptr,
+       "the fastest for tighter tolerances, unless particles are very light", nullptr,
        makeTaylor<TaylorStepper>, false, 820},
       {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
-       "4 to 10 terms a step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse tolerances",
+       "4 to 10 terms per step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse "
+       "tolerances",
        nullptr, makeTaylor<StabilizedTaylorStepper>, false, 820},
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
-       "8 to 14 terms a step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
+       "8 to 14 terms per step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
        nullptr, makeTaylor<StabilizedTaylorStepper>, false, 1000},
       {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
@@ -128,8 +130,8 @@ std::deque<Method> builtInMethods() {
        makeRadau, false, 1190},
       {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
-       "takes the cheapest of the Taylor methods and Radau-9 for the motion at hand", nullptr,
-       makeAuto, false, 2200},
+       "chooses among the Taylor methods and Radau-9 as the motion requires", nullptr, makeAuto,
+       false, 2200},
   };
 }
 

@@ -11,6 +11,7 @@ import xml.etree.ElementTree
 import rosbag
 import rosgraph
 import rostest
+import yaml
 
 from pendulum_process import Folder, PendulumNode, program, project, read_frames, run_exercise
 
@@ -127,6 +128,22 @@ class Launch(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertEqual(done.stderr, 'rviz needs a display, and DISPLAY is not set; without one, use '
                                       'rviz:=false\n')
+
+    def test_a_bag_without_a_camera_is_seen_from_near(self):
+        with Folder() as folder:
+            subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--particles',
+                            project('data/one_spring.txt'), '--frames', '20', '--camera-frame', '',
+                            '--bag', folder + '/one.bag'], check=True, stdout=subprocess.DEVNULL)
+            with open(folder + '/rviz', 'w') as file:
+                file.write('#!/bin/sh\ncat "$2"\n')
+            os.chmod(folder + '/rviz', 0o755)
+            done = subprocess.run([project('scripts/view.py'), project('rviz/pendulum.rviz'),
+                                   folder + '/one.bag'], capture_output=True, text=True, check=True,
+                                  env=dict(os.environ, PATH=folder + ':' + os.environ['PATH'],
+                                           QT_QPA_PLATFORM='offscreen', ROS_HOME=folder))
+        view = yaml.safe_load(done.stdout)['Visualization Manager']['Views']['Current']
+        self.assertLess(view['Position']['Y'], -2.0)
+        self.assertGreater(view['Position']['Y'], -5.0)  # -2.5 measured
 
     def test_record_sh_without_topics_shows_its_use(self):
         done = subprocess.run([project('scripts/record.sh'), 'one.bag'], capture_output=True, text=True)
