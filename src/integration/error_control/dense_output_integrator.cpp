@@ -1,7 +1,6 @@
 #include "integration/error_control/dense_output_integrator.hpp"
 
 #include "model/checks.hpp"
-#include <spring_pendulum/model/energy.hpp>
 
 #include <algorithm>
 #include <array>
@@ -33,10 +32,17 @@ constexpr std::array<QuadraturePoint, 6> kGaussLegendre{
 }  // namespace
 
 DenseOutputIntegrator::DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
-                                             std::optional<Chain> dissipating)
-    : stepper_(std::move(stepper)), dissipating_(std::move(dissipating)) {
-  if (dissipating_) sample_ = State(dissipating_->size());
+                                             const std::optional<Chain>& dissipating)
+    : stepper_(std::move(stepper)) {
+  if (dissipating) dissipation_.emplace(*dissipating);
 }
+
+DenseOutputIntegrator::Dissipation::Dissipation(const Chain& chain)
+    : constants(chain),
+      kernels(fastestChainKernels(chain.size())),
+      sample(chain.size()),
+      padded_sample(chain.size()),
+      energies(chain.size()) {}
 
 void DenseOutputIntegrator::restart() {
   started_ = false;
@@ -45,13 +51,17 @@ void DenseOutputIntegrator::restart() {
 }
 
 double DenseOutputIntegrator::dissipated(double fraction) {
-  if (!dissipating_) return 0.0;
-  double sum = 0.0;
+  if (!dissipation_) return 0.0;
+  Dissipation& d = *dissipation_;
+  d.energies.reset();
+  const double scale = 0.5 * fraction * step_length_ * d.constants.chain().spring.damping;
   for (const QuadraturePoint& point : kGaussLegendre) {
-    stepper_->interpolate(0.5 * fraction * (1.0 + point.node), sample_);
-    sum += point.weight * dissipatedPower(*dissipating_, sample_);
+    stepper_->interpolate(0.5 * fraction * (1.0 + point.node), d.sample);
+    d.padded_sample.values() = d.sample.values();
+    d.kernels.addHeat(d.constants.chain(), d.padded_sample.data(), scale * point.weight,
+                      d.energies.data());
   }
-  return 0.5 * fraction * step_length_ * sum;
+  return d.energies.total();
 }
 
 void DenseOutputIntegrator::takeStep() {

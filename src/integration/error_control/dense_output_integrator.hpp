@@ -8,6 +8,10 @@
 #pragma once
 
 #include "integration/error_control/dense_output_stepper.hpp"
+#include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/dashpot_heat.hpp"
+#include "integration/kernels/kernel_constants.hpp"
+#include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
@@ -21,7 +25,7 @@ class DenseOutputIntegrator final : public Integrator {
  public:
   /// \param dissipating the chain, if its dissipated energy is to be tracked
   explicit DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
-                                 std::optional<Chain> dissipating = {});
+                                 const std::optional<Chain>& dissipating = {});
 
   /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
   /// as often with half the time_step gives the same bits at the common times. With another
@@ -49,8 +53,17 @@ class DenseOutputIntegrator final : public Integrator {
   double dissipated(double fraction);
 
   std::unique_ptr<DenseOutputStepper> stepper_;
-  std::optional<Chain> dissipating_;
-  State sample_;  ///< workspace of `dissipated`
+  /// What tracking the dissipated energy needs.
+  struct Dissipation {
+    explicit Dissipation(const Chain& chain);
+
+    KernelConstants constants;
+    const ChainKernels& kernels;
+    State sample;
+    StateBuffer padded_sample;
+    DashpotHeat energies;
+  };
+  std::optional<Dissipation> dissipation_;
   bool started_ = false;
   std::ptrdiff_t particles_ = 0;  ///< of the state it started from
   bool diverged_ = false;

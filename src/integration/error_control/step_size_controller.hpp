@@ -14,7 +14,7 @@
 
 namespace spring_pendulum {
 
-/// The k-th root of x, 0 <= x, to 1e-8 relative; k in 1..32. Exactly the same bits on every
+/// The k-th root of x, 0 <= x, to 1e-8 relative; k in 1..32. A smaller x than 1e-300 counts as that. Exactly the same bits on every
 /// machine: it uses no function of the C library but the square root.
 double root(double x, int k);
 

@@ -8,7 +8,7 @@
 // the bits are always those of `PlainRungeKutta`.
 #pragma once
 
-#include "integration/fixed_step/dashpot_heat.hpp"
+#include "integration/kernels/dashpot_heat.hpp"
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/worker_threads.hpp"
 #include "integration/kernels/chain_kernels.hpp"

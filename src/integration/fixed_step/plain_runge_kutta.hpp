@@ -3,7 +3,7 @@
 // know the tableau.
 #pragma once
 
-#include "integration/fixed_step/dashpot_heat.hpp"
+#include "integration/kernels/dashpot_heat.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"

@@ -21,7 +21,7 @@
 // doi:10.1017/S0962492902000144.
 #pragma once
 
-#include "integration/fixed_step/dashpot_heat.hpp"
+#include "integration/kernels/dashpot_heat.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"

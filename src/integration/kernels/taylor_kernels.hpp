@@ -16,6 +16,10 @@ namespace {
 using Index = std::ptrdiff_t;
 constexpr Index kGroup = 8;  ///< springs whose coefficients lie together, on all instruction sets
 
+// Rows of a spring that hold no coefficients.
+constexpr Index kDirection = -2;
+constexpr Index kSums = -1;
+
 /// A coefficient of a spring: of its separation and its length.
 struct SpringCoefficient {
   PlaneVector<Pack> separation;
@@ -28,48 +32,57 @@ struct Convolutions {
   Pack quotient;              ///< of u L
   PlaneVector<Pack> force;    ///< of u d
 
-  Pack length() const { return (product.separation.x + product.separation.y) - product.length; }
+  [[gnu::always_inline]] Pack length() const {
+    return (product.separation.x + product.separation.y) - product.length;
+  }
 };
 
-/// The coefficients of the springs of one block.
+/// The coefficients of the springs of one block. Every row lies at a distance that the compiler
+/// knows, so it need not read again what it has just written.
 class SpringSeries {
  public:
-  SpringSeries(const TaylorWorkspace& work, Index block)
+  [[gnu::always_inline]] SpringSeries(const TaylorWorkspace& work, Index block)
       : first_(work.springs +
                block * kLanes / kGroup * TaylorWorkspace::springRows(work.order) * kRow +
-               block * kLanes % kGroup),
-        order_(work.order) {}
+               block * kLanes % kGroup) {}
 
-  PlaneVector<Pack> separation(Index n) const { return {at(n, 0), at(n, 1)}; }
-  Pack length(Index n) const { return at(n, 2); }
-  Pack quotient(Index n) const { return at(n, 3); }
-  PlaneVector<Pack> direction() const { return separation(order_ + 1); }
-  Pack inverseLength() const { return at(order_ + 1, 2); }
-  Convolutions convolutions() const {
-    return {{{length(order_ + 2), Pack{}}, Pack{}}, quotient(order_ + 2), separation(order_ + 2)};
+  [[gnu::always_inline]] PlaneVector<Pack> separation(Index n) const {
+    return {at(n, 0), at(n, 1)};
+  }
+  [[gnu::always_inline]] Pack length(Index n) const { return at(n, 2); }
+  [[gnu::always_inline]] Pack quotient(Index n) const { return at(n, 3); }
+  [[gnu::always_inline]] PlaneVector<Pack> direction() const { return separation(kDirection); }
+  [[gnu::always_inline]] Pack inverseLength() const { return length(kDirection); }
+  [[gnu::always_inline]] Convolutions convolutions() const {
+    return {{{length(kSums), Pack{}}, Pack{}}, quotient(kSums), separation(kSums)};
   }
 
-  void setSeparation(Index n, const PlaneVector<Pack>& value) {
+  [[gnu::always_inline]] void setSeparation(Index n, const PlaneVector<Pack>& value) {
     value.x.store(row(n));
     value.y.store(row(n) + kGroup);
   }
-  void setLength(Index n, Pack value) { value.store(row(n) + 2 * kGroup); }
-  void setQuotient(Index n, Pack value) { value.store(row(n) + 3 * kGroup); }
-  void setDirection(const PlaneVector<Pack>& value) { setSeparation(order_ + 1, value); }
-  void setInverseLength(Pack value) { setLength(order_ + 1, value); }
-  void setConvolutions(const Convolutions& value) {
-    setSeparation(order_ + 2, value.force);
-    setLength(order_ + 2, value.length());
-    setQuotient(order_ + 2, value.quotient);
+  [[gnu::always_inline]] void setLength(Index n, Pack value) { value.store(row(n) + 2 * kGroup); }
+  [[gnu::always_inline]] void setQuotient(Index n, Pack value) { value.store(row(n) + 3 * kGroup); }
+  [[gnu::always_inline]] void setDirection(const PlaneVector<Pack>& value) {
+    setSeparation(kDirection, value);
+  }
+  [[gnu::always_inline]] void setInverseLength(Pack value) { setLength(kDirection, value); }
+  [[gnu::always_inline]] void setConvolutions(const Convolutions& value) {
+    setSeparation(kSums, value.force);
+    setLength(kSums, value.length());
+    setQuotient(kSums, value.quotient);
   }
 
  private:
   static constexpr Index kRow = 4 * kGroup;
-  double* row(Index n) const { return first_ + n * kRow; }
-  Pack at(Index n, Index quantity) const { return Pack::load(row(n) + quantity * kGroup); }
+  [[gnu::always_inline]] double* row(Index n) const {
+    return first_ + (n + (n < 0 ? 15 : n > 12 ? 2 : 0)) * kRow;
+  }
+  [[gnu::always_inline]] Pack at(Index n, Index quantity) const {
+    return Pack::load(row(n) + quantity * kGroup);
+  }
 
   double* first_;
-  Index order_;
 };
 
 [[gnu::always_inline]] inline SpringCoefficient coefficient(const SpringSeries& spring, Index n) {
@@ -96,30 +109,33 @@ class SpringSeries {
   sums.force.y = fused(quotient, other.separation.y, sums.force.y);
 }
 
-/// Of the even order n and of the next one, what the coefficients before n give: the loads are
-/// shared, and there is twice as much to do side by side.
-[[gnu::always_inline]] inline void addKnownTerms(const SpringSeries& spring, Index n,
-                                                 Convolutions& here, Convolutions& next) {
-  if (n == 0) return;
-  SpringCoefficient last = coefficient(spring, n);
-  const SpringCoefficient first = coefficient(spring, 1);
-  addProduct(here, first, last);
-  for (Index j = 2; 2 * j <= n; ++j) {
-    const SpringCoefficient a = coefficient(spring, j);
-    addProduct(next, a, last);
-    last = coefficient(spring, n + 1 - j);
-    addProduct(here, a, last);
-  }
-  const SpringCoefficient middle = coefficient(spring, n / 2 + 1);
-  addProduct(next, half(middle), middle);
-
-  last = coefficient(spring, n);
-  addTerm(here, spring.quotient(0), last);
-  for (Index j = 1; j < n; ++j) {
-    const Pack quotient = spring.quotient(j);
-    addTerm(next, quotient, last);
-    last = coefficient(spring, n - j);
-    addTerm(here, quotient, last);
+/// The sums of the even order n and of the next one, as far as the coefficients before n go. Both
+/// share loads. The newest coefficients come last, because everything else need not wait for them.
+template <Index n>
+[[gnu::always_inline]] inline void addKnownTerms(const SpringSeries& spring, Convolutions& here,
+                                                 Convolutions& next) {
+  if constexpr (n > 0) {
+    SpringCoefficient lower = coefficient(spring, n / 2 + 1);
+    addProduct(next, half(lower), lower);
+#pragma GCC unroll 16
+    for (Index j = n / 2; j >= 1; --j) {
+      const SpringCoefficient upper = coefficient(spring, n + 1 - j);
+      if (j < n / 2) addProduct(next, lower, upper);
+      lower = coefficient(spring, j);
+      addProduct(here, lower, upper);
+    }
+#pragma GCC unroll 16
+    for (Index j = 1; j < n - 1; ++j) {
+      const Pack quotient = spring.quotient(j);
+      addTerm(here, quotient, coefficient(spring, n - j));
+      if (j > 1) addTerm(next, quotient, coefficient(spring, n + 1 - j));
+    }
+    const SpringCoefficient newest = coefficient(spring, n);
+    const Pack quotient = spring.quotient(n - 1);
+    if (n > 2) addTerm(next, spring.quotient(1), newest);
+    addTerm(next, quotient, coefficient(spring, 2));
+    addTerm(here, spring.quotient(0), newest);
+    addTerm(here, quotient, coefficient(spring, 1));
   }
 }
 
@@ -154,13 +170,13 @@ class SpringSeries {
 }
 
 /// The same, with the sums of even orders made here, those of odd orders on the way.
-template <bool kEven>
+template <Index n>
 [[gnu::always_inline]] inline PlaneVector<Pack> springCoefficients(const TaylorWorkspace& work,
-                                                                   SpringSeries spring, Index n) {
-  if constexpr (kEven) {
+                                                                   SpringSeries spring) {
+  if constexpr (n % 2 == 0) {
     Convolutions here{};
     Convolutions next{};
-    addKnownTerms(spring, n, here, next);
+    addKnownTerms<n>(spring, here, next);
     const PlaneVector<Pack> force = springCoefficients(work, spring, n, here);
     addNewTerms(spring, n, next);
     spring.setConvolutions(next);
@@ -193,54 +209,94 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
   }
 }
 
+/// Coefficient n + 2 of the separations of a block from the forces of the springs, which saves the
+/// way over the accelerations: each order waits for this one.
+template <Index n>
+[[gnu::always_inline]] inline PlaneVector<Pack> separationCoefficient(
+    const TaylorWorkspace& work, Index block, const PlaneVector<Pack>& left,
+    const PlaneVector<Pack>& here, const PlaneVector<Pack>& next) {
+  constexpr double kShare = 1.0 / ((n + 1) * (n + 2));
+  const Pack inverse_mass = kShare * Pack::load(work.inverse_masses + block * kLanes);
+  const Pack next_inverse_mass = kShare * Pack::load(work.next_inverse_masses + block * kLanes);
+  const Pack both = inverse_mass + next_inverse_mass;
+  PlaneVector<Pack> result{fused(next_inverse_mass, rightNeighbours(here.x, next.x),
+                                 fused(inverse_mass, left.x, -(both * here.x))),
+                           fused(next_inverse_mass, rightNeighbours(here.y, next.y),
+                                 fused(inverse_mass, left.y, -(both * here.y)))};
+  if (n == 0 && block == 0) result.y = result.y - only(Pack::all(kShare * work.gravity), 0, 1);
+  return result;
+}
+
 /// Coefficient n of all accelerations, and n + 2 of all separations.
-template <bool kEven>
-void addOrder(const TaylorWorkspace& work, Index n) {
-  const double share = 1.0 / (static_cast<double>(n + 1) * static_cast<double>(n + 2));
-  const auto differ = [share](const PlaneVector<Pack>& here, const PlaneVector<Pack>& next) {
-    return PlaneVector<Pack>{share * (rightNeighbours(here.x, next.x) - here.x),
-                             share * (rightNeighbours(here.y, next.y) - here.y)};
-  };
+/// \tparam kBlocks how many, or 0 if the compiler does not know
+template <Index n, Index kBlocks>
+[[gnu::always_inline]] inline void addOrder(const TaylorWorkspace& work) {
   const bool wanted = n + 1 < work.order;  // nothing is made of the last separations
-  const Index blocks = blocksOf(work.size);
+  const Index blocks = kBlocks > 0 ? kBlocks : blocksOf(work.size);
   double* accelerations = work.accelerations + n * 2 * work.pitch;
-  PlaneVector<Pack> left{};      // forces of the block before
-  PlaneVector<Pack> previous{};  // its accelerations
+  PlaneVector<Pack> previous{};       // forces of the block before
+  PlaneVector<Pack> previous_left{};  // their left neighbours
   for (Index block = 0; block < blocks; ++block) {
     const Index first = block * kLanes;
-    const PlaneVector<Pack> right = springCoefficients<kEven>(work, SpringSeries(work, block), n);
-    const Pack inverse_mass = Pack::load(work.inverse_masses + first);
-    PlaneVector<Pack> here{(right.x - leftNeighbours(left.x, right.x)) * inverse_mass,
-                           (right.y - leftNeighbours(left.y, right.y)) * inverse_mass};
-    if (n == 0) {
-      here.y = here.y - only(Pack::all(work.gravity), block == 0 ? 1 : 0, work.size - first);
-    }
-    here.x.store(accelerations + first);
-    here.y.store(accelerations + work.pitch + first);
+    const PlaneVector<Pack> here = springCoefficients<n>(work, SpringSeries(work, block));
+    const PlaneVector<Pack> left{leftNeighbours(previous.x, here.x),
+                                 leftNeighbours(previous.y, here.y)};
     if (block > 0 && wanted) {
-      SpringSeries(work, block - 1).setSeparation(n + 2, differ(previous, here));
+      SpringSeries(work, block - 1)
+          .setSeparation(n + 2,
+                         separationCoefficient<n>(work, block - 1, previous_left, previous, here));
     }
-    left = right;
+    const Pack inverse_mass = Pack::load(work.inverse_masses + first);
+    const Pack x = (here.x - left.x) * inverse_mass;
+    Pack y = (here.y - left.y) * inverse_mass;
+    if (n == 0) y = y - only(Pack::all(work.gravity), block == 0 ? 1 : 0, work.size - first);
+    x.store(accelerations + first);
+    y.store(accelerations + work.pitch + first);
     previous = here;
+    previous_left = left;
   }
-  if (wanted) SpringSeries(work, blocks - 1).setSeparation(n + 2, differ(previous, previous));
+  if (wanted) {
+    SpringSeries(work, blocks - 1)
+        .setSeparation(
+            n + 2, separationCoefficient<n>(work, blocks - 1, previous_left, previous, previous));
+  }
+}
+
+template <Index n, Index kBlocks>
+void addOrderOfLongChain(const TaylorWorkspace& work) {
+  addOrder<n, kBlocks>(work);
+}
+
+template <Index kBlocks, Index... n>
+[[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work,
+                                             std::integer_sequence<Index, n...> /*orders*/) {
+  // The smallest order is 2.
+  if constexpr (kBlocks > 0) {
+    (void)((n < work.order && (addOrder<n, kBlocks>(work), true)) && ...);
+  } else {
+    (void)((n < work.order && (addOrderOfLongChain<n, kBlocks>(work), true)) && ...);
+  }
+}
+
+template <Index kBlocks>
+void seriesOf(const TaylorWorkspace& work, const double* state) {
+  beginSeries(work, state);
+  addOrders<kBlocks>(work, std::make_integer_sequence<Index, kLargestTaylorOrder>());
 }
 
 // The workspace is copied: of the caller's the compiler must assume that it changes with every
 // number that is written.
 void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
   const TaylorWorkspace work = callers_work;
-  beginSeries(work, state);
-  for (Index n = 0; n < work.order; n += 2) {
-    addOrder<true>(work, n);
-    if (n + 1 < work.order) addOrder<false>(work, n + 1);
-  }
+  if (blocksOf(work.size) == 1) return seriesOf<1>(work, state);
+  seriesOf<0>(work, state);
 }
 
 /// The weighted sum of the accelerations' coefficients of one block.
 [[gnu::always_inline]] inline Block weightedSum(const TaylorWorkspace& work,
                                                 const TaylorWeights& weights, Index block) {
   Block change{};
+#pragma GCC unroll 1
   for (Index n = weights.count - 1; n >= 0; --n) {
     const double* row = work.accelerations + n * 2 * work.pitch + block * kLanes;
     const Pack x = Pack::load(row);

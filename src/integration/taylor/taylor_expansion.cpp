@@ -1,8 +1,22 @@
 #include "integration/taylor/taylor_expansion.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace spring_pendulum {
+namespace {
+
+/// 1/i, which saves divisions; number 0 is not used.
+constexpr auto kReciprocals = [] {
+  std::array<double, kLargestTaylorOrder + 2> reciprocals{};
+  for (std::size_t i = 1; i < reciprocals.size(); ++i) {
+    reciprocals[i] = 1.0 / static_cast<double>(i);
+  }
+  return reciprocals;
+}();
+
+}  // namespace
 
 TaylorExpansion::TaylorExpansion(const Chain& chain, int order) {
   work_.spring = chain.spring();
@@ -12,9 +26,12 @@ TaylorExpansion::TaylorExpansion(const Chain& chain, int order) {
   work_.order = order;
   inverse_masses_ = AlignedNumbers(work_.pitch);
   std::copy_n(chain.inverseMasses().data(), chain.size(), inverse_masses_.data());
+  next_inverse_masses_ = AlignedNumbers(work_.pitch);
+  std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, next_inverse_masses_.data());
   springs_ = AlignedNumbers(TaylorWorkspace::springNumbers(work_.pitch, order));
   accelerations_ = AlignedNumbers(TaylorWorkspace::accelerationNumbers(work_.pitch, order));
   work_.inverse_masses = inverse_masses_.data();
+  work_.next_inverse_masses = next_inverse_masses_.data();
   work_.springs = springs_.data();
   work_.accelerations = accelerations_.data();
 }
@@ -24,11 +41,10 @@ TaylorWeights taylorWeights(std::ptrdiff_t count, double time) {
   weights.count = count;
   weights.start_velocity = time;
   double power = time;
-  for (std::ptrdiff_t n = 0; n < count; ++n) {
-    const auto i = static_cast<std::size_t>(n);
-    weights.velocity[i] = power / static_cast<double>(n + 1);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    weights.velocity[n] = power * kReciprocals[n + 1];
     power *= time;
-    weights.position[i] = power / (static_cast<double>(n + 1) * static_cast<double>(n + 2));
+    weights.position[n] = power * (kReciprocals[n + 1] * kReciprocals[n + 2]);
   }
   return weights;
 }

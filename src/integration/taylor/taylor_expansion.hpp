@@ -11,7 +11,7 @@ namespace spring_pendulum {
 /// be made smaller and, up to what they were at first, larger again.
 class TaylorExpansion {
  public:
-  /// \param order K in 2..30, the most coefficients
+  /// \param order K in 2..14, the most coefficients
   TaylorExpansion(const Chain& chain, int order);
 
   TaylorWorkspace& work() { return work_; }
@@ -19,6 +19,7 @@ class TaylorExpansion {
 
  private:
   AlignedNumbers inverse_masses_;
+  AlignedNumbers next_inverse_masses_;
   AlignedNumbers springs_;
   AlignedNumbers accelerations_;
   TaylorWorkspace work_;

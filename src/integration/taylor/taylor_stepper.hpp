@@ -42,7 +42,7 @@ constexpr double kTaylor12RealStabilityLimit = 5.8227790681937215;
 
 class TaylorStepper final : public DenseOutputStepper {
  public:
-  /// \param order K in 4..30
+  /// \param order K in 4..14
   TaylorStepper(const Chain& chain, int order, double tolerance,
                 const ChainKernels& kernels = fastestChainKernels());
 

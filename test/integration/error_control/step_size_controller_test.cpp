@@ -15,6 +15,7 @@ TEST(Root, IsTheRoot) {
       EXPECT_NEAR(root(x, k) / expected, 1.0, 1e-8) << x << " " << k;  // measured: 1.4e-9
     }
     EXPECT_EQ(root(0.0, k), 0.0);
+    EXPECT_EQ(root(1e-310, k), root(1e-300, k));
   }
 }
 
