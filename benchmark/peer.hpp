@@ -32,6 +32,7 @@ struct Run {
   std::int64_t steps = 10;  ///< the call moves the state on by steps * time_step
   double tolerance = 0.0;   ///< error-controlled methods; they take steps of their own
   int threads = 1;          ///< ours; no peer has threads. 0: all
+  bool energy = false;      ///< ours; whether the dissipated energy is tracked
 };
 
 /// A peer that cannot do what it is asked says why.

@@ -117,9 +117,11 @@ std::vector<Candidate> candidatesFor(std::size_t particles) {
     candidate.run.steps = own || particles < kLarge ? 10 : 1;
     candidates.push_back(std::move(candidate));
     if (!own) continue;
-    candidates.emplace_back();
-    candidates.back().row = &row;
-    candidates.back().run.threads = 0;
+    for (const bool energy : {false, true}) {
+      candidates.push_back({&row, candidates.front().run});
+      candidates.back().run.threads = energy ? 1 : 0;
+      candidates.back().run.energy = energy;
+    }
   }
   return candidates;
 }
@@ -130,7 +132,8 @@ void write(const Problem& problem, Candidate& candidate, ResultFile& file) {
   const bool done = candidate.status == "ok";
   file.add(fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{}", problem.size(), candidate.row->library,
-      quoted(candidate.row->name), candidate.run.threads == 0 ? "all" : "1", candidate.status,
+      quoted(candidate.row->name + (candidate.run.energy ? " with the energy balance" : "")),
+      candidate.run.threads == 0 ? "all" : "1", candidate.status,
       done ? fmt::format("{:.4g}", samples[samples.size() / 2]) : "",
       done ? fmt::format("{:.4g}", samples.front()) : "",
       done ? fmt::to_string(samples.size()) : "",
@@ -181,7 +184,8 @@ int run(const Options& options) {
                   "force_evaluations_a_step,difference_m_or_m_per_s,note");
   bool all_agree = true;
   std::set<std::string> lost;
-  for (std::size_t particles : {3, 11, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000}) {
+  for (std::size_t particles :
+       {3, 11, 17, 33, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000}) {
     if (options.smoke && particles > 1'000) break;
     const int rounds = options.smoke ? 3 : particles < 100'000 ? 25 : particles <= kLarge ? 7 : 3;
     all_agree = runSize(particles, rounds, lost, file) && all_agree;

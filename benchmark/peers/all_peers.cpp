@@ -43,8 +43,7 @@ const std::vector<PeerRow>& allPeers() {
 }
 
 std::vector<std::string> missingPeers() {
-  std::vector<std::string> missing{"Boost.odeint", "GSL",     "SUNDIALS",
-                                   "MuJoCo",       "Simbody", "DOP853"};
+  std::vector<std::string> missing{"Boost.odeint", "GSL", "SUNDIALS", "MuJoCo", "Simbody", "SciPy"};
   for (const PeerRow& row : allPeers()) {
     missing.erase(std::remove(missing.begin(), missing.end(), row.library), missing.end());
   }

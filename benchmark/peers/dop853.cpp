@@ -99,7 +99,7 @@ class Dop853Peer : public Peer {
 std::vector<PeerRow> dop853Rows() {
   Dop853* const solve = findDop853();
   if (solve == nullptr) return {};
-  return {{"DOP853", "DOP853", Stepping::kErrorControlled, false, makerOf<Dop853Peer>(solve)}};
+  return {{"SciPy", "DOP853", Stepping::kErrorControlled, false, makerOf<Dop853Peer>(solve)}};
 }
 
 }  // namespace spring_pendulum::benchmark

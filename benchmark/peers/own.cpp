@@ -19,6 +19,7 @@ IntegratorOptions optionsOf(const Run& run) {
   IntegratorOptions options;
   if (run.tolerance > 0.0) options.tolerance = run.tolerance;
   options.threads = run.threads;
+  options.track_dissipation = run.energy;
   return options;
 }
 

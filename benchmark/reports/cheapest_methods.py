@@ -16,7 +16,8 @@ INTRODUCTION = """\
 
 Least time among the measured points whose true error is at most the target; nothing is
 interpolated. A ratio is the time of another over ours: above 1, this package is faster. There are
-two: to the best solver of the other packages (Boost.odeint, GSL, SUNDIALS, MuJoCo, Simbody), and to
+two: to the best solver of the other packages (Boost.odeint, GSL, SUNDIALS, MuJoCo, Simbody,
+SciPy), and to
 the best plain loop (Runge-Kutta-4 written out for this benchmark: structure of arrays, object per
 particle). – stands where nothing that was measured is accurate enough.
 """

@@ -10,7 +10,8 @@ LIBRARY_COLORS = {
     "GSL": ("#c9a6ea", "#8f5fc4", "#5a2d91"),
     "SUNDIALS": ("#a8d8a0", "#6dbb6a", "#3f9b58", "#1c7a4a", "#0d5c3c", "#7f9c2f"),
     "MuJoCo": ("#c77d2e",),
-    "Simbody": ("#c2578f",)}
+    "Simbody": ("#c2578f",),
+    "SciPy": ("#0f8f8f",)}
 POINT_TYPES = (7, 5, 9, 11, 13, 4, 6, 8, 10, 12)
 
 

@@ -13,7 +13,9 @@ import result_csv
 def label(row):
     if row["library"] != "own":
         return row["method"]
-    return f"this package, {row['threads']} thread{'s' if row['threads'] == 'all' else ''}"
+    threads = "all threads" if row["threads"] == "all" else "1 thread"
+    balance = ", energy balance" if "energy" in row["method"] else ""
+    return f"this package, {threads}{balance}"
 
 
 def divider_bound(head):
@@ -57,7 +59,7 @@ def table(rows):
     print("| ns per spring force (a step of this package is so many times faster) | " +
           " | ".join(f"{int(n):,}" for n in sizes) + " |")
     print("|---" * (len(sizes) + 1) + "|")
-    own = {r["particles"]: r for r in rows if r["library"] == "own" and r["threads"] == "1"}
+    own = {r["particles"]: r for r in rows if label(r) == "this package, 1 thread"}
     for name in dict.fromkeys(label(r) for r in rows):
         cells = []
         for size in sizes:
