@@ -77,7 +77,8 @@ def main(path, folder):
     draw(rows, divider_bound(head), folder)
     print("# Throughput of Runge-Kutta-4\n")
     table(rows)
-    print("\n" + "\n".join(f"- {line}" for line in head if line[0].islower()))
+    print("\n" + "\n".join(f"- {line}" for line in head
+                           if line[0].islower() and ": " in line))
 
 
 if __name__ == "__main__":
