@@ -16,7 +16,8 @@ compile "$folder"
 find "$folder" -name '*.gcda' -delete
 (cd "$folder" && ctest --output-on-failure -j "$(nproc)" -L 'unit|process' > ctest.log) ||
   { tail -n 50 "$folder/ctest.log" >&2; die "a test failed"; }
-gcovr --root "$project" --object-directory "$folder" \
+cd "$project"  # gcovr takes its filters from here
+gcovr --root "$project" --object-directory "$folder" "$folder" \
   --filter 'src/(model|integration|simulation|io)/' \
   --filter 'include/spring_pendulum/' \
   --exclude-throw-branches --exclude-unreachable-branches --json "$folder/coverage.json"

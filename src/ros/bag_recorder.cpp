@@ -132,7 +132,7 @@ void recordRun(PendulumRun& run, BagRecorder& recorder, RunFiles& files) {
 std::vector<Option> bagOptions(BagOptions& o) {
   return {
       {"bag", Text{&o.path, "FILE", "a file"}, "", "the bag to write"},
-      {"namespace", Text{&o.name_space, "NAME", "a name", anyText}, "",
+      {"namespace", Text{&o.name_space, "NAME", "a name that ROS accepts", isTopicName}, "",
        "put before the topics markers, state and status"},
       {"append", Flag{&o.append}, "", "add to an existing bag, for example another method's run"},
   };

@@ -2,6 +2,8 @@
 
 #include "ros/color.hpp"
 
+#include <ros/names.h>
+
 namespace spring_pendulum {
 namespace {
 
@@ -18,6 +20,12 @@ bool isColor(std::string_view text) {
 }
 
 }  // namespace
+
+bool isTopicName(std::string_view text) {
+  std::string reason;
+  const bool is_private = !text.empty() && text.front() == '~';
+  return !is_private && ros::names::validate(std::string(text), reason);
+}
 
 std::vector<Option> displayOptions(NodeOptions& o) {
   return {
@@ -58,7 +66,7 @@ std::vector<Option> playOptions(NodeOptions& o) {
        "start without subscribers after this time; 0: never"},
       {"publish_clock", Flag{&o.publish_clock}, "",
        "publish simulated time on /clock and stamp with it"},
-      {"follow", Text{&o.follow, "TOPIC", "a topic", anyText}, "",
+      {"follow", Text{&o.follow, "TOPIC", "the name of a topic", isTopicName}, "",
        "state topic of another node whose simulated time this one follows"},
   };
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spring_pendulum {
@@ -31,6 +32,9 @@ struct NodeOptions {
   std::int64_t text_rows = 1;          ///< rows of text in the picture
   std::string camera_frame = "pendulum_camera";  ///< empty: none
 };
+
+/// Whether ROS accepts a topic or namespace of this name; it may be empty.
+bool isTopicName(std::string_view text);
 
 /// How a chain is shown: options of the node and of record_bag. Bound to `options`.
 std::vector<Option> displayOptions(NodeOptions& options);

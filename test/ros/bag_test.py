@@ -132,7 +132,7 @@ class Bag(unittest.TestCase):
 
     def test_bad_use_leaves_no_file(self):
         cases = [(('--color', 'red'), 2, "--color: must be #rrggbb"), (('--frames', '0'), 2, 'frames'),
-                 (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, "option '--trail' is missing"),
+                 (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, '--trail: needs a value'),
                  (('--time-step', '0,5'), 2, 'use a decimal point'), (('Euler',), 2, 'only one METHOD'),
                  (('--bag', '/nowhere/x.bag'), 1, '/nowhere/x.bag')]
         for arguments, status, message in cases:

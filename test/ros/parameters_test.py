@@ -4,10 +4,13 @@ import time
 import unittest
 
 import rosgraph
+import rospy
 import rostest
 import yaml
+from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import Folder, PendulumNode, project, read_frames, run_exercise, wait_until
+from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
+                              wait_until)
 
 
 class Parameters(unittest.TestCase):
@@ -23,6 +26,38 @@ class Parameters(unittest.TestCase):
                 self.assertIn(case['says'], node.lines('FATAL')[0])
                 if case.get('status', 2) == 2:
                     self.assertIn('/pendulum: ', node.lines('FATAL')[0])
+
+    def test_extremes_work_or_are_refused_in_one_line(self):
+        numbers = [5e-324, 1e300]
+        counts = ['2147483648', '9223372036854775807']
+        extremes = {
+            **{name: numbers for name in ('display_rate', 'trail', 'y_offset', 'real_time_factor',
+                                          'wait_timeout')},
+            **{name: counts for name in ('display_limit', 'text_row', 'text_rows',
+                                         'wait_for_subscribers')},
+            'y_offset': [-1e300, 1e300],
+            'follow': ['no topic', '/', 'a' * 10000],
+            'frame_id': ['a' * 10000, '\u00e4'],
+            'camera_frame': ['a' * 10000],
+        }
+        markers = Listener('markers', MarkerArray, keep=1)
+        for name, values in extremes.items():
+            for value in values:
+                parameters = {'frames': 3, 'real_time_factor': 1.0, name: value}
+                if name == 'wait_timeout':
+                    parameters['wait_for_subscribers'] = 5
+                with PendulumNode(**parameters) as node:
+                    waits_for_ever = name in ('follow', 'real_time_factor', 'wait_timeout',
+                                              'wait_for_subscribers')
+                    wait_until(lambda: node.process.poll() is not None or
+                               waits_for_ever and 'no frame files' in node.output(), 'an answer')
+                    node.interrupt()
+                    case = (name, value, node.wait(), node.output())
+                    if case[2] != 0:
+                        self.assertEqual(case[2], 2, case)
+                        self.assertEqual(len(node.output().strip().splitlines()), 1, case)
+                        self.assertIn(name, node.lines('FATAL')[0], case)
+        markers.close()
 
     def test_the_unknown_one_is_told_all_known_ones(self):
         with PendulumNode(bogus=1) as node:
@@ -95,4 +130,5 @@ class Parameters(unittest.TestCase):
 
 
 if __name__ == '__main__':
+    rospy.init_node('parameters_test')
     rostest.rosrun('spring_pendulum', 'parameters', Parameters)
