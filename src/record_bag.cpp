@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -81,6 +83,9 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");
-    return failure.status;
+    std::fflush(stdout);
+    // A bag that could not be written cannot be closed either (see recordBag): at a regular exit, the
+    // plugin loader of Debian 13's rosbag warns of the objects that are left.
+    std::_Exit(failure.status);
   }
 }
