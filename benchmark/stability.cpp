@@ -40,7 +40,7 @@ double onScale(double least, double most, int cell, int cells) {
 std::vector<const Method*> fixedStepMethods() {
   std::vector<const Method*> methods;
   for (const Method& method : methodTable()) {
-    if (method.control == StepControl::kFixed) methods.push_back(&method);
+    if (method.hasFixedStep()) methods.push_back(&method);
   }
   return methods;
 }

@@ -62,7 +62,7 @@ std::vector<int> referenceTimes(const std::string& scene) {
 std::string measure(const Case& one) {
   const test::Scene scene = test::referenceScene(one.scene);
   const double tolerance = std::pow(10.0, -one.exponent);
-  const auto integrator = makeIntegrator(one.method->name, scene.chain, {tolerance});
+  const auto integrator = makeIntegrator(*one.method, scene.chain, {tolerance});
   State state = scene.start;
   double worst = 0.0;
   int worst_time = 0;
@@ -104,7 +104,7 @@ bool runCase(const Case& one, double limit, ResultFile& file) {
 /// As `measure`, against the oracle.
 std::string measureRandom(const test::Scene& scene, const test::ExactMotion& exact,
                           const Method& method, double tolerance) {
-  const auto integrator = makeIntegrator(method.name, scene.chain, {tolerance});
+  const auto integrator = makeIntegrator(method, scene.chain, {tolerance});
   State state = scene.start;
   double worst = 0.0;
   int worst_at = 0;
@@ -161,7 +161,7 @@ bool runRandomScenes(const Options& options) {
     if (!exact) ++unsolved;
     if (!exact) continue;
     for (const Method& method : methodTable()) {
-      if (method.control != StepControl::kErrorControlled) continue;
+      if (method.hasFixedStep()) continue;
       if (!options.peer.empty() && method.name != options.peer) continue;
       all_kept = runRandomScene(seed, method, *exact, options.smoke ? 5 : 9, file) && all_kept;
     }
@@ -182,7 +182,7 @@ int run(const Options& options) {
     if (!options.scene.empty() && scene != options.scene) continue;
     if (options.smoke && scene != std::string("horizontal_11")) continue;
     for (const Method& method : methodTable()) {
-      if (method.control != StepControl::kErrorControlled) continue;
+      if (method.hasFixedStep()) continue;
       if (!options.peer.empty() && method.name != options.peer) continue;
       for (int exponent = 3; exponent <= (options.smoke ? 5 : 10); ++exponent) {
         all_kept = runCase({scene, &method, exponent}, options.limit, file) && all_kept;

@@ -43,7 +43,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Switches switches = parseCommandLine(static_cast<int>(pointers.size()), pointers.data(),
                                                {"Exercise3", "", ""}, options, scenario);
     if (!switches.answer.empty()) return 0;
-    findMethod(scenario.method);
     require(scenario.frames >= 1 && scenario.time_step > 0.0, "values in range");
   } catch (const InputError& error) {
     require(*error.what() != '\0', "a message");

@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Scenario scenario;
     OptionSet options(scenarioOptions(scenario));
     setOptions(text, options);
-    checkScenario(scenario, options);
+    checkScenario(scenario);
     require(scenario.frames >= 1 && scenario.steps_per_frame >= 1, "counts from 1 on");
     require(isAtLeastZero(scenario.stiffness) && isAtLeastZero(scenario.damping) &&
                 isAtLeastZero(scenario.rest_length) && std::isfinite(scenario.gravity),

@@ -1,4 +1,4 @@
-// The exercise: carries a chain of particles through time and writes a file a frame.
+// The exercise: integrates the motion of a chain of particles and writes one file per frame.
 #include "io/command_line.hpp"
 #include "io/failure.hpp"
 #include "io/interruption.hpp"
@@ -12,7 +12,6 @@
 #include "simulation/sleep.hpp"
 #include "simulation/stability_warning.hpp"
 #include "simulation/work.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -27,13 +26,13 @@
 namespace spring_pendulum {
 namespace {
 
-/// What the closing line tells.
+/// Numbers for the closing line.
 struct Summary {
   std::int64_t frames = 0;
   double seconds = 0.0;
 };
 
-/// The simulation loop: advance, judge, hand the frame to the files that are wanted.
+/// The simulation loop: advances the state, judges it, and writes the frame.
 Summary simulate(const Scenario& scenario, State& state, Integrator& integrator,
                  RunMonitor& monitor, RunFiles& files) {
   const auto start = std::chrono::steady_clock::now();
@@ -51,7 +50,7 @@ Summary simulate(const Scenario& scenario, State& state, Integrator& integrator,
       files.write(summary.frames, state, monitor.energyEntry(), monitor.positionError().now);
       progress.show(++summary.frames);
     }
-  } catch (const Interrupted&) {  // inside a frame, which is given up
+  } catch (const Interrupted&) {  // inside a frame, which is discarded
   }
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return summary;
@@ -64,7 +63,6 @@ std::string counted(std::int64_t count, const char* noun) {
 void printSummary(const Scenario& scenario, const Summary& summary, const Chain& chain,
                   const SleepingIntegrator& integrator, const RunFiles& files,
                   const RunMonitor& monitor) {
-  const bool fixed = findMethod(scenario.method).control == StepControl::kFixed;
   const std::int64_t slept = integrator.sleptCalls();
   const std::int64_t steps =
       std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
@@ -72,10 +70,10 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
   printOutput(fmt::format(
       "{}{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, {:.3f} s reference run, "
       "{}, verdict: {}\n",
-      scenario.method, report.empty() ? "" : " (" + report + ")", counted(chain.size(), "particle"),
-      counted(summary.frames, "frame"),
+      scenario.method->name, report.empty() ? "" : " (" + report + ")",
+      counted(chain.size(), "particle"), counted(summary.frames, "frame"),
       slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
-      fixed ? counted(steps, "step") + ", " : "",
+      scenario.method->hasFixedStep() ? counted(steps, "step") + ", " : "",
       counted(integrator.forceEvaluations(), "force evaluation"),
       std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0),
       files.secondsWriting(), files.destination(), monitor.seconds(), monitor.measurements(),
@@ -86,7 +84,7 @@ void warn(const std::string& text) {
   if (!text.empty()) printError("warning: " + text + "\n");
 }
 
-/// The warning or error on standard error, and the exit status.
+/// Prints the warning or error to standard error. \returns the exit status
 int conclude(const Scenario& scenario, const Chain& chain, const State& start,
              const RunMonitor& monitor) {
   const Verdict& verdict = monitor.verdict();

@@ -1,4 +1,4 @@
-// The ROS node: carries a chain through time, writes its frames and shows it.
+// The ROS node: integrates the motion of a chain, writes its frames and shows it.
 #include "io/failure.hpp"
 #include "io/interruption.hpp"
 #include "io/standard_streams.hpp"
@@ -21,9 +21,9 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kLastMessages = 0.5;  // s for the last messages to leave the node
+constexpr double kLastMessages = 0.5;  // s, for sending the last messages
 
-/// The frame loop: advance, judge, hand the state to each output that is wanted.
+/// The frame loop: advances the run, writes the frame, and publishes the state.
 void play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& files, RunLog& log,
           Totals& totals) {
   ParameterWatch parameters;
@@ -49,7 +49,7 @@ void play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& file
   }
 }
 
-/// A parameter that is refused may come from an earlier run: it stays on the ROS master.
+/// An invalid parameter may come from an earlier run, as parameters stay on the ROS master.
 NodeConfiguration readConfiguration() {
   try {
     return readPrivateParameters();
@@ -61,7 +61,7 @@ NodeConfiguration readConfiguration() {
   }
 }
 
-/// Simulated time between two states shown, s.
+/// Simulated time between two shown states, s.
 double displayInterval(const NodeOptions& options) {
   const bool smooth = options.display_rate > 0.0 && options.real_time_factor > 0.0;
   return smooth ? options.real_time_factor / options.display_rate : 0.0;
@@ -77,8 +77,9 @@ int runNode() {
   RunLog log;
   log.start(run, options, files);
   if (!configuration.unused.empty()) {
-    ROS_INFO_STREAM(scenario.method << " does not use "
-                                    << fmt::format("{}", fmt::join(configuration.unused, ", ")));
+    ROS_INFO_STREAM(scenario.method->name
+                    << " does not use "
+                    << fmt::format("{}", fmt::join(configuration.unused, ", ")));
   }
 
   ros::NodeHandle node, private_node("~");
@@ -87,11 +88,11 @@ int runNode() {
   Player player(node, private_node, run, options, registration);
   registration.keep();
   publisher.waitForSubscribers(options);
-  catchInterruptions();  // from now on ROS lives on after a signal, until the files are closed
+  catchInterruptions();  // from now on ROS continues after a signal until the files are closed
   Totals totals;
   try {
     play(run, player, publisher, files, log, totals);
-  } catch (const Interrupted&) {  // inside a frame, which is given up
+  } catch (const Interrupted&) {  // inside a frame, which is discarded
   }
   files.finish();
   log.finish(run, totals, files, publisher);
@@ -106,10 +107,10 @@ int runNode() {
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
   prepareProcess();
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a message is seen when it is said, also in a file
-  // roscpp's own handler would end ROS before the files are closed and the closing line is out.
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffered, also in a file
+  // The handler of roscpp would end ROS before the files are closed and the closing line is logged.
   ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
-  // Without a master, ROS waits for one for ever; only a shutdown ends that.
+  // Without a master, ROS waits until it is shut down.
   catchInterruptions(ros::requestShutdown);
   ros::NodeHandle keeps_ros_started;
   try {

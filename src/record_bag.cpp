@@ -1,5 +1,5 @@
-// Writes the messages of a run straight into a bag: no master, no waiting, simulated time as
-// stamps, the same bytes in every run.
+// Writes the messages of a run directly to a bag: without a master, as fast as possible, stamped
+// with simulated time, and with the same bytes in every run.
 #include "io/command_line.hpp"
 #include "io/failure.hpp"
 #include "io/interruption.hpp"
@@ -22,13 +22,13 @@
 namespace spring_pendulum {
 namespace {
 
-/// What is asked for besides, or instead of, a bag.
+/// Prints the output of --report-skips and --check.
 void report(const Scenario& scenario, bool track_energy, const Switches& switches) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   checkTolerance(scenario, chain, particles.state);
   const auto integrator =
-      makeIntegrator(scenario.method, chain, integratorOptions(scenario, track_energy));
+      makeIntegrator(*scenario.method, chain, integratorOptions(scenario, track_energy));
   if (switches.report_skips) {
     for (const std::string& skipped : skippedWork(scenario, *integrator, track_energy)) {
       printOutput(fmt::format("skipped: {}\n", skipped));
@@ -61,11 +61,11 @@ int record(int argc, const char* const* argv) {
   bag.config = switches.config;
   catchInterruptions();
   const BagSummary summary = recordBag(scenario, display, bag);
-  printOutput(
-      fmt::format("{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}\n",
-                  scenario.method, summary.frames, summary.messages, summary.bytes, summary.path,
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                  summary.measurements, summary.verdict.text));
+  printOutput(fmt::format(
+      "{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}\n",
+      scenario.method->name, summary.frames, summary.messages, summary.bytes, summary.path,
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+      summary.measurements, summary.verdict.text));
   if (summary.verdict.kind == VerdictKind::kDiverged) return kDiverged;
   return interruption() == 0 ? kDone : kSignalled + interruption();
 }

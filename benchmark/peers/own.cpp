@@ -58,7 +58,7 @@ class OwnPeer : public Peer {
 std::vector<PeerRow> ownRows() {
   std::vector<PeerRow> rows;
   for (const Method& method : methodTable()) {
-    const bool fixed = method.control == StepControl::kFixed;
+    const bool fixed = method.hasFixedStep();
     rows.push_back({"own", std::string(method.name),
                     fixed ? Stepping::kFixed : Stepping::kErrorControlled,
                     method.name == "Runge-Kutta-4", makerOf<OwnPeer>(method.name)});

@@ -68,7 +68,7 @@ std::unique_ptr<Integrator> makeAuto(const Method&, const Chain& chain,
   return makeErrorControlled<AutoStepper>(chain, options);
 }
 
-// NOLINTNEXTLINE(readability-function-size): a table
+// NOLINTNEXTLINE(readability-function-size): data
 std::deque<Method> builtInMethods() {
   return {
       {"Euler", 1, 1, StepControl::kFixed, 2.0, 0.0,
@@ -177,8 +177,7 @@ void checkMethod(const Method& method) {
   if (method.tableau == nullptr && !method.make) refuse("needs a tableau or a factory");
   if (method.tableau == nullptr) return;
   checkTableau(method);
-  if (!method.make && method.control != StepControl::kFixed)
-    refuse("a tableau alone has fixed steps");
+  if (!method.make && !method.hasFixedStep()) refuse("a tableau alone has fixed steps");
   if (!method.make && static_cast<std::size_t>(method.stages) != method.tableau->stages) {
     refuse("stages must be those of the tableau");
   }
@@ -215,18 +214,22 @@ const Method& findMethod(std::string_view name) {
   throw InputError(fmt::format("unknown method '{}': known are {}", name, knownMethodNames()));
 }
 
-std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
+std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& chain,
                                            const IntegratorOptions& options) {
-  const Method& row = findMethod(method);
   if (chain.size() < 1) throw InputError("the chain has no particles: it was moved from");
-  if (row.control == StepControl::kErrorControlled) {
+  if (!method.hasFixedStep()) {
     requireFinitePositive("tolerance", options.tolerance, "m");
   }
   requireAtLeastZero("threads", options.threads);
-  std::unique_ptr<Integrator> integrator = row.make(row, chain, options);
+  std::unique_ptr<Integrator> integrator = method.make(method, chain, options);
   if (!integrator)
-    throw InputError(fmt::format("the factory of method '{}' made nothing", row.name));
+    throw InputError(fmt::format("the factory of method '{}' made nothing", method.name));
   return integrator;
+}
+
+std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
+                                           const IntegratorOptions& options) {
+  return makeIntegrator(findMethod(method), chain, options);
 }
 
 }  // namespace spring_pendulum

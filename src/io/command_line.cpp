@@ -47,7 +47,7 @@ void addWithValue(po::options_description& description, const std::string& name,
                             help.c_str());
 }
 
-/// All options but METHOD, for the parser and for the help text.
+/// All options except METHOD, for the parser and the help text.
 po::options_description describe(const OptionSet& options) {
   po::options_description description("Options", kLineLength, kLineLength / 2);
   addWithValue(description, "config", "FILE",
@@ -84,7 +84,7 @@ std::string listOfMethods() {
   std::string lists[2] = {"Methods with a fixed step (--time-step, --steps-per-frame):\n",
                           "\nError-controlled methods (--tolerance, --frame-interval):\n"};
   for (const Method& method : methodTable()) {
-    lists[method.control == StepControl::kFixed ? 0 : 1] +=
+    lists[method.hasFixedStep() ? 0 : 1] +=
         fmt::format("  {:<20} order {}\n      {}\n", method.name, method.order, method.use);
   }
   return lists[0] + lists[1];
@@ -120,12 +120,12 @@ bool has(const std::vector<po::option>& given, std::string_view name) {
                      [&](const po::option& option) { return option.string_key == name; });
 }
 
-/// \return the keys that were set
+/// \returns the keys that were set
 std::vector<std::string_view> setOptions(const std::vector<po::option>& given, OptionSet& options) {
   std::vector<std::string_view> keys;
   bool has_method = false;
   for (const po::option& argument : given) {
-    if (argument.string_key.empty()) {  // it stands for itself
+    if (argument.string_key.empty()) {  // a positional argument
       const std::string& method = argument.value.front();
       if (has_method) throw InputError(fmt::format("'{}': give only one METHOD", method));
       has_method = true;
@@ -142,21 +142,21 @@ std::vector<std::string_view> setOptions(const std::vector<po::option>& given, O
   return keys;
 }
 
-/// On the command line, unlike in a file, an option that has no effect is a mistake.
+/// On the command line, unlike in a file, an option without effect is an error.
 void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& options,
                   const Scenario& scenario) {
   const std::vector<std::string_view> unused = unusedKeys(scenario, options);
   for (const std::string_view key : keys) {
     if (std::find(unused.begin(), unused.end(), key) == unused.end()) continue;
-    const bool fixed = findMethod(scenario.method).control == StepControl::kFixed;
-    throw InputError(fmt::format("--{}: {} {}", optionName(key), scenario.method,
-                                 fixed ? "takes fixed steps; use --time-step and --steps-per-frame"
-                                       : "chooses its own steps; use --tolerance and "
-                                         "--frame-interval"));
+    throw InputError(fmt::format("--{}: {} {}", optionName(key), scenario.method->name,
+                                 scenario.method->hasFixedStep()
+                                     ? "takes fixed steps; use --time-step and --steps-per-frame"
+                                     : "chooses its own steps; use --tolerance and "
+                                       "--frame-interval"));
   }
 }
 
-/// \return the path of the file, empty if there is none
+/// \returns the path of the file; empty: none
 std::string readConfig(const std::vector<po::option>& given, OptionSet& options) {
   std::string path;
   for (const po::option& option : given) {
@@ -187,7 +187,7 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
     throw InputError(fmt::format("METHOD is missing; try: {} {} (--help lists the options)",
                                  program.name, program.example));
   }
-  checkScenario(scenario, options);
+  checkScenario(scenario);
   refuseUnused(keys, options, scenario);
   return {has(given, "check"), has(given, "report-skips"), "", config};
 }

@@ -9,7 +9,7 @@ Scenario parseScenario(std::string_view text, std::string_view name) {
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   parseOptions(text, name, options);
-  checkScenario(scenario, options);
+  checkScenario(scenario);
   return scenario;
 }
 

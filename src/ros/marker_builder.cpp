@@ -13,27 +13,28 @@ namespace {
 
 enum MarkerIndex : std::size_t { kSprings, kParticles, kAnchor, kTrail, kText, kGrid, kReference };
 
-/// rviz has been seen to crash on a LINE_STRIP of more than 16384 points.
+/// rviz crashed with a LINE_STRIP of more than 16384 points.
 constexpr std::size_t kMostTrailPoints = 4096;
 
-// Sizes in parts of the picture's size, so that scenes of any size look alike.
+// Sizes relative to the picture, so that scenes of any size look alike.
 constexpr double kLeastDiameter = 0.009;
 constexpr double kLargestDiameter = 0.036;
-constexpr double kDiameterShare = 0.35;  ///< of the picture over the number of particles
+constexpr double kDiameterShare = 0.35;  ///< in sizes of the picture per particle
 constexpr double kSpringWidth = 0.35;    ///< in diameters
 constexpr double kLeastWidth = 0.0035;
-constexpr int kTextLines = 3;  ///< of a chain that has the picture to itself
+constexpr int kTextLines = 3;  ///< lines of text if only one chain is shown
 constexpr double kGridWidth = 0.0015;
 constexpr double kReferenceDepth = 0.004;
-constexpr double kGridDepth = 0.02;  ///< behind the plane of the motion
-constexpr double kGridReach = 1.5;   ///< beyond the scene, for windows wider than it
+constexpr double kGridDepth = 0.02;  ///< distance behind the plane of the motion
+constexpr double kGridReach = 1.5;   ///< in widths of the scene, for wide windows
 
-/// Length over rest length less 1; in m for a spring without rest length.
+/// Strain: length over rest length minus 1; length in m if the rest length is 0.
 double strainOf(double length, double rest_length) {
   return rest_length > 0.0 ? length / rest_length - 1.0 : length;
 }
 
-/// The strain shown in full colour: twice what the whole chain's weight gives the first spring.
+/// The strain shown in full colour: twice the strain of the first spring under the weight of the
+/// chain.
 double fullColorStrain(const Chain& chain) {
   const SpringLaw& spring = chain.spring();
   const double weight = chain.masses().tail(chain.size() - 1).sum() * std::abs(chain.gravity());
@@ -82,7 +83,7 @@ geometry_msgs::Point pointAt(double x, double y, double z) {
   return point;
 }
 
-/// The texts that are not empty, with commas between them.
+/// Joins the texts that are not empty with commas.
 std::string joined(std::initializer_list<std::string> texts) {
   std::string all;
   for (const std::string& text : texts) {
@@ -92,7 +93,7 @@ std::string joined(std::initializer_list<std::string> texts) {
   return all;
 }
 
-/// rviz complains about a list without points.
+/// rviz reports an error for a list without points.
 void hideIfEmpty(visualization_msgs::Marker& marker) {
   marker.action = marker.points.size() < 2 ? visualization_msgs::Marker::DELETE
                                            : visualization_msgs::Marker::ADD;
@@ -121,7 +122,7 @@ MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
   }
   markers_.markers[kAnchor].color = anchorColor();
   markers_.markers[kAnchor].pose.position = pointOf(run.start(), 0);
-  // rviz blends a line only if its own colour is not opaque.
+  // rviz blends a line only if the colour of the marker is not opaque.
   markers_.markers[kTrail].color.a = 0.5F;
   markers_.markers[kGrid].color = gridColor();
   if (!options.color.empty()) markers_.markers[kText].color = *parseColor(options.color);
@@ -161,7 +162,7 @@ void MarkerBuilder::placeText() {
 void MarkerBuilder::drawGrid() {
   auto& grid = markers_.markers[kGrid];
   grid.points.clear();
-  if (options_.text_row != 0) return;  // the chain of the first row draws it
+  if (options_.text_row != 0) return;  // the node of the first row draws the grid
   const Box& box = view_->box();
   const double distance = view_->gridDistance(), size = view_->size();
   const double y = options_.y_offset + kGridDepth * size;
@@ -185,7 +186,7 @@ geometry_msgs::TransformStamped MarkerBuilder::camera(const std_msgs::Header& he
   transform.transform.translation.x = view_->box().centerX();
   transform.transform.translation.y = options_.y_offset - view_->cameraDistance();
   transform.transform.translation.z = view_->cameraHeight();
-  // A quarter turn around z: the camera's x axis, along which rviz looks, is the y axis.
+  // Rotation by 90 degrees about z: the x axis of the camera, its viewing direction, is the y axis.
   transform.transform.rotation.z = transform.transform.rotation.w = std::sqrt(0.5);
   return transform;
 }
@@ -258,7 +259,7 @@ void MarkerBuilder::drawReference(const PendulumRun& run) {
       reference.points.push_back(pointOf(*state, drawn_[n]));
     }
   }
-  // A little behind, so that it does not flicker through the chain.
+  // Slightly behind the chain, to avoid flicker.
   for (geometry_msgs::Point& point : reference.points) point.y += kReferenceDepth * view_->size();
   hideIfEmpty(reference);
 }
@@ -304,7 +305,7 @@ int MarkerBuilder::textLines() const {
 
 void MarkerBuilder::label(const PendulumRun& run, double time, const std::string& pace) {
   const Scenario& scenario = run.scenario();
-  const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
+  const bool fixed_step = scenario.method->hasFixedStep();
   const EnergyEntry entry = run.energyEntry();
   const std::string clock = fmt::format("t = {:.2f} s", time);
   const std::string error =
@@ -318,10 +319,10 @@ void MarkerBuilder::label(const PendulumRun& run, double time, const std::string
   }
   std::string& text = markers_.markers[kText].text;
   if (options_.text_rows > 1) {
-    text = joined({scenario.method + ": " + clock, position, error, verdict});
+    text = joined({scenario.method->name + ": " + clock, position, error, verdict});
     return;
   }
-  text = joined({scenario.method,
+  text = joined({scenario.method->name,
                  fixed_step ? fmt::format("time step {:.3g} s", scenario.time_step)
                             : fmt::format("tolerance {:.3g} m", scenario.tolerance),
                  clock}) +

@@ -36,14 +36,14 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
     for (auto& [key, value] : parameters) {
       const std::string text = parameterText(value, key, where);
       const std::string place = fmt::format("{}: {}", where, key);
-      if (key == "output" && text.empty()) {  // a launch file can't leave a parameter out
+      if (key == "output" && text.empty()) {  // a launch file can't omit a parameter
         options.set(options.find("no_frames", where), "true", place);
       } else {
         options.set(options.find(key, where), text, place);
       }
     }
   }
-  checkScenario(configuration.scenario, options);
+  checkScenario(configuration.scenario);
   for (const std::string_view key : unusedKeys(configuration.scenario, options)) {
     configuration.unused.emplace_back(key);
   }

@@ -3,7 +3,6 @@
 #include "io/interruption.hpp"
 #include "simulation/interruptible.hpp"
 #include "simulation/sleep.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +10,15 @@
 namespace spring_pendulum {
 namespace {
 
-/// More than this no display needs, and no integer overflows.
+/// More than any display needs, and small enough that no integer overflows.
 constexpr double kMostParts = 1024.0;
 
-/// How many states a frame is shown with.
+/// Number of states shown per frame.
 std::int64_t partsPerFrame(const FrameSteps& frame, bool fixed_step, double display_interval) {
   if (display_interval <= 0.0) return 1;
   const double wanted = std::clamp(frame.timeOfFrame(1) / display_interval, 1.0, kMostParts);
   if (fixed_step) {
-    // A hair below, so that a frame of exactly 3 intervals has 3 parts and not 4.
+    // Slightly less, so that a frame of exactly 3 intervals has 3 parts and not 4.
     return std::min(static_cast<std::int64_t>(std::ceil(wanted - 1e-9)), frame.steps);
   }
   std::int64_t parts = 1;
@@ -41,8 +40,8 @@ PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, b
           makeInterruptible(scenario, chain_, start_, monitor_.tracksDissipation(),
                             [] { return interruption() != 0; }),
           chain_, scenario.sleep)) {
-  const bool fixed_step = findMethod(scenario.method).control == StepControl::kFixed;
-  // Whether a chain falls asleep is asked once a call: with more calls the frames could differ.
+  const bool fixed_step = scenario.method->hasFixedStep();
+  // `sleep` is checked once per call of `advance`: more calls could change the frames.
   if (scenario.sleep == 0.0) parts_ = partsPerFrame(frame_steps_, fixed_step, display_interval);
   if (!fixed_step) {
     frame_steps_ = {scenario.frame_interval / static_cast<double>(parts_), parts_};
@@ -99,7 +98,7 @@ std::int64_t PendulumRun::steps() const {
 }
 
 std::int64_t PendulumRun::stepOfPart(std::int64_t part) const {
-  // part * steps / parts, but without a product that could overflow.
+  // part * steps / parts without overflow of the product.
   const std::int64_t quotient = frame_steps_.steps / parts_;
   const std::int64_t remainder = frame_steps_.steps % parts_;
   return part * quotient + part * remainder / parts_;

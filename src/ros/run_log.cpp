@@ -2,7 +2,6 @@
 
 #include "simulation/memory.hpp"
 #include "simulation/stability_warning.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
@@ -14,15 +13,11 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr int kMostChoices = 5;  ///< changes of Auto's method that are said
+constexpr int kMostChoices = 5;  ///< number of logged choices of Auto
 
-bool isFixedStep(const PendulumRun& run) {
-  return findMethod(run.scenario().method).control == StepControl::kFixed;
-}
-
-/// Tells of a display rate above the number of states that a fixed step gives.
-void tellOfDisplayRate(const PendulumRun& run, const NodeOptions& options) {
-  if (!isFixedStep(run) || options.real_time_factor <= 0.0) return;
+/// Logs that the display rate exceeds the number of states that a fixed step gives.
+void logDisplayRate(const PendulumRun& run, const NodeOptions& options) {
+  if (!run.scenario().method->hasFixedStep() || options.real_time_factor <= 0.0) return;
   const double states = options.real_time_factor / run.scenario().time_step;
   if (options.display_rate <= states * (1.0 + 1e-9)) return;
   ROS_INFO_STREAM(fmt::format(
@@ -31,7 +26,7 @@ void tellOfDisplayRate(const PendulumRun& run, const NodeOptions& options) {
       options.display_rate, run.scenario().time_step, states, options.real_time_factor));
 }
 
-/// The end of "Taylor-8 for 3.2 s, Radau-9 for 1 s, 1 switch", which changes with every choice.
+/// The end of a report, such as "1 switch", which changes with every choice of Auto.
 std::string switchesOf(const std::string& report) {
   const std::size_t comma = report.rfind(", ");
   return comma == std::string::npos ? report : report.substr(comma + 2);
@@ -45,8 +40,9 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
   return fmt::format(
       "{}{}: {} particles, {} frames, {}{} force evaluations, {:.3f} s integrating, {:.3f} s "
       "writing {} frames, {} marker and {} state messages built, {}, verdict: {}",
-      run.scenario().method, report.empty() ? "" : " (" + report + ")", run.chain().size(),
-      totals.frames, isFixedStep(run) ? fmt::format("{} steps, ", totals.steps) : "",
+      run.scenario().method->name, report.empty() ? "" : " (" + report + ")", run.chain().size(),
+      totals.frames,
+      run.scenario().method->hasFixedStep() ? fmt::format("{} steps, ", totals.steps) : "",
       run.integrator().forceEvaluations(), totals.seconds, files.secondsWriting(),
       files.framesWritten(), publisher.markersBuilt(), publisher.statesBuilt(), run.measurements(),
       run.verdict().text);
@@ -55,15 +51,15 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
 void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {
   holds_ = options.at_end == AtEnd::kHold;
   const Scenario& scenario = run.scenario();
-  ROS_INFO_STREAM(
-      scenario.method << " on "
-                      << std::filesystem::absolute(scenario.particles).lexically_normal().string()
-                      << ", " << files.description());
+  ROS_INFO_STREAM(scenario.method->name
+                  << " on "
+                  << std::filesystem::absolute(scenario.particles).lexically_normal().string()
+                  << ", " << files.description());
   const std::string warning = stabilityWarning(run.chain(), run.start(), scenario);
   if (!warning.empty()) ROS_WARN_STREAM(warning);
   const std::string memory = memoryRemark(scenario, run.chain().size());
   if (!memory.empty()) ROS_INFO_STREAM(memory);
-  tellOfDisplayRate(run, options);
+  logDisplayRate(run, options);
   if (!options.follow.empty()) {
     ROS_INFO_STREAM("waiting for states of another node on " << options.follow << " (follow)");
   }
@@ -105,7 +101,7 @@ void RunLog::sayChoice(const PendulumRun& run) {
   if (choice.empty() || choice == said_choice_) return;
   said_choice_ = choice;
   ++choices_said_;
-  ROS_INFO_STREAM(run.scenario().method << " chose " << report);
+  ROS_INFO_STREAM(run.scenario().method->name << " chose " << report);
 }
 
 }  // namespace spring_pendulum

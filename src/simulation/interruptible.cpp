@@ -14,10 +14,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The number of parts of a thousand million frames is still exact as a double.
+/// Small enough that the number of parts of 1e9 frames is exact as a double.
 constexpr std::int64_t kPartsOfAStep = std::int64_t{1} << 20U;
-// The first piece, until it is known how long one takes: particles times steps, and particles times
-// s of simulated time.
+// Size of the first piece, whose computing time is not known: particles times steps, and particles
+// times simulated seconds.
 constexpr double kFirstSteps = 1e6;
 constexpr double kFirstTime = 1e4;
 constexpr std::chrono::milliseconds kShort{50};
@@ -60,9 +60,8 @@ std::unique_ptr<Integrator> makeInterruptible(const Scenario& scenario, const Ch
                                               std::function<bool()> is_interrupted) {
   checkTolerance(scenario, chain, start);
   return std::make_unique<InterruptibleIntegrator>(
-      makeIntegrator(scenario.method, chain, integratorOptions(scenario, track_dissipation)),
-      findMethod(scenario.method).control == StepControl::kErrorControlled, chain.size(),
-      std::move(is_interrupted));
+      makeIntegrator(*scenario.method, chain, integratorOptions(scenario, track_dissipation)),
+      !scenario.method->hasFixedStep(), chain.size(), std::move(is_interrupted));
 }
 
 }  // namespace spring_pendulum

@@ -20,7 +20,7 @@ constexpr double kBytesOfReference = 2.0 * 2200.0;
 constexpr double kMuch = 5e8;
 
 std::string needOf(const Scenario& scenario, Eigen::Index particles) {
-  return fmt::format("{} takes up to {:.2f} GB of memory for {} particles", scenario.method,
+  return fmt::format("{} takes up to {:.2f} GB of memory for {} particles", scenario.method->name,
                      1e-9 * expectedMemory(scenario, particles), particles);
 }
 
@@ -29,7 +29,7 @@ std::string needOf(const Scenario& scenario, Eigen::Index particles) {
 double expectedMemory(const Scenario& scenario, Eigen::Index particles) {
   const double reference = scenario.reference == ReferenceUse::kAlways ? kBytesOfReference : 0.0;
   return static_cast<double>(particles) *
-         (kBytesPerParticle + findMethod(scenario.method).bytes_per_particle + reference);
+         (kBytesPerParticle + scenario.method->bytes_per_particle + reference);
 }
 
 double usableMemory() {

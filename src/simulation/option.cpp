@@ -82,6 +82,12 @@ bool Text::assign(std::string_view text) const {
   return true;
 }
 
+bool MethodName::assign(std::string_view text) const {
+  if (text.empty()) return false;
+  *value = &findMethod(text);
+  return true;
+}
+
 bool Choice::assign(std::string_view text) const {
   const auto word = std::find(words_.begin(), words_.end(), text);
   if (word == words_.end()) return false;
@@ -125,7 +131,8 @@ std::string Option::placeholder() const {
 }
 
 bool Option::isText() const {
-  return std::holds_alternative<Text>(value) || std::holds_alternative<Choice>(value);
+  return std::holds_alternative<Text>(value) || std::holds_alternative<MethodName>(value) ||
+         std::holds_alternative<Choice>(value);
 }
 
 }  // namespace spring_pendulum

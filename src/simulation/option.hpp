@@ -1,6 +1,8 @@
-// One setting of a program. The same row serves the command line, YAML, ROS parameters, launch
-// arguments and the help text.
+// One option of a program. The command line, YAML, ROS parameters, launch arguments and the help
+// text use the same row.
 #pragma once
+
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -12,7 +14,7 @@
 
 namespace spring_pendulum {
 
-/// The numbers that an option accepts. Checks a value and describes itself.
+/// The range of numbers that an option accepts.
 class Range {
  public:
   /// Any finite number.
@@ -36,15 +38,15 @@ class Range {
   double most_;
 };
 
-/// A variable that holds the value of an option, by its kind. Each kind offers
+/// References to the variable of an option, one type per kind of value. Each has the members
 ///   assign(text)   stores the value; false, and nothing stored, if the text is out of range
 ///   text()         the value as text that `assign` accepts
 ///   range()        the accepted values in words
-///   placeholder()  what stands for the value in the help text; empty if its name alone sets it
+///   placeholder()  placeholder for the value in the help text; empty for an option without value
 struct Number {
   double* value;
   Range accepted;
-  std::string_view name = "X";  ///< of the value
+  std::string_view name = "X";  ///< placeholder
 
   bool assign(std::string_view text) const;
   std::string text() const;
@@ -55,7 +57,7 @@ struct Number {
 struct Count {
   std::int64_t* value;
   Range accepted;
-  std::string_view name = "N";  ///< of the value
+  std::string_view name = "N";  ///< placeholder
 
   bool assign(std::string_view text) const;
   std::string text() const;
@@ -70,14 +72,15 @@ struct Flag {
   bool assign(std::string_view text) const;
   std::string text() const { return *value ? "true" : "false"; }
   std::string range() const { return std::string(accepted); }
-  /// The name alone can only turn a flag on, so one that is on by default takes a value.
+  /// `--flag` turns a flag on. A flag that is on by default takes a value, so that it can be turned
+  /// off.
   std::string placeholder() const { return *value ? "true|false" : ""; }
 };
 
 struct Text {
   std::string* value;
-  std::string_view name;      ///< of the value: "FILE"
-  std::string_view accepted;  ///< in words
+  std::string_view name;      ///< placeholder: "FILE"
+  std::string_view accepted;  ///< accepted values in words
   bool (*accepts)(std::string_view) = [](std::string_view text) { return !text.empty(); };
 
   bool assign(std::string_view text) const;
@@ -86,7 +89,18 @@ struct Text {
   std::string placeholder() const { return std::string(name); }
 };
 
-/// One of several words, which stand for the values 0, 1, ... of an enum.
+/// A row of the method table, given by its name.
+struct MethodName {
+  const Method** value;
+
+  /// \throws InputError that lists the known names if there is no such method
+  bool assign(std::string_view text) const;
+  std::string text() const { return (*value)->name; }
+  std::string range() const { return "the name of a method"; }
+  std::string placeholder() const { return "METHOD"; }
+};
+
+/// One of several words, which denote the values 0, 1, ... of an enum.
 class Choice {
  public:
   template <typename Enum>
@@ -106,19 +120,19 @@ class Choice {
   std::function<void(std::size_t)> store_;
 };
 
-/// Text that may be empty.
+/// Accepts any text, also empty text.
 inline bool anyText(std::string_view) {
   return true;
 }
 
-/// The methods for which an option has a meaning.
+/// The methods that use an option.
 enum class AppliesTo { kAllMethods, kFixedStep, kErrorControlled };
 
 /// One option: `time_step` in YAML, `--time-step` on the command line, `_time_step` in ROS.
 struct Option {
   std::string_view key;
-  std::variant<Number, Count, Flag, Text, Choice> value;
-  std::string_view unit;  ///< empty if it has none
+  std::variant<Number, Count, Flag, Text, MethodName, Choice> value;
+  std::string_view unit;  ///< empty: none
   std::string meaning;    ///< one line
   AppliesTo applies_to = AppliesTo::kAllMethods;
 

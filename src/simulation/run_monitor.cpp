@@ -14,34 +14,30 @@
 namespace spring_pendulum {
 namespace {
 
-/// Particles times stages of all steps whose energy balance is expected to take 50 ms.
+/// Particles times stages times steps whose energy balance takes about 50 ms.
 constexpr double kCheapWork = 1e7;
-/// Particles from which on the kernels of the explicit Runge-Kutta methods track the dissipated
-/// energy for less than 10 % of a run.
+/// Number of particles above which the kernels of explicit Runge-Kutta methods track the dissipated
+/// energy at a cost of less than 10 %.
 constexpr Eigen::Index kLongChain = 100;
-/// The same as kCheapWork for an error-controlled method: particles times steps.
+/// Like kCheapWork for error-controlled methods: particles times steps.
 constexpr double kCheapSteps = 8e5;
-/// Promised of an error-controlled method, in tolerances.
+/// Position error that error-controlled methods promise, in tolerances.
 constexpr double kPromise = 10.0;
-/// Growth of small changes from which on a motion is too sensitive for that promise.
+/// Growth of perturbations above which a motion is too sensitive for this promise.
 constexpr double kSensitiveGrowth = 100.0;
 
-bool isFixed(const Scenario& scenario) {
-  return findMethod(scenario.method).control == StepControl::kFixed;
-}
-
 double toleranceOf(const Scenario& scenario) {
-  return isFixed(scenario) ? std::numeric_limits<double>::infinity() : scenario.tolerance;
+  return scenario.method->hasFixedStep() ? std::numeric_limits<double>::infinity()
+                                         : scenario.tolerance;
 }
 
 JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation) {
-  const bool symplectic = findMethod(scenario.method).symplectic;
-  return {tracks_dissipation, symplectic ? scenario.time_step : 0.0,
-          isFixed(scenario) ? 0.0 : scenario.tolerance};
+  return {tracks_dissipation, scenario.method->symplectic ? scenario.time_step : 0.0,
+          scenario.method->hasFixedStep() ? 0.0 : scenario.tolerance};
 }
 
-/// Steps that an error-controlled method is expected to take: some twenty per second, and more
-/// where springs vibrate or stability limits the steps.
+/// Expected number of steps of an error-controlled method: about twenty per second, and more if
+/// springs vibrate or stability limits the step size.
 double expectedSteps(const Scenario& scenario, const Chain& chain) {
   const double mode = largestSpringMode(chain);  // 1/kg
   const double per_second =
@@ -53,8 +49,9 @@ double expectedSteps(const Scenario& scenario, const Chain& chain) {
 
 bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain) {
   const auto particles = static_cast<double>(chain.size());
-  if (!isFixed(scenario)) return expectedSteps(scenario, chain) * particles <= kCheapSteps;
-  const Method& method = findMethod(scenario.method);
+  if (!scenario.method->hasFixedStep())
+    return expectedSteps(scenario, chain) * particles <= kCheapSteps;
+  const Method& method = *scenario.method;
   if (method.tableau != nullptr && chain.size() >= kLongChain) return true;
   const double steps =
       static_cast<double>(scenario.frames - 1) * static_cast<double>(scenario.steps_per_frame);

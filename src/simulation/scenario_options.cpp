@@ -8,24 +8,12 @@
 #include <limits>
 
 namespace spring_pendulum {
-namespace {
-
-/// \throws InputError with the place where the method was set
-const Method& findGivenMethod(const Scenario& scenario, const OptionSet& options) {
-  try {
-    return findMethod(scenario.method);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", options.placeOf("method"), error.what()));
-  }
-}
-
-}  // namespace
 
 std::vector<Option> scenarioOptions(Scenario& s) {
   constexpr auto kFixedStep = AppliesTo::kFixedStep;
   constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
   return {
-      {"method", Text{&s.method, "METHOD", "the name of a method"}, "", "integration method"},
+      {"method", MethodName{&s.method}, "", "integration method"},
       {"particles", Text{&s.particles, "FILE", "a file"}, "",
        "particle file, one line 'x y m' per particle"},
       {"output", Text{&s.output, "DIR", "a folder"}, "",
@@ -61,18 +49,17 @@ std::vector<Option> scenarioOptions(Scenario& s) {
   };
 }
 
-void checkScenario(const Scenario& scenario, const OptionSet& options) {
-  const Method& method = findGivenMethod(scenario, options);
+void checkScenario(const Scenario& scenario) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  const std::int64_t steps = method.control == StepControl::kFixed ? scenario.steps_per_frame : 1;
+  const std::int64_t steps = scenario.method->hasFixedStep() ? scenario.steps_per_frame : 1;
   if (scenario.frames <= kMost / steps) return;  // frame times are computed from step counts
   throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
                                kMost, scenario.frames, steps));
 }
 
 std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options) {
-  const bool fixed = findMethod(scenario.method).control == StepControl::kFixed;
-  const AppliesTo other = fixed ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
+  const AppliesTo other =
+      scenario.method->hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
   std::vector<std::string_view> keys;
   for (const Option& option : options.options()) {
     if (option.applies_to == other && options.isGiven(option.key)) keys.push_back(option.key);

@@ -1,4 +1,4 @@
-// The table of the options of a run, and the checks that concern several of them.
+// The table of the options of a run, and checks that involve several options.
 #pragma once
 
 #include "simulation/option_set.hpp"
@@ -10,17 +10,16 @@
 
 namespace spring_pendulum {
 
-/// All options of a scenario, in the order in which they are listed to a user, bound to `scenario`.
-/// Their values at this time are the defaults that the help text shows.
+/// All options of a scenario, bound to `scenario`, in the order of the help text. The help text
+/// shows the current values as defaults.
 std::vector<Option> scenarioOptions(Scenario& scenario);
 
-/// Checks what can only be checked when everything is given.
-/// \param options where `method` was set, for the message
-/// \throws InputError for an unknown method or a run too long to count its steps
-void checkScenario(const Scenario& scenario, const OptionSet& options);
+/// Checks what depends on several options.
+/// \throws InputError if the steps of the run can't be counted in 64 bits
+void checkScenario(const Scenario& scenario);
 
-/// The given options that the method of the scenario does not use: those of the other kind of
-/// stepping.
+/// Returns the given options that the method does not use: options for error-controlled methods if
+/// the method has a fixed step, and the reverse.
 std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options);
 
 }  // namespace spring_pendulum

@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// The linear limit is multiplied by this. Measured on 140 random scenes: without it, the limit
-/// was up to 3.3 times too large (one scene, Semi-Implicit-Euler).
+/// Factor of the linear limit. Measured on 140 random scenes: without it, the limit was up to 3.3
+/// times too large (one scene, Semi-Implicit-Euler).
 constexpr double kLinearMargin = 0.25;
-/// Steps after which a mode that grows has been noticed.
+/// Number of steps in which the growth of an unstable mode becomes visible.
 constexpr double kStepsOfMode = 2000.0;
 
-/// Work of one trial after a divergence: some 0.02 s.
+/// Work of a trial after a divergence: about 0.02 s.
 constexpr double kRemedyWork = 2e6;
 
 bool isStable(const Trial& trial) {
@@ -97,7 +97,7 @@ std::string linearText(const Method& method, const Chain& chain, double duration
       method.name, stepText(linearStepLimit(method, chain, duration)));
 }
 
-/// A way to compute the motion with a wished error.
+/// A method with a step size that reaches a given error.
 struct Candidate {
   const Method* method = nullptr;
   double step = 0.0;  ///< s, or the tolerance in m
@@ -153,7 +153,7 @@ std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
   if (best.method == nullptr) {
     return fmt::format("position error of at most {:.3g} m: no method tried reaches it\n", wanted);
   }
-  const bool fixed = best.method->control == StepControl::kFixed;
+  const bool fixed = best.method->hasFixedStep();
   return fmt::format(
       "position error of at most {:.3g} m: {} with a {} of {} {}, {} force evaluations\n", wanted,
       best.method->name, fixed ? "step size" : "tolerance",
@@ -180,7 +180,7 @@ StepLimits findStepLimits(const Method& method, const Chain& chain, const State&
 double linearStepLimit(const Method& method, const Chain& chain, double duration) {
   requireFinitePositive("duration", duration, "s");
   const double mode = largestSpringMode(chain);
-  if (method.control != StepControl::kFixed || mode == 0.0) return kUnlimited;
+  if (!method.hasFixedStep() || mode == 0.0) return kUnlimited;
   const SpringLaw& spring = chain.spring();
   const double damped =
       stepForMode(method, spring.stiffness * mode, spring.damping * mode, duration);
@@ -188,15 +188,15 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
     const double swing = slowSwing(chain);
     return kLinearMargin * std::min(damped, stepForMode(method, swing * swing, 0.0, duration));
   }
-  // Sideways nothing damps; the tension acts as a stiffness below k_s there.
+  // Transverse motion is undamped; the tension acts as a stiffness below k_s.
   return kLinearMargin *
          std::min(damped, stepForMode(method, spring.stiffness * mode, 0.0, duration));
 }
 
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
   requireSize(chain.size(), start);
-  const Method& method = findMethod(scenario.method);
-  const bool fixed = method.control == StepControl::kFixed;
+  const Method& method = *scenario.method;
+  const bool fixed = method.hasFixedStep();
   const TrialBench bench = benchFor(chain, start, scenario);
   const double duration = bench.duration();
   const Trial trial = bench.run(method, scenario.tolerance, frameSteps(scenario),
@@ -220,10 +220,10 @@ std::string describeStability(const Chain& chain, const State& start, const Scen
 }
 
 std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario) {
-  const Method& method = findMethod(scenario.method);
+  const Method& method = *scenario.method;
   const TrialBench bench = benchFor(chain, start, scenario, kRemedyWork);
   std::string text;
-  if (method.control == StepControl::kFixed) {
+  if (method.hasFixedStep()) {
     const double tried = stableStep(bench, method, 0.5 * scenario.time_step);
     const double step = tried > 0.0 ? tried : linearStepLimit(method, chain, bench.duration());
     text = fmt::format("largest stable step for {}: {}{}", method.name, stepText(step),

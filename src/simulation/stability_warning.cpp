@@ -31,7 +31,7 @@ bool isClearlyUnstable(const Method& method, const Chain& chain, const Scenario&
   state.vx()[1] = 0.125 * rate;
   const double steps =
       static_cast<double>(scenario.frames - 1) * static_cast<double>(scenario.steps_per_frame);
-  makeIntegrator(method.name, single)
+  makeIntegrator(method, single)
       ->advance(state, scenario.time_step,
                 static_cast<std::int64_t>(std::min(steps, static_cast<double>(kSteps))));
   const double size = std::max(std::abs(state.x()[1] - 1.0), std::abs(state.vx()[1]) / rate);
@@ -41,8 +41,8 @@ bool isClearlyUnstable(const Method& method, const Chain& chain, const Scenario&
 }  // namespace
 
 std::string stabilityWarning(const Chain& chain, const Scenario& scenario) {
-  const Method& method = findMethod(scenario.method);
-  if (method.control != StepControl::kFixed || scenario.frames < 2) return {};
+  const Method& method = *scenario.method;
+  if (!method.hasFixedStep() || scenario.frames < 2) return {};
   if (!isClearlyUnstable(method, chain, scenario)) return {};
   const FrameSteps step = frameSteps(scenario);
   const double limit = linearStepLimit(method, chain, step.timeOfFrame(scenario.frames - 1));
@@ -55,8 +55,8 @@ std::string stabilityWarning(const Chain& chain, const Scenario& scenario) {
 
 std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario) {
   const std::string warning = stabilityWarning(chain, scenario);
-  const Method& method = findMethod(scenario.method);
-  if (!warning.empty() || method.control != StepControl::kFixed) return warning;
+  const Method& method = *scenario.method;
+  if (!warning.empty() || !method.hasFixedStep()) return warning;
   const FrameSteps step = frameSteps(scenario);
   const TrialBench bench(chain, start, step.timeOfFrame(scenario.frames), step.timeOfFrame(1),
                          kTrialWork);

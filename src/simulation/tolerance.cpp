@@ -1,6 +1,5 @@
 #include "simulation/tolerance.hpp"
 
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/integration/smallest_tolerance.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -9,7 +8,7 @@
 namespace spring_pendulum {
 
 void checkTolerance(const Scenario& scenario, const Chain& chain, const State& start) {
-  if (findMethod(scenario.method).control == StepControl::kFixed) return;
+  if (scenario.method->hasFixedStep()) return;
   const double least = smallestTolerance(chain, start);
   if (scenario.tolerance >= least) return;
   throw InputError(

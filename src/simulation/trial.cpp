@@ -20,7 +20,7 @@ constexpr int kStride = 32;      ///< of the coarse search, in points of the gri
 constexpr int kLeastLookBack = 10;
 constexpr int kMostLookBack = 40;
 
-/// A chain costs as if it had this many particles more.
+/// Overhead of a force evaluation, in particles.
 constexpr double kOverhead = 4.0;
 
 double weight(const Chain& chain) {
@@ -64,13 +64,13 @@ class Grid {
     return known_[i] = passes_(step(i));
   }
 
-  /// The first point at or below `i`, in strides, that passes.
+  /// Returns the first of the points i, i - kStride, ... that passes.
   std::optional<int> descend(int i) {
     while (!isTooSmall(i) && !passes(i)) i -= kStride;
     return isTooSmall(i) ? std::nullopt : std::optional<int>(i);
   }
 
-  /// The last point before one that fails, given one that passes and one that fails above it.
+  /// Returns a point that passes, whose upper neighbour fails, between `good` and `bad`.
   int bisect(int good, int bad) {
     while (bad - good > 1) {
       const int middle = good + (bad - good) / 2;
@@ -111,8 +111,8 @@ Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
   integrator_options.tolerance = tolerance.value_or(integrator_options.tolerance);
   integrator_options.track_dissipation = true;
   integrator_options.threads = 1;
-  const auto integrator = makeIntegrator(method.name, chain_, integrator_options);
-  const bool fixed = method.control == StepControl::kFixed;
+  const auto integrator = makeIntegrator(method, chain_, integrator_options);
+  const bool fixed = method.hasFixedStep();
   Judge judge(
       chain_, start_,
       JudgeOptions{true, method.symplectic ? frame.time_step : 0.0, tolerance.value_or(0.0)});
@@ -149,7 +149,7 @@ Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
 
 Trial TrialBench::run(const Method& method, double step, bool with_reference,
                       VerdictKind enough) const {
-  if (method.control == StepControl::kErrorControlled) {
+  if (!method.hasFixedStep()) {
     const double frames = std::ceil(duration_ / frame_interval_ * (1.0 - 1e-9));
     return run(method, step, {frame_interval_, 1}, static_cast<std::int64_t>(frames),
                with_reference, enough);

@@ -1,5 +1,5 @@
-// A program that owns, copies, moves and resizes what the library allocates, and the other way round.
-// consumer_test.sh compiles it with other options than the library.
+// A program that owns, copies, moves and resizes what the library allocates, and the other way
+// round. consumer_test.sh compiles it with other options than the library.
 #include <spring_pendulum/spring_pendulum.hpp>
 
 #include <cstdio>
@@ -44,7 +44,7 @@ void runEveryMethod() {
   const Chain chain(particles.masses, SpringLaw{}, 9.81);
   for (const Method& method : methodTable()) {
     State state = particles.state;
-    const auto integrator = makeIntegrator(method.name, chain);
+    const auto integrator = makeIntegrator(method, chain);
     integrator->advance(state, 0.001, 500);
     expect(state.values().allFinite() && state.y()[2] < -0.5, "the chain fell");
     expect(computeEnergy(chain, state).kinetic > 0.0, "the chain moves");

@@ -40,7 +40,7 @@ TEST(Allocation, IsCounted) {
 TEST(Allocation, DoesNotHappenWhileAnyMethodSteps) {
   const Chain chain(Eigen::VectorXd::Ones(11), SpringLaw{}, 9.81);
   for (const Method& method : methodTable()) {
-    const auto integrator = makeIntegrator(method.name, chain);
+    const auto integrator = makeIntegrator(method, chain);
     State state = hangingChain(11);
     const long before = allocations;
     integrator->advance(state, 0.01, 5);

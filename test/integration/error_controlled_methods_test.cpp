@@ -26,7 +26,7 @@ using test::Scene;
 std::vector<Method> errorControlledMethods() {
   std::vector<Method> methods;
   for (const Method& method : methodTable()) {
-    if (method.control == StepControl::kErrorControlled) methods.push_back(method);
+    if (!method.hasFixedStep()) methods.push_back(method);
   }
   return methods;
 }
@@ -43,7 +43,7 @@ class ErrorControlledMethod : public testing::TestWithParam<Method> {
  protected:
   static std::unique_ptr<Integrator> make(const Scene& scene, double tolerance,
                                           bool track_dissipation = false) {
-    return makeIntegrator(GetParam().name, scene.chain, {tolerance, track_dissipation});
+    return makeIntegrator(GetParam(), scene.chain, {tolerance, track_dissipation});
   }
 };
 

@@ -10,7 +10,7 @@ TEST(MethodTable, EveryNameFindsItsOwnRowAndMakesAnIntegrator) {
   const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
   for (const Method& method : methodTable()) {
     EXPECT_EQ(findMethod(method.name).name, method.name);
-    EXPECT_NE(makeIntegrator(method.name, chain), nullptr) << method.name;
+    EXPECT_NE(makeIntegrator(method, chain), nullptr) << method.name;
   }
 }
 

@@ -93,7 +93,7 @@ TEST(RandomScenes, KeepTheTolerance) {
     if (!exact || exact->growth > kLargestGrowth) continue;
     ++checked;
     for (const Method& method : methodTable()) {
-      if (method.control != StepControl::kErrorControlled) continue;
+      if (method.hasFixedStep()) continue;
       for (const double tolerance : {1e-3, 1e-6}) {
         EXPECT_LE(errorInTolerances(scene, *exact, method.name, tolerance), 10.0)
             << method.name << ", " << tolerance << " m, " << test::sceneOptions(scene) << "\n"

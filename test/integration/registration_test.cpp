@@ -38,7 +38,7 @@ TEST(OwnMethods, HaveTheirOrder) {
       double errors[2] = {};
       for (const int halvings : {0, 1}) {
         test::Scene scene = referenceScene(name);
-        const auto integrator = makeIntegrator(method->name, scene.chain);
+        const auto integrator = makeIntegrator(*method, scene.chain);
         const int steps = 1024 << halvings;
         integrator->advance(scene.start, 2.0 / steps, steps);
         errors[halvings] = positionError(scene.start, referenceSolution(name, 2));
@@ -60,7 +60,7 @@ TEST(OwnMethods, GetStabilityAdvice) {
   const test::Scene scene = referenceScene("two_masses_45deg");
   for (const Method* method : ownMethods()) {
     Scenario scenario;
-    scenario.method = method->name;
+    scenario.method = method;
     scenario.time_step = 0.01;
     EXPECT_THAT(describeStability(scene.chain, scene.start, scenario),
                 testing::HasSubstr(method->name));
@@ -72,7 +72,7 @@ TEST(OwnMethods, IntegrateTheDissipatedEnergy) {
     const test::Scene scene = referenceScene("two_masses_45deg");
     IntegratorOptions options;
     options.track_dissipation = true;
-    const auto integrator = makeIntegrator(method->name, scene.chain, options);
+    const auto integrator = makeIntegrator(*method, scene.chain, options);
     State state = scene.start;
     integrator->advance(state, 1e-4, 20000);
     const double balance = computeEnergy(scene.chain, state).total() +

@@ -37,7 +37,7 @@ TEST(SmallestTolerance, BelowItEveryMethodEnds) {
     for (const double tolerance : {1e-18, 1e-300}) {
       State state(2);
       state.x()[1] = 1.0;
-      const auto integrator = makeIntegrator(method.name, chain, {tolerance});
+      const auto integrator = makeIntegrator(method, chain, {tolerance});
       integrator->advance(state, 1e-7, 10);
       EXPECT_LT(integrator->forceEvaluations(), 1000000) << method.name << " at " << tolerance;
     }

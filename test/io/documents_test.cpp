@@ -42,9 +42,8 @@ TEST(Documents, ListTheMethodsOfTheTable) {
     const Method& method = methodTable()[i];
     // Auto has the order of whatever it takes.
     const std::string order = method.name == "Auto" ? "" : fmt::format(" {}", method.order);
-    EXPECT_THAT(rows[i], testing::StartsWith(
-                             fmt::format("| `{}` |{} | {} | ", method.name, order,
-                                         method.control == StepControl::kFixed ? "fixed" : "own")));
+    EXPECT_THAT(rows[i], testing::StartsWith(fmt::format("| `{}` |{} | {} | ", method.name, order,
+                                                         method.hasFixedStep() ? "fixed" : "own")));
   }
 }
 

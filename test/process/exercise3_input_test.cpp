@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
 std::vector<BadInput> meaningless() {
   std::vector<BadInput> rows;
   for (const Method& method : methodTable()) {
-    const bool fixed = method.control == StepControl::kFixed;
+    const bool fixed = method.hasFixedStep();
     const std::vector<std::string> options =
         fixed ? std::vector<std::string>{"--tolerance", "--frame-interval"}
               : std::vector<std::string>{"--time-step", "--steps-per-frame"};

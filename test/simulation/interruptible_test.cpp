@@ -17,7 +17,7 @@ State hangingOut(Eigen::Index size) {
 
 Scenario scenarioOf(std::string_view method) {
   Scenario scenario;
-  scenario.method = method;
+  scenario.method = &findMethod(method);
   scenario.frame_interval = 20.0;  // the first piece is at most 1 s long
   return scenario;
 }
@@ -42,7 +42,7 @@ TEST_F(Interruptible, HasTheSameBitsWithEveryMethod) {
   for (const Method& method : methodTable()) {
     SCOPED_TRACE(method.name);
     const Scenario scenario = scenarioOf(method.name);
-    const auto plain = makeIntegrator(method.name, chain_);
+    const auto plain = makeIntegrator(method, chain_);
     const auto cut =
         makeInterruptible(scenario, chain_, start_, false, [this] { return ++asked_ < 0; });
     asked_ = 0;

@@ -18,7 +18,7 @@ namespace spring_pendulum::test {
 inline Verdict verdictOfRun(const Scene& scene, const Method& method, double time_step,
                             double duration, bool with_energy,
                             VerdictKind enough = VerdictKind::kDiverged) {
-  const auto integrator = makeIntegrator(method.name, scene.chain, {1e-6, with_energy});
+  const auto integrator = makeIntegrator(method, scene.chain, {1e-6, with_energy});
   State state = scene.start;
   Judge judge(scene.chain, state,
               JudgeOptions{with_energy, method.symplectic ? time_step : 0.0, 0.0});

@@ -1,5 +1,5 @@
 // The table of methods. The command line, the ROS node, the documents, the stability advice and the
-// tests all read it, and a program can add its own methods to it.
+// tests read it. A program can register its own methods.
 #pragma once
 
 #include <spring_pendulum/integration/butcher_tableau.hpp>
@@ -19,11 +19,11 @@ enum class StepControl { kFixed, kErrorControlled };
 
 struct Method;
 
-/// Makes an integrator of a method for a chain.
+/// Constructs an integrator for a chain.
 using IntegratorFactory = std::function<std::unique_ptr<Integrator>(const Method&, const Chain&,
                                                                     const IntegratorOptions&)>;
 
-/// One method.
+/// One row of the method table.
 struct Method {
   std::string name = {};
   int order = 0;
@@ -35,20 +35,22 @@ struct Method {
   double imaginary_stability_limit = 0.0;
   std::string reference = {};
   std::string use = {};                     ///< when to use the method, in one line
-  const ButcherTableau* tableau = nullptr;  ///< null unless it is an explicit Runge-Kutta method
+  const ButcherTableau* tableau = nullptr;  ///< only of explicit Runge-Kutta methods
   IntegratorFactory make = {};              ///< empty: fixed steps of the tableau
   bool symplectic = false;  ///< without damping, the energy oscillates but does not grow
-  /// Memory for each particle in a run, beyond that of Runge-Kutta-4, B; 0: little, or not known.
+  /// Memory per particle of a run in addition to Runge-Kutta-4, bytes; 0: little, or not known.
   double bytes_per_particle = 0.0;
+
+  bool hasFixedStep() const { return control == StepControl::kFixed; }
 };
 
-/// All methods in the order in which users see them. References to rows stay valid.
+/// All methods, in the order in which they are listed. References to rows stay valid.
 const std::deque<Method>& methodTable();
 
-/// Adds a row to the table, so that the method can be used by its name. The table keeps copies of
-/// everything, the tableau included. Not thread-safe: register methods before other threads start.
-/// \throws InputError if the name is empty or taken, the tableau is not one of an explicit method with
-///         `stages` stages, there is neither tableau nor factory, or a number is out of range
+/// Adds a row to the table, so that the method can be used by name. The table copies the row and
+/// its tableau. Not thread-safe: register methods before starting other threads.
+/// \throws InputError if the name is empty or taken, the tableau is not one of an explicit method
+///         with `stages` stages, there is neither tableau nor factory, or a number is out of range
 void registerMethod(const Method& method);
 
 /// \throws InputError that lists the known names if there is no such method
@@ -57,8 +59,13 @@ const Method& findMethod(std::string_view name);
 /// "Euler, Runge-Kutta-2, ..."
 std::string knownMethodNames();
 
-/// \throws InputError for an unknown name, a chain without particles, an error-controlled method
-///         with a tolerance that is not finite and above 0, or a negative number of threads
+/// \throws InputError for a chain without particles, an error-controlled method with a tolerance
+///         that is not finite and above 0, or a negative number of threads
+std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& chain,
+                                           const IntegratorOptions& options = {});
+
+/// Makes an integrator of the method with this name.
+/// \throws InputError also for an unknown name
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
                                            const IntegratorOptions& options = {});
 

@@ -1,4 +1,4 @@
-// From one frame to the next: the two arguments of Integrator::advance that do so.
+// The arguments of Integrator::advance that lead from one frame to the next.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -17,12 +17,10 @@ struct FrameSteps {
   }
 };
 
-/// A fixed-step method takes its steps; an error-controlled one, which chooses its own, is only
-/// told when the next frame is due.
+/// The steps of a fixed-step method; for an error-controlled method, which chooses its steps, the
+/// interval between frames as one step.
 inline FrameSteps frameSteps(const Scenario& scenario) {
-  if (findMethod(scenario.method).control == StepControl::kFixed) {
-    return {scenario.time_step, scenario.steps_per_frame};
-  }
+  if (scenario.method->hasFixedStep()) return {scenario.time_step, scenario.steps_per_frame};
   return {scenario.frame_interval, 1};
 }
 

@@ -1,6 +1,7 @@
-// Everything one run needs. The initialisers are the defaults; there is no second place for them.
+// All options of a run. The initialisers are the defaults, and their only definition.
 #pragma once
 
+#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
@@ -9,18 +10,18 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// What happens to a run that diverged. It never continues with numbers that are not finite.
+/// What a run does after a divergence. It never continues with numbers that are not finite.
 enum class OnDivergence { kStop, kContinue };
 
 /// Whether a reference run measures the position error: while it is cheap, to the end, or never.
 enum class ReferenceUse { kAuto, kAlways, kNever };
 
 struct Scenario {
-  std::string method = "Runge-Kutta-4";
-  std::string particles = "particle.txt";  ///< the particle file
-  std::string output = ".";                ///< where frame files go
-  bool no_frames = false;                  ///< write no frame files
-  std::string energy;                      ///< where the energy balance goes; empty: nowhere
+  const Method* method = &findMethod("Runge-Kutta-4");  ///< a row of the method table
+  std::string particles = "particle.txt";               ///< the particle file
+  std::string output = ".";                             ///< folder for frame files
+  bool no_frames = false;                               ///< write no frame files
+  std::string energy;  ///< file for the energy balance; empty: none
   OnDivergence on_divergence = OnDivergence::kStop;
   ReferenceUse reference = ReferenceUse::kAuto;
 
@@ -35,10 +36,10 @@ struct Scenario {
   double rest_length = SpringLaw{}.rest_length;  ///< m
   double gravity = 9.81;                         ///< m/s²
 
-  double wanted_error = 0.0;  ///< m, for which the check finds the cheapest method; 0: none
+  double wanted_error = 0.0;  ///< m, `--check` finds the cheapest method for it; 0: off
 
-  std::int64_t threads = 0;  ///< at most; 0: as many as the processor runs at once
-  double sleep = 0.0;        ///< speed below which a chain is at rest, m/s; 0: never
+  std::int64_t threads = 0;  ///< largest number; 0: one per processor core
+  double sleep = 0.0;        ///< speed in m/s below which a chain is at rest; 0: off
 
   SpringLaw spring() const { return {stiffness, damping, rest_length}; }
 };

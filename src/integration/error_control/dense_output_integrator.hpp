@@ -9,7 +9,7 @@
 
 #include "integration/error_control/dense_output_stepper.hpp"
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/dashpot_heat.hpp"
+#include "integration/kernels/dissipated_energy.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
@@ -61,7 +61,7 @@ class DenseOutputIntegrator final : public Integrator {
     const ChainKernels& kernels;
     State sample;
     StateBuffer padded_sample;
-    DashpotHeat energies;
+    DissipatedEnergy energies;
   };
   std::optional<Dissipation> dissipation_;
   bool started_ = false;

@@ -9,7 +9,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// First step, times the root of the allowed error; the controller lets it grow fivefold a step.
+/// Factor of the first step size; the controller can then increase it fivefold per step.
 constexpr double kFirstStep = 0.01;
 
 }  // namespace
@@ -51,13 +51,13 @@ double ErrorEstimatingStepper::step() {
     const double h = admissible(std::clamp(next_step_, kShortestStep, kLongestStep));
     const double error = attempt(h) / control_.allowed;
     next_step_ = controller_.next(h, error);
-    const bool at_the_shortest = h <= kShortestStep;
-    if (StepSizeController::accepts(error) || (at_the_shortest && std::isfinite(error))) {
+    const bool is_shortest = h <= kShortestStep;
+    if (StepSizeController::accepts(error) || (is_shortest && std::isfinite(error))) {
       ++statistics_.accepted;
       statistics_.last_step = h;
       return h;
     }
-    if (at_the_shortest) return 0.0;
+    if (is_shortest) return 0.0;
     ++statistics_.rejected;
   }
 }

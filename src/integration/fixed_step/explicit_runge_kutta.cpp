@@ -12,12 +12,12 @@ Eigen::Index roundedUp(Eigen::Index count) {
   return StateBuffer::paddedSize(count);
 }
 
-/// A border is computed in vain; this keeps it below a sixteenth of the work.
+/// Border results are discarded; this limit keeps borders below a sixteenth of the work.
 Eigen::Index largestBorder(Eigen::Index block_size, std::size_t stages) {
   return std::max(roundedUp(static_cast<Eigen::Index>(stages)), block_size / 32 / 8 * 8);
 }
 
-/// Blocks are no shorter than half their size, and borders no longer than a block.
+/// Blocks are at least half as long as this size, and a border is no longer than a block.
 Eigen::Index usableBlockSize(Eigen::Index wanted, std::size_t stages) {
   return std::max(roundedUp(wanted), 2 * roundedUp(static_cast<Eigen::Index>(stages)));
 }
@@ -39,16 +39,16 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
     : options_(options),
       constants_(chain, options.skip_masses),
       stages_(tableau.stages),
-      tracks_heat_(options.track_dissipation && chain.spring().damping != 0.0),
+      tracks_dissipation_(options.track_dissipation && chain.spring().damping != 0.0),
       tableau_(tableau),
       kernel_(findAdvanceKernel(kernelsFor(options, chain.size()), tableau,
-                                {!skips().damping, !skips().gravity, tracks_heat_})) {
+                                {!skips().damping, !skips().gravity, tracks_dissipation_})) {
   if (kernel_ == nullptr) {
     plain_ = std::make_unique<PlainRungeKutta>(chain, tableau, options.track_dissipation,
                                                kernelsFor(options, chain.size()));
     return;
   }
-  if (tracks_heat_) heat_ = DashpotHeat(chain.size());
+  if (tracks_dissipation_) dissipated_ = DissipatedEnergy(chain.size());
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
   if (!one_block) largest_border_ = largestBorder(options_.block_size, stages_);
@@ -58,7 +58,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
     share.left.resize(largest_border_, 4);
     share.right.resize(largest_border_, 4);
     share.block = StateBuffer(roundedUp(longest_block) + 2 * largest_border_);
-    if (tracks_heat_) share.heat = AlignedNumbers(share.block.pitch());
+    if (tracks_dissipation_) share.dissipated = AlignedNumbers(share.block.pitch());
     share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
   }
   workers_ = std::make_unique<WorkerThreads>(static_cast<int>(shares_.size()), [this](int share) {
@@ -76,12 +76,12 @@ Skips ExplicitRungeKutta::skips() const {
 }
 
 double ExplicitRungeKutta::dissipatedEnergy() const {
-  return plain_ ? plain_->dissipatedEnergy() : heat_.total();
+  return plain_ ? plain_->dissipatedEnergy() : dissipated_.total();
 }
 
 void ExplicitRungeKutta::restart() {
   if (plain_) plain_->restart();
-  heat_.reset();
+  dissipated_.reset();
 }
 
 void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
@@ -98,7 +98,7 @@ void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t st
     weights_.heat[i] = time_step * tableau_.b[i] * constants_.chain().spring.damping;
   }
   const auto stages = static_cast<std::int64_t>(stages_);
-  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has a stage
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has at least one stage
   const std::int64_t at_once = largest_border_ == 0 ? steps : largest_border_ / stages;
   const int threads = threadsFor(std::min(steps, at_once));
   force_evaluations_ += steps * stages;
@@ -155,11 +155,13 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
   if (end < share.end) {
     share.left.topRows(pass_.border) = state.middleRows(end - pass_.border, pass_.border);
   }
-  double* const heat = share.heat.data();
-  if (tracks_heat_) std::copy_n(heat_.data() + begin, end - begin, heat + (begin - first));
+  double* const dissipated = share.dissipated.data();
+  if (tracks_dissipation_)
+    std::copy_n(dissipated_.data() + begin, end - begin, dissipated + (begin - first));
   const KernelChain piece = constants_.piece(first, last, share.block.pitch());
-  kernel_(piece, weights_, pass_.steps, share.block.data(), heat, share.workspace.data());
-  if (tracks_heat_) std::copy_n(heat + (begin - first), end - begin, heat_.data() + begin);
+  kernel_(piece, weights_, pass_.steps, share.block.data(), dissipated, share.workspace.data());
+  if (tracks_dissipation_)
+    std::copy_n(dissipated + (begin - first), end - begin, dissipated_.data() + begin);
   const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
   state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);
 }

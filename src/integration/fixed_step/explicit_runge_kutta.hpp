@@ -1,17 +1,17 @@
-// The engine that runs the explicit Runge-Kutta tableaus with a fixed step, fast.
+// The fast engine for explicit Runge-Kutta tableaus with a fixed step.
 //
-// A long chain is cut into blocks that stay in the second-level cache while they are taken through
-// all steps of a call. Information travels one particle a stage, so S steps of s stages need a
-// border of S·s particles on both sides of a block: the border is computed along, goes wrong from
-// its outer end inwards, and is thrown away. Blocks are shared out to threads. Every particle sees
-// the same arithmetic in the same order whatever the blocks, threads, instruction set and skips, so
-// the bits are always those of `PlainRungeKutta`.
+// A long chain is divided into blocks that stay in the second-level cache through all steps of a
+// call. Information travels one particle per stage, so S steps of s stages need a border of S·s
+// particles on both sides of a block. The border is integrated together with the block; its errors
+// spread inwards from its outer end, and its results are discarded. Threads share the blocks. Every
+// particle sees the same arithmetic in the same order for all block sizes, numbers of threads,
+// instruction sets and skips, so the results are always the bits of `PlainRungeKutta`.
 #pragma once
 
-#include "integration/kernels/dashpot_heat.hpp"
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/worker_threads.hpp"
 #include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/dissipated_energy.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
@@ -23,26 +23,26 @@
 
 namespace spring_pendulum {
 
-/// How the engine goes about it. Nothing here changes a bit of the result.
+/// Performance settings; results do not depend on them, except for `track_dissipation`.
 struct EngineOptions {
-  int threads = 0;  ///< at most; 0: as many as the processor runs at once
-  /// Particles in a block: with its workspace it should fit the second-level cache.
+  int threads = 0;  ///< largest number; 0: one per processor core
+  /// Particles per block. A block and its workspace should fit into the second-level cache.
   Eigen::Index block_size = 4096;
-  /// Another thread is given work only if it gets at least so many spring forces a call: below, to
-  /// wake it up takes longer than it helps.
+  /// Least number of spring forces per call and thread. With less work, waking the thread takes
+  /// longer than the work.
   Eigen::Index least_work_per_thread = 50000;
-  const ChainKernels* kernels = nullptr;  ///< null: the fastest ones
-  /// What the scene does not need is not done.
+  const ChainKernels* kernels = nullptr;  ///< null: the fastest kernels that the processor supports
+  /// Leave out terms that vanish for the chain.
   bool skip_damping = true;
   bool skip_gravity = true;
   bool skip_masses = true;
-  bool track_dissipation = false;  ///< integrate the dissipated power along
+  bool track_dissipation = false;  ///< integrate the dissipated power as well
 };
 
-/// As `Integrator`. The velocity of the first particle, which is fixed, is set to 0.
+/// `advance` sets the velocity of the first particle, which is fixed, to 0.
 class ExplicitRungeKutta : public Integrator {
  public:
-  /// \param tableau any; without kernels of its own (fast_tableaus.hpp) it is run by `PlainRungeKutta`
+  /// \param tableau any; `PlainRungeKutta` runs those without a kernel (see fast_tableaus.hpp)
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                      const EngineOptions& options = {});
 
@@ -53,18 +53,18 @@ class ExplicitRungeKutta : public Integrator {
   Skips skips() const override;
 
  private:
-  /// What a thread works with. It does the particles begin <= i < end.
+  /// Workspace of a thread, which integrates the particles begin <= i < end.
   struct Share {
     Eigen::Index begin = 0;
     Eigen::Index end = 0;
-    /// The rows before the next block and those behind the share, as they were before the pass.
+    /// Rows to the left of the next block and to the right of the share, as before the pass.
     State::Matrix left, right;
     StateBuffer block;
-    AlignedNumbers heat;  ///< of the springs of the block
+    AlignedNumbers dissipated;  ///< energy of each spring of the block, J
     AlignedNumbers workspace;
   };
 
-  /// The steps of one call that all blocks are taken through before the next are begun.
+  /// Steps that every block takes before any block takes the next ones.
   struct Pass {
     State* state = nullptr;
     std::int64_t steps = 0;
@@ -79,11 +79,11 @@ class ExplicitRungeKutta : public Integrator {
   EngineOptions options_;
   KernelConstants constants_;
   std::size_t stages_;
-  bool tracks_heat_;
+  bool tracks_dissipation_;
   const ButcherTableau& tableau_;
   AdvanceKernel kernel_;
-  std::unique_ptr<PlainRungeKutta> plain_;  ///< if there is no kernel
-  DashpotHeat heat_;
+  std::unique_ptr<PlainRungeKutta> plain_;  ///< null if there is a kernel
+  DissipatedEnergy dissipated_;
   Eigen::Index largest_border_ = 0;  ///< 0: the whole chain is one block
   StepWeights weights_;
   Pass pass_;

@@ -12,10 +12,10 @@ SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
       constants_(chain_),
       kernels_(fastestChainKernels()),
       current_(chain.size()),
-      heat_(chain.size()) {}
+      dissipated_(chain.size()) {}
 
 void SymplecticMethod::restart() {
-  heat_.reset();
+  dissipated_.reset();
   forget();
 }
 
@@ -24,16 +24,16 @@ void SymplecticMethod::advance(State& state, double time_step, std::int64_t step
   state.velocities().row(0).setZero();
   current_.values() = state.values();
   for (std::int64_t n = 0; n < steps; ++n) {
-    if (track_dissipation_) addHeat(0.5 * time_step);
+    if (track_dissipation_) addDissipation(0.5 * time_step);
     step(time_step);
-    if (track_dissipation_) addHeat(0.5 * time_step);
+    if (track_dissipation_) addDissipation(0.5 * time_step);
   }
   state.values() = current_.values();
 }
 
-void SymplecticMethod::addHeat(double time) {
+void SymplecticMethod::addDissipation(double time) {
   kernels_.addHeat(constants_.chain(), current_.data(), time * chain_.spring().damping,
-                   heat_.data());
+                   dissipated_.data());
 }
 
 void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {

@@ -6,14 +6,13 @@
 //     Velocity-Verlet         u  = v + h/2 a(p, v)         p' = p + h u
 //                             v' = u + h/2 a(p', v + h a(p, v))
 //
-// What damping does to them: the dashpots' force depends on the velocities, and solving for the new
-// velocity in it would be implicit. It is evaluated with the velocities known so far: the old ones
-// (Semi-Implicit-Euler, which stays of order 1), or those that a step of Euler's method predicts
-// (Velocity-Verlet, which stays of order 2). With damping neither is symplectic or reversible, as
-// the motion itself is not, and Velocity-Verlet evaluates the forces twice a step, not once.
+// With damping, the force depends on the velocities, and using the new velocities would make the
+// methods implicit. Semi-Implicit-Euler uses the old velocities and keeps order 1. Velocity-Verlet
+// uses velocities predicted by an Euler step, keeps order 2, and evaluates the forces twice instead
+// of once per step. Neither method is then symplectic or reversible; nor is the damped motion.
 //
-// Both are stable for the undamped oscillation of angular frequency ω if h ω < 2, and for pure
-// damping of rate γ if h γ < 2.
+// Both are stable for undamped oscillation of angular frequency ω if h ω < 2, and for pure damping
+// of rate γ if h γ < 2.
 //
 // References: L. Verlet, Phys. Rev. 159 (1967) 98-103, doi:10.1103/PhysRev.159.98; W. C. Swope,
 // H. C. Andersen, P. H. Berens, K. R. Wilson, J. Chem. Phys. 76 (1982) 637-649,
@@ -21,8 +20,8 @@
 // doi:10.1017/S0962492902000144.
 #pragma once
 
-#include "integration/kernels/dashpot_heat.hpp"
 #include "integration/kernels/chain_kernels.hpp"
+#include "integration/kernels/dissipated_energy.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
@@ -32,12 +31,12 @@
 
 namespace spring_pendulum {
 
-/// What both share: workspace, counters, and the heat as the mean power of the ends of a step.
+/// Workspace, counters, and the dissipated energy: the trapezoidal rule over each step.
 class SymplecticMethod : public Integrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
-  double dissipatedEnergy() const final { return heat_.total(); }
+  double dissipatedEnergy() const final { return dissipated_.total(); }
   void restart() final;
 
  protected:
@@ -45,7 +44,7 @@ class SymplecticMethod : public Integrator {
 
   /// One step of `current()`.
   virtual void step(double time_step) = 0;
-  /// Tells that `current()` holds another state than the last step made.
+  /// Called before the next step starts from another state than the last step returned.
   virtual void forget() {}
 
   bool damped() const { return chain_.spring().damping != 0.0; }
@@ -58,15 +57,15 @@ class SymplecticMethod : public Integrator {
   void drift(StateBuffer& state, double weight);
 
  private:
-  /// Adds the heat that the current power dissipates in `time` s.
-  void addHeat(double time);
+  /// Adds the energy that the current dissipated power amounts to in `time` s.
+  void addDissipation(double time);
 
   Chain chain_;
   bool track_dissipation_;
   KernelConstants constants_;
   const ChainKernels& kernels_;
   StateBuffer current_;
-  DashpotHeat heat_;
+  DissipatedEnergy dissipated_;
   std::int64_t force_evaluations_ = 0;
 };
 
@@ -81,8 +80,8 @@ class SemiImplicitEuler final : public SymplecticMethod {
   StateBuffer slope_;
 };
 
-/// Order 2, and without damping one evaluation a step: the accelerations at its end are those at
-/// the beginning of the next.
+/// Order 2. Without damping one evaluation per step: the accelerations at the end of a step are
+/// also those at the beginning of the next.
 class VelocityVerlet final : public SymplecticMethod {
  public:
   VelocityVerlet(const Chain& chain, bool track_dissipation);

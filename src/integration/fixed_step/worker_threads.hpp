@@ -1,4 +1,4 @@
-// Threads that wait for work, so that none has to be started in every call.
+// A pool of threads, which saves starting threads in every call.
 #pragma once
 
 #include <condition_variable>
@@ -10,23 +10,21 @@
 
 namespace spring_pendulum {
 
-/// Does `task(0) ... task(n - 1)` side by side, again and again.
+/// Runs `task(0) ... task(n - 1)` in parallel, any number of times.
 class WorkerThreads {
  public:
-  /// \param threads how many threads work, the calling one included; fewer if the system has none
-  /// to
-  ///                give
-  /// \param task must not throw
+  /// \param threads number of threads including the calling one; fewer if the system refuses some
+  /// \param task    must not throw
   WorkerThreads(int threads, std::function<void(int)> task);
   ~WorkerThreads();
   WorkerThreads(const WorkerThreads&) = delete;
   WorkerThreads& operator=(const WorkerThreads&) = delete;
 
-  /// How many there are, the calling one included.
+  /// Number of threads, including the calling one.
   int size() const { return static_cast<int>(threads_.size()) + 1; }
 
-  /// Does the tasks 0 <= i < count, count <= size(), the first in the calling thread, and waits for
-  /// all of them.
+  /// Runs the tasks 0 <= i < count, with count <= size(), and waits for all of them. The calling
+  /// thread runs task 0.
   void run(int count);
 
  private:
@@ -36,9 +34,9 @@ class WorkerThreads {
   std::mutex mutex_;
   std::condition_variable begin_;
   std::condition_variable done_;
-  std::int64_t run_ = 0;  ///< counts the calls of `run`
+  std::int64_t run_ = 0;  ///< number of calls of `run`
   int count_ = 0;         ///< tasks of this run
-  int unfinished_ = 0;    ///< of these, how many other threads have still to do
+  int unfinished_ = 0;    ///< tasks of the other threads that have not ended
   bool stop_ = false;
   std::vector<std::thread> threads_;
 };

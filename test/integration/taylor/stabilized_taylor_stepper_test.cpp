@@ -169,7 +169,7 @@ TEST(StabilizedTaylorStepper, DissipatedEnergyClosesTheBalance) {
     test::Scene scene = test::referenceScene("light_100");
     const double before = computeEnergy(scene.chain, scene.start).total();
     const auto integrator =
-        makeIntegrator(rowOf(order).name, scene.chain, IntegratorOptions{1e-8, true, 1});
+        makeIntegrator(rowOf(order), scene.chain, IntegratorOptions{1e-8, true, 1});
     integrator->advance(scene.start, 0.1, 20);
     const double after = computeEnergy(scene.chain, scene.start).total();
     EXPECT_GT(integrator->dissipatedEnergy(), 0.4);

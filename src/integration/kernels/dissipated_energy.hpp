@@ -1,5 +1,5 @@
-// What the dashpots of a chain have dissipated, each for itself: a sum over time alone depends on no
-// block, thread or instruction set.
+// The energy dissipated by each dashpot. One sum over time per spring does not depend on blocks,
+// threads or instruction sets.
 #pragma once
 
 #include "integration/kernels/state_buffer.hpp"
@@ -10,17 +10,17 @@
 
 namespace spring_pendulum {
 
-/// Heat of each spring, J, in a column as the kernels use it.
-class DashpotHeat {
+/// Dissipated energy of each spring, J, as an aligned column for the kernels.
+class DissipatedEnergy {
  public:
-  DashpotHeat() = default;
-  explicit DashpotHeat(Eigen::Index particles)
+  DissipatedEnergy() = default;
+  explicit DissipatedEnergy(Eigen::Index particles)
       : springs_(particles - 1), numbers_(StateBuffer::paddedSize(particles)) {}
 
   double* data() { return numbers_.data(); }
   void reset() { std::fill_n(numbers_.data(), springs_, 0.0); }
 
-  /// J, of all springs, always summed in the same order.
+  /// Sum over all springs, J, always in the same order.
   double total() const {
     std::array<double, 8> sums{};
     for (Eigen::Index i = 0; i < springs_; ++i) {
