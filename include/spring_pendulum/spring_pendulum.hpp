@@ -1,4 +1,4 @@
-// Everything that another program may use.
+// Umbrella header: the public interface of the library.
 #pragma once
 
 #include <spring_pendulum/integration/butcher_tableau.hpp>

@@ -7,7 +7,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// Rounding errors of a step are random; forces and the motion itself amplify them.
+/// The forces and the motion amplify the rounding errors of the steps.
 constexpr double kRoundingErrors = 100.0;
 
 }  // namespace

@@ -34,7 +34,7 @@ void BackgroundFrameWriter::write(std::int64_t index, const State& state) {
 void BackgroundFrameWriter::start() {
   try {
     thread_ = std::thread([this] { work(); });
-  } catch (const std::system_error&) {  // no thread to be had: then without one
+  } catch (const std::system_error&) {  // the system refuses a thread: write in this one
   }
 }
 

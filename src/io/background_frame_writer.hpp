@@ -1,4 +1,4 @@
-// Frame files that are formatted and written while the next frame is computed.
+// Formats and writes a frame while the next frame is computed.
 #pragma once
 
 #include <spring_pendulum/io/frame_writer.hpp>
@@ -13,37 +13,37 @@
 
 namespace spring_pendulum {
 
-/// Writes what a `FrameWriter` writes, in the same order, but on a thread of its own if the frames
-/// are large enough to gain from it. One frame waits or is written at a time; who hands over the
-/// next one waits for it.
+/// Writes the same files as `FrameWriter`, in the same order, but in a separate thread if the
+/// frames are large enough. Holds one frame at a time: `write` waits until the previous frame is
+/// written.
 class BackgroundFrameWriter {
  public:
-  /// From so many particles on to hand a frame over takes far less than to format it.
+  /// Number of particles above which copying a frame takes far less time than formatting it.
   static constexpr Eigen::Index kLargeFrame = 1000;
 
   /// As FrameWriter.
   BackgroundFrameWriter(const std::string& folder, std::int64_t frames,
                         const std::vector<std::string>& inputs = {});
-  /// A frame that was handed over is still written.
+  /// Waits until the last frame is written.
   ~BackgroundFrameWriter();
   BackgroundFrameWriter(const BackgroundFrameWriter&) = delete;
   BackgroundFrameWriter& operator=(const BackgroundFrameWriter&) = delete;
 
-  /// As FrameWriter. All frames are of the same size.
-  /// \throws FileError naming the file, also that of the frame before; then no more is written
+  /// As FrameWriter. All frames must have the same size.
+  /// \throws FileError naming the file of this or the previous frame; no more is written then
   void write(std::int64_t index, const State& state);
 
-  /// As FrameWriter, when all frames are written.
-  /// \throws FileError naming the file, also that of the last frame
+  /// Waits until all frames are written, then as FrameWriter.
+  /// \throws FileError also for the last frame
   void finish();
 
   /// Absolute path of the folder.
   std::string folder() const { return writer_.folder(); }
   /// As FrameWriter.
   std::int64_t earlierFrames() const { return writer_.earlierFrames(); }
-  /// Wall-clock time that callers of `write` spent in it, s.
+  /// Wall-clock time that callers spent in `write`, s.
   double secondsWaited() const { return seconds_waited_; }
-  /// Wall-clock time spent formatting and writing, on whichever thread, s. Only after `finish`.
+  /// Wall-clock time spent formatting and writing in either thread, s. Valid after `finish`.
   double secondsWriting() const { return writer_.seconds(); }
 
  private:
@@ -57,7 +57,7 @@ class BackgroundFrameWriter {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool has_frame_ = false;  ///< `index_` and `state_` wait to be written, or are being
+  bool has_frame_ = false;  ///< whether `index_` and `state_` are still to be written
   bool stop_ = false;
   std::exception_ptr error_;
   std::int64_t index_ = 0;

@@ -1,4 +1,4 @@
-// The energy balance of a run as CSV: a row a frame, units in the header.
+// The energy balance of a run as CSV: one row per frame, units in the header.
 #pragma once
 
 #include "io/output_file.hpp"
@@ -10,24 +10,23 @@
 
 namespace spring_pendulum {
 
-/// Whole or absent, as every OutputFile. Columns: frame, time in s, kinetic, gravity, spring,
-/// total, dissipated and residual energy in J, the residual in parts of the energy scale, and the
-/// position error in m (nan where it is not measured). Every number is the shortest text that reads
-/// back as the same double.
+/// Complete or absent, like every OutputFile. Columns: frame, time in s, kinetic, gravity, spring,
+/// total, dissipated and residual energy in J, the residual relative to the energy scale, and the
+/// position error in m (nan if not measured). Every number is the shortest text that reads back as
+/// the same double.
 class EnergyFile {
  public:
   /// As OutputFile.
   explicit EnergyFile(const std::string& path, const std::vector<std::string>& inputs = {});
 
-  /// \param entry with residual, that is from an energy balance that tracks the dissipation
-  /// \throws FileError naming the file
-  /// \param position_error m; NaN where it is not measured
+  /// \param entry          from an energy balance that tracks the dissipation
+  /// \param position_error m; NaN if not measured
   void write(std::int64_t frame, const EnergyEntry& entry, double position_error);
 
   /// \throws FileError naming the file
   void finish();
 
-  /// The whole path.
+  /// Absolute path.
   const std::string& path() const { return file_.path(); }
 
  private:

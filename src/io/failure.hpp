@@ -1,4 +1,4 @@
-// How the programs end, and what they say when they fail.
+// Exit status and message of a program that fails.
 #pragma once
 
 #include <exception>
@@ -9,11 +9,11 @@ namespace spring_pendulum {
 enum ExitStatus { kDone = 0, kFileFailed = 1, kBadInput = 2, kDiverged = 3, kSignalled = 128 };
 
 struct Failure {
-  std::string message;  ///< one line, whatever foreign text is in it
+  std::string message;  ///< always one line
   ExitStatus status;
 };
 
-/// kBadInput for an InputError, kFileFailed for all else.
+/// Returns kBadInput for an InputError, kFileFailed for all other exceptions.
 Failure failureOf(const std::exception& error);
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-// An open file or folder that closes itself.
+// An owned file descriptor.
 #pragma once
 
 #include <unistd.h>
@@ -6,7 +6,7 @@
 
 namespace spring_pendulum {
 
-/// Owns a POSIX file descriptor; -1 stands for none.
+/// Owns and closes a POSIX file descriptor; -1: none.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int descriptor = -1) : descriptor_(descriptor) {}
@@ -23,7 +23,7 @@ class FileDescriptor {
   bool isOpen() const { return descriptor_ >= 0; }
   int get() const { return descriptor_; }
 
-  /// \return false with errno set if data could not be brought to the file
+  /// \returns false with errno set if buffered data could not be written
   bool close() { return descriptor_ < 0 || ::close(std::exchange(descriptor_, -1)) == 0; }
 
  private:

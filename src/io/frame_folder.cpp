@@ -25,7 +25,7 @@ std::string hiddenName(std::int64_t index) {
   return fmt::format(".frame_{:04}.tmp", index);
 }
 
-/// Has five digits but no index that needs them, so no frame gets it.
+/// No frame has this name, as index 0 is written with four digits.
 constexpr const char* kTrial = ".frame_00000.tmp";
 
 /// Whether a name is `prefix` + at least four digits + `suffix`.
@@ -51,7 +51,7 @@ std::string hiddenFrom(const std::string& frame) {
   return "." + frame.substr(0, frame.size() - 4) + ".tmp";
 }
 
-/// Shorter names first, so that the numbers in them are in order.
+/// Shorter names first, so that names are in the order of their numbers.
 bool isLater(const std::string& a, const std::string& b) {
   return a.size() != b.size() ? a.size() > b.size() : a > b;
 }
@@ -90,8 +90,8 @@ void FrameFolder::open() {
   if (!descriptor_.isOpen()) {
     throw FileError(fmt::format("{}: could not be opened: {}", path_, messageForErrno()));
   }
-  // The lock goes with the descriptor, however the program ends. A file system without locks is no
-  // reason to refuse.
+  // The lock ends with the descriptor, however the program ends. A file system without locks is not
+  // an error.
   const bool is_locked = ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno == EWOULDBLOCK) {
     throw FileError(fmt::format(
@@ -132,7 +132,7 @@ std::vector<std::string> FrameFolder::listOwnFiles(const std::vector<std::string
 /// Creates a file and removes it, before any earlier frame is touched.
 void FrameFolder::tryOut() {
   const int folder = descriptor_.get();
-  ::unlinkat(folder, kTrial, 0);  // of a run that was killed
+  ::unlinkat(folder, kTrial, 0);  // left by a killed run
   UnfinishedFile trial(folder, kTrial);
   if (!trial.create() || ::fstat(trial.descriptor(), &fresh_) != 0) {
     throw FileError(fmt::format("{}: could not be written: {}", path_, messageForErrno()));
@@ -172,7 +172,7 @@ void FrameFolder::takeAway(const std::vector<std::string>& earlier, std::int64_t
   old_files_.erase(old_files_.begin(), first_wanted);
 }
 
-/// An old file, still as long as it was, or a new one.
+/// Opens an old file, which keeps its length for now, or creates a new one.
 bool FrameFolder::openHidden(std::int64_t index) {
   while (!old_files_.empty()) {
     file_ = UnfinishedFile(descriptor_.get(), old_files_.back());

@@ -1,4 +1,4 @@
-// The folder that holds the frame files of one run at a time.
+// The folder with the frame files of a run.
 #pragma once
 
 #include "io/unfinished_file.hpp"
@@ -11,27 +11,25 @@
 
 namespace spring_pendulum {
 
-/// "frame_0042.txt"; above 9999 the index grows wider.
+/// "frame_0042.txt"; indices above 9999 have more digits.
 std::string frameName(std::int64_t index);
 
-/// Whether a file of this name in a folder of frames belongs to them: "frame_0042.txt", or the name
-/// it has until it is whole.
+/// Whether this is the name of a frame file, "frame_0042.txt", or of an unfinished one.
 bool isFrameName(std::string_view name);
 
-/// Locked against a second run as long as this lives. A file in it is whole or absent, whenever the
-/// program is stopped: it is written under a hidden name, `.frame_0042.tmp`, and then renamed.
+/// Locks the folder against a second run. If the program is stopped at any time, each frame file is
+/// complete or absent: it is written under a hidden name, `.frame_0042.tmp`, and then renamed.
 ///
-/// Frames of an earlier run vanish at once, under hidden names too, but their files are written
-/// again for the new frames, unless another user owns them or they have other permissions than a
-/// new file: some file systems need milliseconds to give the blocks of one file
-/// free (measured: ext4 with online discard 3.6 ms, once a file has reached the disk) and
-/// microseconds to write it again. What is not needed again is removed.
+/// Frames of an earlier run are renamed to hidden names first. New frames overwrite these files, as
+/// some file systems need milliseconds to free the blocks of a file (measured: ext4 with online
+/// discard 3.6 ms) and microseconds to overwrite it. Files of another user or with other
+/// permissions than a new file are not reused. `finish` removes the files that are left.
 class FrameFolder {
  public:
-  /// Makes the folder if it is absent, makes sure that it can be written, and takes the frames of
-  /// an earlier run away: regular files named `frame_` + at least four digits + `.txt`.
-  /// \param frames how many frames are going to be written
-  /// \param inputs files that the run reads, which must not be taken away
+  /// Creates the folder if needed, checks that it is writable, and hides the frames of an earlier
+  /// run: regular files named `frame_` + at least four digits + `.txt`.
+  /// \param frames number of frames to be written
+  /// \param inputs input files of the run, which are never removed
   /// \throws InputError if one of the inputs has the name of a frame in this folder
   /// \throws FileError naming the folder or file
   FrameFolder(const std::string& folder, std::int64_t frames,
@@ -40,22 +38,22 @@ class FrameFolder {
   FrameFolder(const FrameFolder&) = delete;
   FrameFolder& operator=(const FrameFolder&) = delete;
 
-  /// A frame is begun, written piece by piece and ended, when it appears in the folder.
+  /// Begins a frame, appends text to it, and ends it. The file appears in the folder at the end.
   /// \throws FileError naming the file
   void beginFrame(std::int64_t index);
   void write(const char* data, std::size_t size);
   void endFrame();
 
-  /// Removes what is left of an earlier run and unlocks the folder. No frame after this.
-  /// \throws FileError if the path does not lead to the folder any more
+  /// Removes the remaining files of an earlier run and unlocks the folder. No frame after this.
+  /// \throws FileError if the path no longer leads to the folder
   void close();
 
-  /// Until close().
+  /// True until close().
   bool isOpen() const { return descriptor_.isOpen(); }
 
-  /// The whole path.
+  /// Absolute path.
   const std::string& path() const { return path_; }
-  /// How many frames of an earlier run were taken away.
+  /// Number of removed frames of an earlier run.
   std::int64_t earlierFrames() const { return earlier_frames_; }
 
  private:
@@ -69,13 +67,13 @@ class FrameFolder {
   [[noreturn]] void refuseForErrno(const std::string& name) const;
 
   std::string given_path_;
-  std::string path_;  ///< as it is shown
+  std::string path_;  ///< absolute
   FileDescriptor descriptor_;
-  std::vector<std::string> old_files_;  ///< hidden, to be written again from the back
+  std::vector<std::string> old_files_;  ///< hidden, reused from the back
   std::int64_t earlier_frames_ = 0;
-  struct stat fresh_ {};    ///< what a new file in this folder is like
-  UnfinishedFile file_;     ///< that is being written
-  std::string frame_name_;  ///< that it is going to have
+  struct stat fresh_ {};    ///< status of a new file in this folder
+  UnfinishedFile file_;     ///< the current frame
+  std::string frame_name_;  ///< final name of the current frame
 };
 
 }  // namespace spring_pendulum

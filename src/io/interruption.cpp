@@ -7,7 +7,7 @@
 namespace spring_pendulum {
 namespace {
 
-// Atomics instead of volatile sig_atomic_t, because other threads ask too.
+// Atomic instead of volatile sig_atomic_t, because other threads read it as well.
 std::atomic<int> received_signal{0};
 std::atomic<void (*)()> called_too{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<void (*)()>::is_always_lock_free,
@@ -27,7 +27,7 @@ void catchInterruptions(void (*also)()) {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigemptyset(&action.sa_mask);
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
-    if (interruption() != 0) return;  // the next one ends the program already
+    if (interruption() != 0) return;  // the next signal ends the program
     struct sigaction present {};
     sigaction(signal_number, nullptr, &present);
     if (present.sa_handler != SIG_IGN) sigaction(signal_number, &action, nullptr);

@@ -1,14 +1,14 @@
-// Ctrl-C, kill and a closed terminal end a run between two steps instead of anywhere.
+// Lets Ctrl-C, kill and a closed terminal end a run between two steps.
 #pragma once
 
 namespace spring_pendulum {
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP is only remembered; the second one ends the
-/// program. A signal that is ignored, as in a background job of a shell or under nohup, stays so.
-/// \param also called in the signal handler, so it may do only what a handler may; null: nothing
+/// From now on the first SIGINT, SIGTERM or SIGHUP is only recorded; the second one ends the
+/// program. A signal that is ignored, as under nohup, stays ignored.
+/// \param also called in the signal handler, so it must be async-signal-safe; null: nothing
 void catchInterruptions(void (*also)() = nullptr);
 
-/// The signal that arrived, 0 if none did.
+/// The signal received, 0 if none.
 int interruption();
 
 }  // namespace spring_pendulum

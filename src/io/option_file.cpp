@@ -45,7 +45,7 @@ class OptionHandler : public YAML::EventHandler {
   }
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
-    if (is_in_map_) refuseNested(mark);  // else it is an empty file
+    if (is_in_map_) refuseNested(mark);  // otherwise the file is empty
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuseNested(mark); }
@@ -67,7 +67,7 @@ class OptionHandler : public YAML::EventHandler {
     }
   }
 
-  /// yaml-cpp gives a plain scalar the tag "?" and a quoted one, which is text, the tag "!".
+  /// yaml-cpp tags a plain scalar with "?" and a quoted one, which is text, with "!".
   void takeValue(const std::string& tag, const std::string& value) {
     if (tag != "?" && !(tag == "!" && option_->isText())) refuseValue();
     options_.set(*option_, value, place_);
@@ -92,8 +92,8 @@ class OptionHandler : public YAML::EventHandler {
   OptionSet& options_;
   bool has_document_ = false;
   bool is_in_map_ = false;
-  const Option* option_ = nullptr;  ///< whose value comes next
-  std::string place_;               ///< file, line and key of this option
+  const Option* option_ = nullptr;  ///< option whose value comes next
+  std::string place_;               ///< file, line and key of `option_`
   std::set<std::string_view> keys_;
 };
 

@@ -8,13 +8,13 @@
 
 namespace spring_pendulum {
 
-/// Sets the options that the file names; the others keep their values.
+/// Sets the options in the file; the others keep their values.
 /// \throws FileError if the file can't be read
 /// \throws InputError with file and line for invalid YAML, an unknown key or a wrong value
 void readOptionFile(const std::string& path, OptionSet& options);
 
-/// The same for text in memory.
-/// \param name what messages call the text
+/// Reads options from text.
+/// \param name name of the text in error messages
 void parseOptions(std::string_view text, std::string_view name, OptionSet& options);
 
 }  // namespace spring_pendulum

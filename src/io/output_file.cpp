@@ -16,10 +16,10 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr int kMostLinks = 40;     // as many as Linux follows
-constexpr int kMostAttempts = 10;  // to find a name that no other run takes away meanwhile
+constexpr int kMostLinks = 40;     // the limit of Linux
+constexpr int kMostAttempts = 10;  // while other runs create and remove the file
 
-/// The path that is written in the end, whether there is such a file or not.
+/// The path behind all symbolic links, whether the file exists or not.
 std::filesystem::path followLinks(const std::string& path) {
   std::filesystem::path target(path);
   std::error_code error;
@@ -29,7 +29,7 @@ std::filesystem::path followLinks(const std::string& path) {
   return target;
 }
 
-/// Refuses a file that is there and must not be replaced.
+/// Throws for an existing file that must not be replaced.
 void checkEarlierFile(const std::string& path, const std::vector<std::string>& inputs) {
   struct stat status {};
   const std::string full_path = fullPath(path);
@@ -84,13 +84,13 @@ void OutputFile::createUnfinished() {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     file_ = UnfinishedFile(folder_.get(), name_ + ".unfinished");
     if (file_.create()) {
-      // Between creating and locking, another run may have taken it for one left behind.
+      // Between creation and lock, another run may take the file for a leftover and remove it.
       if (lock()) return;
     } else if (errno != EEXIST) {
       refuseForErrno();
     } else if (file_.open()) {
       refuseUnlessUnfinished();
-      if (lock()) file_.remove();  // left behind by a run that was killed
+      if (lock()) file_.remove();  // left by a killed run
     } else if (errno != ENOENT) {
       refuseUnlessUnfinished();
     }
@@ -98,13 +98,13 @@ void OutputFile::createUnfinished() {
   refuse("other runs keep writing it; give each run a file of its own");
 }
 
-/// \returns false if the file has been renamed or removed by the run that had it locked before
+/// \returns false if the run that held the lock before has renamed or removed the file
 bool OutputFile::lock() {
   if (::flock(file_.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    file_ = UnfinishedFile();  // not ours to remove
+    file_ = UnfinishedFile();  // belongs to the other run
     refuse("another run is writing it; give each run a file of its own");
   }
-  return file_.hasItsName();  // a file system without locks is no reason to refuse
+  return file_.hasItsName();  // a file system without locks is not an error
 }
 
 void OutputFile::refuseUnlessUnfinished() const {

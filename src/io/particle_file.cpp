@@ -58,7 +58,7 @@ class ParticleParser {
   }
 
  private:
-  /// Takes the first word off a line; empty at its end.
+  /// Removes and returns the first word of a line; empty at its end.
   static std::string_view nextWord(std::string_view& line) {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
     std::size_t begin = 0;
@@ -105,7 +105,7 @@ class ParticleParser {
   std::string_view name_;
   std::vector<Row> rows_;
   std::int64_t line_number_ = 0;
-  std::int64_t last_line_ = 0;  ///< where the last particle was found
+  std::int64_t last_line_ = 0;  ///< line of the last particle
 };
 
 }  // namespace

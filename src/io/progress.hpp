@@ -1,4 +1,4 @@
-// A line on the terminal that says how far a long run has come.
+// The progress of a long run, as a line on the terminal.
 #pragma once
 
 #include <chrono>
@@ -6,11 +6,11 @@
 
 namespace spring_pendulum {
 
-/// Shows itself on standard error, only if that is a terminal and the run takes over a second.
+/// Printed to standard error if that is a terminal and the run takes over a second.
 class Progress {
  public:
   explicit Progress(std::int64_t frames);
-  /// Wipes the line.
+  /// Clears the line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

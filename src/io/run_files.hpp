@@ -1,4 +1,4 @@
-// The files of a run: frames and energy balance, for Exercise3 and the node alike.
+// The output files of a run, for Exercise3 and the node: frames and energy balance.
 #pragma once
 
 #include "io/background_frame_writer.hpp"
@@ -12,22 +12,22 @@
 
 namespace spring_pendulum {
 
-/// Writes every frame once: after a reset of the run the same frames come again, bit for bit.
+/// Writes every frame once: after a reset, the run repeats its frames bit for bit.
 class RunFiles {
  public:
-  /// With `no_frames` or an empty `output` there are no frames, with an empty `energy` no energy
-  /// balance.
-  /// \param config file that was read besides the particle file, empty if none was
+  /// Writes no frames with `no_frames` or an empty `output`, no energy balance with an empty
+  /// `energy`.
+  /// \param config configuration file of the run; empty: none
   /// \throws InputError, FileError as EnergyFile and FrameWriter
   explicit RunFiles(const Scenario& scenario, const std::string& config = "");
 
   /// Writes a frame unless it has been written before.
-  /// \param position_error m; NaN where it is not measured
+  /// \param position_error m; NaN if not measured
   /// \throws FileError naming the file
   void write(std::int64_t frame, const State& state, const EnergyEntry& entry,
              double position_error);
 
-  /// Closes the files; nothing is written after this.
+  /// Closes the files. No write after this.
   void finish();
 
   /// "frames go to /home/me/frames (500 earlier frames removed), energies go to ..."
@@ -35,9 +35,9 @@ class RunFiles {
   /// " to /home/me/frames (after removing 500 earlier frames)", empty without frames
   std::string destination() const;
   std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
-  /// Wall-clock time spent writing frames, s. Only after `finish`.
+  /// Wall-clock time spent writing frames, s. Valid after `finish`.
   double secondsWriting() const { return frames_ ? frames_->secondsWriting() : 0.0; }
-  /// Wall-clock time that the run waited for frames to be written, s.
+  /// Wall-clock time that the run waited for the frame writer, s.
   double secondsWaited() const { return frames_ ? frames_->secondsWaited() : 0.0; }
 
  private:

@@ -29,7 +29,7 @@ constexpr std::size_t kLongestQuote = 40;
 }  // namespace
 
 std::string readTextFile(const std::string& path) {
-  // Without O_NONBLOCK, opening a pipe that nobody writes to would wait for ever.
+  // Without O_NONBLOCK, opening a pipe without a writer would block.
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!file.isOpen()) refuseForErrno(path);
   struct stat status {};
@@ -37,7 +37,7 @@ std::string readTextFile(const std::string& path) {
   if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder; give a file");
   if (!S_ISREG(status.st_mode)) refuse(path, "it is a pipe or a device; give a regular file");
 
-  // One byte more than the size tells the end of the file without a second read.
+  // One byte more than the size: a short read then proves the end of the file.
   std::string text(static_cast<std::size_t>(status.st_size) + 1, '\0');
   std::size_t length = 0;
   for (;;) {

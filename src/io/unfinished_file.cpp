@@ -10,7 +10,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr mode_t kPermissions = 0666;  // less the umask
+constexpr mode_t kPermissions = 0666;  // reduced by the umask
 
 }  // namespace
 
@@ -65,7 +65,7 @@ bool UnfinishedFile::appearAs(const std::string& name) {
     if (::fstat(file_.get(), &status) != 0) return false;
     if (status.st_size != length_ && ::ftruncate(file_.get(), length_) != 0) return false;
   }
-  // Closing a copy tells what a network file system could not write, and keeps a lock.
+  // Closing a duplicate reports write errors of a network file system and keeps the lock.
   FileDescriptor copy(::fcntl(file_.get(), F_DUPFD_CLOEXEC, 0));
   if (!copy.isOpen() || !copy.close()) return false;
   if (::renameat(folder_, name_.c_str(), folder_, name.c_str()) != 0) return false;

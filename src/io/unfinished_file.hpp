@@ -1,4 +1,4 @@
-// A file that is written under another name and gets its own when it is whole.
+// A file that is written under a temporary name and renamed when it is complete.
 #pragma once
 
 #include "io/file_descriptor.hpp"
@@ -11,34 +11,35 @@
 
 namespace spring_pendulum {
 
-/// Every output file is written through this class. Its functions return false with errno set if
-/// they fail; who owns the file knows what to call it in a message.
+/// All output files are written through this class. Its functions return false with errno set on
+/// failure; the caller makes the message.
 class UnfinishedFile {
  public:
   UnfinishedFile() = default;
-  /// \param folder open folder, which outlives this
-  /// \param name   inside the folder, until the file is whole
+  /// \param folder open folder, which must outlive this object
+  /// \param name   temporary name in the folder
   UnfinishedFile(int folder, std::string name) : folder_(folder), name_(std::move(name)) {}
 
-  /// Creates the file. Fails if there is anything of this name, be it a link or a pipe.
+  /// Creates the file. Fails if the name exists, also as a link or a pipe.
   bool create();
-  /// Opens a file that is there for writing. Never follows a link and never waits.
+  /// Opens an existing file for writing. Does not follow links and does not block.
   bool open();
-  /// Opens a file of an earlier run, to be written from the beginning, if it has one name only and
-  /// the owner, group and permissions of a new file.
-  /// \param fresh what a new file in this folder is like
+  /// Opens a file of an earlier run, to overwrite it from the beginning, if it has only one name
+  /// and the owner, group and permissions of a new file.
+  /// \param fresh status of a new file in this folder
   bool reuse(const struct stat& fresh);
 
   bool isOpen() const { return file_.isOpen(); }
   int descriptor() const { return file_.get(); }
   const std::string& name() const { return name_; }
-  /// Whether the name in the folder still leads to this file.
+  /// Whether the temporary name still leads to this file.
   bool hasItsName() const;
 
   bool write(const char* data, std::size_t size);
-  /// Brings the file to its end and gives it its own name, in place of any file that has it.
+  /// Truncates the file after the last byte written and renames it, replacing any file of that
+  /// name.
   bool appearAs(const std::string& name);
-  /// Closes and removes it.
+  /// Closes and removes the file.
   void remove();
 
  private:
@@ -46,7 +47,7 @@ class UnfinishedFile {
   std::string name_;
   FileDescriptor file_;
   bool reused_ = false;
-  std::int64_t length_ = 0;  ///< written so far, bytes
+  std::int64_t length_ = 0;  ///< bytes written so far
 };
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-// Checks of arguments: public functions make them once a call, so that misuse ends in a clear error.
+// Checks of arguments, made once per call of a public function.
 #pragma once
 
 #include <spring_pendulum/model/errors.hpp>
@@ -13,7 +13,8 @@ namespace spring_pendulum {
 void requireSize(std::ptrdiff_t particles, const State& state);
 
 /// Checks the arguments of Integrator::advance.
-/// \throws InputError as requireSize; unless `time_step` is finite and above 0, and `steps` at least 0
+/// \throws InputError as requireSize, and unless `time_step` is finite and positive and `steps` >=
+/// 0
 void requireAdvance(std::ptrdiff_t particles, const State& state, double time_step,
                     std::int64_t steps);
 

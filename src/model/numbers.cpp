@@ -64,7 +64,7 @@ std::optional<double> parseNumber(std::string_view text) {
   const auto [rest, error] = std::from_chars(number.data(), end, value);
   if (rest != end || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc()) return finite(value);
-    // Out of range does not tell whether the number is too large or rounds to 0.
+    // The error "out of range" means either too large or rounded to 0: strtod tells which.
 #endif
   return parseNumberPortably(text);
 }

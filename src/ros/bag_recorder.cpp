@@ -24,7 +24,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// The header of a connection, as a node has it that latches its topic.
+/// The connection header of a latched topic.
 template <typename Message>
 boost::shared_ptr<ros::M_string> connectionHeader(const std::string& topic, bool latching) {
   auto header = boost::make_shared<ros::M_string>();
@@ -113,7 +113,7 @@ std::string topicPrefix(const std::string& name_space) {
   return prefix;
 }
 
-/// Until the run is over or a signal comes.
+/// Records until the end of the run or a signal.
 void recordRun(PendulumRun& run, BagRecorder& recorder, RunFiles& files) {
   recorder.write(run);
   run.writeTo(files);
@@ -123,7 +123,7 @@ void recordRun(PendulumRun& run, BagRecorder& recorder, RunFiles& files) {
       recorder.write(run);
       run.writeTo(files);
     }
-  } catch (const Interrupted&) {  // inside a frame, which is given up
+  } catch (const Interrupted&) {  // inside a frame, which is discarded
   }
 }
 
@@ -158,10 +158,11 @@ BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const
     bag->close();
     summary.messages = recorder.messages();
   } catch (const rosbag::BagException& error) {
-    // The text of a BagIOException tells neither the file nor the reason.
+    // The text of a BagIOException has neither the file nor the reason.
     const bool is_io = dynamic_cast<const rosbag::BagIOException*>(&error) != nullptr;
     const std::string reason = is_io ? "could not be written: " + messageForErrno() : error.what();
-    static_cast<void>(bag.release());  // its destructor closes again, throws and ends the program
+    static_cast<void>(
+        bag.release());  // its destructor would close again and throw, which ends the program
     throw FileError(fmt::format("{}: {}", file.path(), reason));
   } catch (...) {
     static_cast<void>(bag.release());

@@ -1,4 +1,4 @@
-// A run as a bag of the messages that the node publishes, written without ROS running.
+// Records the messages of a run in a bag without a running ROS master.
 #pragma once
 
 #include "ros/node_options.hpp"
@@ -13,9 +13,9 @@ namespace spring_pendulum {
 
 struct BagOptions {
   std::string path = "pendulum.bag";
-  std::string name_space;  ///< put before the topics
+  std::string name_space;  ///< prefix of the topics
   bool append = false;     ///< add to the bag instead of replacing it
-  std::string config;      ///< the YAML file that the run read, which must not be written
+  std::string config;      ///< configuration file of the run, which must not be overwritten
 };
 
 /// Bound to `options`.
@@ -24,15 +24,16 @@ std::vector<Option> bagOptions(BagOptions& options);
 struct BagSummary {
   std::int64_t frames = 0;
   std::int64_t messages = 0;
-  std::uintmax_t bytes = 0;  ///< of the file
+  std::uintmax_t bytes = 0;  ///< size of the file
   std::string path;          ///< absolute
   Verdict verdict;
   std::string measurements;  ///< position and energy error in words
 };
 
 /// Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same scenario and options
-/// give the same bytes. The bag is whole or absent, as every OutputFile; one that is appended to is
-/// replaced by a longer copy at the end. A signal ends the run early, and the bag has what there is.
+/// give the same bytes. The bag is complete or absent, like every OutputFile; when appending, a
+/// longer copy replaces the bag at the end. After a signal, the bag ends with the last message
+/// before it.
 /// \throws InputError for a bad scenario, FileError naming the bag
 BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to);
 

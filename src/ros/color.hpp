@@ -1,4 +1,4 @@
-// The colours of the chain on a dark background.
+// Colours of the chain, for a dark background.
 #pragma once
 
 #include <std_msgs/ColorRGBA.h>
@@ -8,10 +8,10 @@
 
 namespace spring_pendulum {
 
-/// "#rrggbb", opaque; nothing if the text is anything else.
+/// Parses "#rrggbb" as an opaque colour; nothing for any other text.
 std::optional<std_msgs::ColorRGBA> parseColor(std::string_view text);
 
-/// Blue for a shortened spring, white for one without force, red for a stretched one.
+/// Blue for a compressed spring, white for an unloaded spring, red for a stretched spring.
 /// \param strain -1 and below: full blue; 0: white; 1 and above: full red
 std_msgs::ColorRGBA strainColor(double strain);
 
@@ -25,9 +25,9 @@ std_msgs::ColorRGBA lighter(const std_msgs::ColorRGBA& color);
 std_msgs::ColorRGBA anchorColor();
 std_msgs::ColorRGBA gridColor();
 std_msgs::ColorRGBA textColor();
-/// The whole chain when its energy is wrong though finite.
+/// Colour of the whole chain if its energy is wrong but finite.
 std_msgs::ColorRGBA doubtColor();
-/// The whole chain when the motion has diverged.
+/// Colour of the whole chain after a divergence.
 std_msgs::ColorRGBA divergedColor();
 
 }  // namespace spring_pendulum

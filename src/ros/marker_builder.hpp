@@ -1,9 +1,9 @@
-// The chain as rviz markers: six, whatever its length, and one for the reference on request.
+// The chain as rviz markers: six for any length, and optionally one for the reference.
 //
-// Springs are one LINE_LIST coloured by strain, particles one SPHERE_LIST coloured by mass; rviz
-// draws thousands of them in one batch, where a marker a particle would stop it. Every marker has a
-// fixed namespace and id, so each message replaces the one before. A long chain is thinned for
-// display, and the text says so.
+// Springs are one LINE_LIST coloured by strain, particles one SPHERE_LIST coloured by mass. rviz
+// draws such a list in one batch; with one marker per particle it is unusable. Every marker has a
+// fixed namespace and id, so each message replaces the previous one. A long chain is thinned for
+// display, which the text mentions.
 #pragma once
 
 #include "ros/node_options.hpp"
@@ -29,17 +29,17 @@ class MarkerBuilder {
   /// Adds the tip to the trail; a time before the last one starts a new trail.
   void trackTip(const PendulumRun& run);
 
-  /// A state that can't be drawn, of a motion that diverged, leaves the chain as it was last drawn
-  /// and changes its colour.
-  /// \param pace how fast the run goes, for the text: "1.00 x real time"
-  /// \return valid until the next call
+  /// If the state of a diverged motion can't be drawn, the chain keeps its last shape and changes
+  /// its colour.
+  /// \param pace speed of the run for the text: "1.00 x real time"
+  /// \returns a reference that is valid until the next call
   const visualization_msgs::MarkerArray& build(const PendulumRun& run, const ShownState& shown,
                                                const std_msgs::Header& header,
                                                const std::string& pace);
 
-  /// Where the camera stands that shows the whole scene: x forward, z up. Only after `build`.
+  /// Pose of a camera that shows the whole scene: x forward, z up. Valid after `build`.
   geometry_msgs::TransformStamped camera(const std_msgs::Header& header) const;
-  /// How often `build` has moved the camera.
+  /// Number of camera moves by `build`.
   int cameraChanges() const { return camera_changes_; }
 
  private:
@@ -61,13 +61,13 @@ class MarkerBuilder {
   std_msgs::ColorRGBA springColor(const PendulumRun& run, std::size_t spring) const;
 
   NodeOptions options_;
-  std::vector<Eigen::Index> drawn_;               ///< the particles that are drawn
-  std::vector<std_msgs::ColorRGBA> mass_colors_;  ///< of the particles that are drawn
-  std::vector<double> strains_;                   ///< of the springs as last drawn
+  std::vector<Eigen::Index> drawn_;               ///< indices of the drawn particles
+  std::vector<std_msgs::ColorRGBA> mass_colors_;  ///< of the drawn particles
+  std::vector<double> strains_;                   ///< of the springs in the last drawn state
   double full_color_strain_ = 1.0;
   bool placed_ = false;  ///< whether the chain has been drawn
   std::deque<TrailPoint> trail_;
-  std::optional<SceneView> view_;  ///< made when the first state is drawn
+  std::optional<SceneView> view_;  ///< set when the first state is drawn
   int camera_changes_ = 0;
   visualization_msgs::MarkerArray markers_;
 };

@@ -9,10 +9,10 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kInterval = 1.0;  // s between two questions
-constexpr double kNap = 0.05;      // s, how fast the thread notices that it should end
+constexpr double kInterval = 1.0;  // s between two queries
+constexpr double kNap = 0.05;      // s, latency of the end of the thread
 
-/// Asks the master once; never waits for a master that is not there.
+/// Queries the master once; does not wait for an absent master.
 bool ask(const std::string& method, const std::vector<std::string>& arguments,
          XmlRpc::XmlRpcValue* answer = nullptr) {
   XmlRpc::XmlRpcValue request, response, payload;
@@ -22,7 +22,7 @@ bool ask(const std::string& method, const std::vector<std::string>& arguments,
   return true;
 }
 
-/// The text the master answers with, empty if it has none.
+/// The text in the answer of the master; empty: none.
 std::string lookUp(const std::string& method, const std::string& name) {
   XmlRpc::XmlRpcValue answer;
   if (!ask(method, {ros::this_node::getName(), name}, &answer)) return "";

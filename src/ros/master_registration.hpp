@@ -1,4 +1,4 @@
-// Keeps a node known to the ROS master. A master that was restarted knows nobody, and roscpp
+// Keeps a node registered with the ROS master. A restarted master has no registrations, and roscpp
 // registers a topic only once, when it is advertised.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace spring_pendulum {
 
-/// Asks the master now and then, on a thread of its own, whether it still knows the node, and if
-/// not registers the topics and services again. Connections that exist are not touched.
+/// Checks periodically, in a separate thread, whether the node is still registered, and registers
+/// its topics and services again if not. Existing connections are not affected.
 class MasterRegistration {
  public:
   MasterRegistration() = default;
@@ -23,7 +23,7 @@ class MasterRegistration {
 
   void addTopic(const std::string& topic, const std::string& type);
   void addService(const std::string& service);
-  /// Starts the thread; add nothing after this.
+  /// Starts the thread. Nothing can be added after this.
   void keep();
   void stop();
 

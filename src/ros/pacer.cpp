@@ -5,9 +5,9 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kLateness = 0.1;     // s behind that can still be caught up
+constexpr double kLateness = 0.1;     // s, largest delay that is made up for
 constexpr double kMeasureOver = 0.5;  // s
-constexpr double kLongestWait = 1e9;  // s; a duration of ROS has 32 bits for them
+constexpr double kLongestWait = 1e9;  // s; ros::Duration has 32 bits for seconds
 
 }  // namespace
 

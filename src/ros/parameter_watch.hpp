@@ -1,4 +1,4 @@
-// Notices parameters that are changed while the node runs, and says that they are not used.
+// Warns about parameters that change while the node runs, as they have no effect.
 #pragma once
 
 #include <ros/time.h>
@@ -7,14 +7,14 @@
 
 namespace spring_pendulum {
 
-/// Compares the private parameters with those of the start. The ROS master tells the node of
-/// changes, so a look costs no question to the master.
+/// Compares the private parameters with their values at the start. The ROS master sends changes to
+/// the node, so this needs no query.
 class ParameterWatch {
  public:
-  /// Takes the present values as those of the start.
+  /// Records the current values.
   ParameterWatch();
 
-  /// Looks at most twice per second, and warns once of every new value.
+  /// Checks at most twice per second, and warns once about each new value.
   void look();
 
  private:

@@ -1,4 +1,4 @@
-// The private parameters of the node: a thin adapter from the parameter server to the tables.
+// Reads the private parameters of the node into the option tables.
 #pragma once
 
 #include "ros/node_options.hpp"
@@ -17,17 +17,17 @@ struct NodeConfiguration {
 };
 
 /// Returns the raw value as text: 4, "4" and 4.0 are the same, and so are true and "true".
-/// \param where put before an error message
+/// \param where prefix of error messages
 /// \throws InputError for a list, a map or anything else that is not a single value
 std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
                           const std::string& where);
 
 /// \param parameters a map from key to value
-/// \param where      put before an error message: the name of the node
+/// \param where      prefix of error messages: the name of the node
 /// \throws InputError for an unknown key, listing the known ones, or a wrong value
 NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where);
 
-/// The private parameters of this node.
+/// Reads the private parameters of this node.
 NodeConfiguration readPrivateParameters();
 
 }  // namespace spring_pendulum

@@ -1,8 +1,8 @@
-// One run as it is shown: from frame to frame, with states between the frames for smooth motion.
+// A run for display: frame by frame, with states between the frames for smooth motion.
 //
-// A frame of n steps is cut into parts of whole steps (fixed-step methods), or into 2^q equal parts
-// at which an error-controlled method is evaluated as well. Both leave the bits of the frames as
-// they are, so the frame files are those of Exercise3.
+// A frame of n steps is divided into parts of whole steps (fixed-step methods) or into 2^q equal
+// output intervals (error-controlled methods). Neither changes the bits of the frames, so the frame
+// files are the same as those of Exercise3.
 #pragma once
 
 #include "io/run_files.hpp"
@@ -18,21 +18,20 @@ namespace spring_pendulum {
 
 class PendulumRun {
  public:
-  /// \param display_interval simulated time in s from one state shown to the next; 0: frames only
+  /// \param display_interval simulated time in s between shown states; 0: frames only
   /// \throws InputError as Chain, makeIntegrator and Judge
   PendulumRun(const Scenario& scenario, const Particles& particles, bool track_energy,
               double display_interval);
 
-  /// On to the end of the frame's current part, or to the next frame.
-  /// \throws Interrupted after a signal; then the run can only be ended
+  /// Advances to the end of the current part of the frame, or to the next frame.
+  /// \throws Interrupted after a signal; the run can't continue then
   void advance(bool in_between);
-  /// Back to frame 0. The verdict starts anew.
+  /// Returns to frame 0 and discards the verdict.
   void reset();
 
-  /// The last frame is reached, or the motion diverged and is not carried on.
+  /// Whether the last frame is reached, or the motion diverged and the run does not continue.
   bool isOver() const { return frame_ >= scenario_.frames - 1 || !isShown(); }
-  /// Whether the frame reached may be shown and written: not if the motion diverged, unless
-  /// `on_divergence` says so and its energy is finite.
+  /// Whether the current frame may be shown and written; see RunMonitor.
   bool isShown() const { return monitor_.isShown(); }
   bool atFrame() const { return part_ == 0; }
   /// Whether every number of the state can be shown.
@@ -45,18 +44,17 @@ class PendulumRun {
   const State& start() const { return start_; }
   /// The verdict on the run so far.
   const Verdict& verdict() const { return monitor_.verdict(); }
-  /// The energy balance's row of the current state.
+  /// The energy balance of the current state.
   EnergyEntry energyEntry() const;
   /// Position error of the current state, and the largest one at the frames so far.
   PositionError positionError() const;
-  /// The true state as the reference run has it, at the time of `state()`; null where none runs.
+  /// The state of the reference run at the time of `state()`; null if there is none.
   const State* referenceState() const;
-  /// Position and energy error in words, and a tolerance that was not kept; see RunMonitor.
+  /// See RunMonitor.
   std::string measurements() const { return monitor_.measurements(); }
   std::string toleranceRemark() const { return monitor_.toleranceRemark(); }
 
-  /// Hands the frame to the files if the run stands at one that may be shown, and closes them after
-  /// the last one.
+  /// Writes the current frame if it may be shown, and closes the files after the last frame.
   void writeTo(RunFiles& files) const;
 
   std::int64_t frame() const { return frame_; }
@@ -64,7 +62,7 @@ class PendulumRun {
   std::int64_t steps() const;
   /// Simulated time, s.
   double time() const { return timeOfPart(part_); }
-  /// Simulated time of the state that `advance(true)` leads to, s.
+  /// Simulated time after `advance(true)`, s.
   double nextTime() const { return timeOfPart(part_ + 1); }
 
  private:
@@ -76,12 +74,12 @@ class PendulumRun {
   Chain chain_;
   State start_;
   State state_;
-  FrameSteps frame_steps_;  ///< refined for an error-controlled method
-  std::int64_t parts_ = 1;  ///< of a frame
+  FrameSteps frame_steps_;  ///< with shorter steps for an error-controlled method
+  std::int64_t parts_ = 1;  ///< per frame
   RunMonitor monitor_;
   std::unique_ptr<Integrator> integrator_;
-  std::int64_t frame_ = 0;  ///< last frame reached
-  std::int64_t part_ = 0;   ///< parts of the next frame that are done
+  std::int64_t frame_ = 0;  ///< last frame
+  std::int64_t part_ = 0;   ///< completed parts of the next frame
 };
 
 }  // namespace spring_pendulum

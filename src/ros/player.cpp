@@ -12,18 +12,18 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kShowAgainInterval = 0.5;  // s, while the run stands
-constexpr double kLongestWait = 0.1;        // s, how fast the end of ROS is noticed
-constexpr double kSlowStates = 1.5;         // states that display_rate wants for each of the run's
-constexpr double kLongestInterval = 1e9;    // s; a duration of ROS has 32 bits for them
-constexpr double kLoopPause = 1.0;          // s, the last frame is looked at before a loop
+constexpr double kShowAgainInterval = 0.5;  // s, while the run is paused
+constexpr double kLongestWait = 0.1;        // s, latency of the end of ROS
+constexpr double kSlowStates = 1.5;         // shown states per state of the run, for slow motion
+constexpr double kLongestInterval = 1e9;    // s; ros::Duration has 32 bits for seconds
+constexpr double kLoopPause = 1.0;          // s, pause at the last frame before a loop
 
 void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
   response.success = success ? 1 : 0;
   response.message = std::move(sentence);
 }
 
-/// Neither ROS nor a signal has ended the program.
+/// Whether neither ROS nor a signal has ended the program.
 bool isWanted() {
   return ros::ok() && interruption() == 0;
 }

@@ -1,5 +1,5 @@
-// Decides what a node does next: paces a run by the wall clock, or by another node's simulated
-// time, and lets the services ~pause, ~step and ~reset interrupt it.
+// Decides the next action of a node: paces a run by the wall clock or by the simulated time of
+// another node, and provides the services ~pause, ~step and ~reset.
 #pragma once
 
 #include "ros/master_registration.hpp"
@@ -19,26 +19,26 @@ namespace spring_pendulum {
 class Player {
  public:
   enum class Action {
-    kAdvance,       ///< on to the next state shown
-    kAdvanceFrame,  ///< on to the next frame
-    kReset,         ///< back to frame 0
-    kShowBetween,   ///< slow motion: show a state between the last two, see `shownShare`
-    kShowAgain,     ///< nothing moves; show the same once more to who came late
+    kAdvance,       ///< advance to the next shown state
+    kAdvanceFrame,  ///< advance to the next frame
+    kReset,         ///< return to frame 0
+    kShowBetween,   ///< slow motion: show a state between the last two; see `shownShare`
+    kShowAgain,     ///< show the same state again, for late subscribers
     kQuit
   };
 
-  /// \param run outlives the player
+  /// \param run must outlive the player
   Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
          const NodeOptions& options, MasterRegistration& registration);
 
-  /// Serves callbacks until something is due.
+  /// Serves callbacks until the next action is due.
   Action next();
 
   bool isPaused() const { return paused_; }
-  /// What to show: 1 for the state of the run, less for one between it and the state before. In
-  /// slow motion a run is one state ahead of what is shown.
+  /// The state to show: 1 for the state of the run, less than 1 for a state between the previous
+  /// one and this. In slow motion the run is one state ahead of the display.
   double shownShare() const;
-  /// How fast the run goes: "1.00 x real time"
+  /// Speed of the run: "1.00 x real time"
   std::string pace() const;
 
  private:
@@ -64,11 +64,11 @@ class Player {
   bool paused_ = false;
   bool reset_wanted_ = false;
   std::int64_t steps_wanted_ = 0;
-  double ahead_from_ = -1.0;  ///< s, time of the state before the run's in slow motion, else < 0
+  double ahead_from_ = -1.0;  ///< s, slow motion: time of the previous state; else < 0
   ros::SteadyTime next_between_;
-  double leader_time_ = -1.0;     ///< s, simulated time of the node that is followed
-  ros::SteadyTime stands_since_;  ///< zero while the run moves
-  ros::SteadyTime last_shown_;    ///< while the run stands
+  double leader_time_ = -1.0;     ///< s, simulated time of the followed node
+  ros::SteadyTime stands_since_;  ///< zero while the run advances
+  ros::SteadyTime last_shown_;    ///< while the run is paused
   ros::ServiceServer pause_;
   ros::ServiceServer step_;
   ros::ServiceServer reset_;

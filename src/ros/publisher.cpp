@@ -14,11 +14,11 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kPollInterval = 0.01;  // s, how closely subscribers are waited for
-constexpr double kLongestWait = 1e9;    // s; a duration of ROS has 32 bits for them
+constexpr double kPollInterval = 0.01;  // s between two checks for subscribers
+constexpr double kLongestWait = 1e9;    // s; ros::Duration has 32 bits for seconds
 
-/// A subscriber that is slow loses messages; it never makes the node grow. As many states wait for
-/// it as fit into this.
+/// Limit of the queue of states, bytes. A slow subscriber loses messages instead of increasing the
+/// memory of the node.
 constexpr std::int64_t kQueueBytes = 64 << 20;
 constexpr std::int64_t kLongestQueue = 1000;
 

@@ -1,6 +1,6 @@
-// The topics of a node: markers, state, status, the camera's transform, and /clock on request.
+// The topics of a node: markers, state, status, the transform of the camera, and optionally /clock.
 //
-// What nobody subscribes to is not built. One stamp a state, the same on every topic.
+// Messages without subscribers are not built. A state has the same stamp on every topic.
 #pragma once
 
 #include "ros/marker_builder.hpp"
@@ -18,7 +18,7 @@
 namespace spring_pendulum {
 
 /// PendulumStatus code and text for a run.
-/// \param paused the user has stopped it
+/// \param paused whether the user has paused the run
 PendulumStatus statusOf(const PendulumRun& run, bool paused);
 
 class Publisher {
@@ -26,17 +26,17 @@ class Publisher {
   Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
             MasterRegistration& registration);
 
-  /// Whether anybody wants to see states between the frames.
+  /// Whether a topic that shows states between the frames has subscribers.
   bool isWatched() const;
 
   /// Serves callbacks until `wait_for_subscribers` is reached, or `wait_timeout` has passed.
   void waitForSubscribers(const NodeOptions& options);
 
-  /// Sends the state to all who want it, and the status if it has changed.
-  /// \param pace  how fast the run goes, for the text
-  /// \param share the markers show this share of the way from the state before to that of the run
+  /// Publishes the state on all topics with subscribers, and the status if it has changed.
+  /// \param pace  speed of the run, for the text
+  /// \param share position of the markers between the previous state (0) and the current one (1)
   void publish(const PendulumRun& run, bool paused, const std::string& pace, double share);
-  /// Sends only the markers again, of a state between the last two.
+  /// Publishes only the markers, for a state between the last two.
   void publishBetween(const PendulumRun& run, const std::string& pace, double share);
 
   std::int64_t markersBuilt() const { return markers_built_; }

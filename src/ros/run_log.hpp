@@ -1,4 +1,4 @@
-// What a node says about its run on /rosout and the screen, at the moment when it happens.
+// The log messages of a node about its run.
 #pragma once
 
 #include "io/run_files.hpp"
@@ -10,7 +10,7 @@
 
 namespace spring_pendulum {
 
-/// Work done since the node started; a reset does not take it back.
+/// Work since the start of the node, including the time before a reset.
 struct Totals {
   std::int64_t frames = 1;
   std::int64_t steps = 0;
@@ -23,16 +23,16 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
 
 class RunLog {
  public:
-  /// Says what will be run, warns of a time step that is too large, and says at INFO that the display
-  /// rate is above the number of states.
+  /// Logs the run, a warning if the time step is too large, and a display rate above the number of
+  /// states.
   void start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files);
 
-  /// To be called after every action. Says once each: a bad verdict, the divergence with what to
-  /// do about it, what Auto chose, the end of the run.
+  /// Must be called after every action. Logs once each: a bad verdict, a divergence with its
+  /// remedy, the choices of Auto, the end of the run.
   void follow(const PendulumRun& run, const Totals& totals, const RunFiles& files,
               const Publisher& publisher);
 
-  /// Says the closing line of a run that did not reach its end, or went on after it.
+  /// Logs the closing line of a run that did not reach its end, or continued after it.
   void finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,
               const Publisher& publisher);
 
@@ -40,7 +40,7 @@ class RunLog {
   void sayChoice(const PendulumRun& run);
 
   VerdictKind said_verdict_ = VerdictKind::kOk;
-  std::int64_t said_frames_ = 0;  ///< frames when the closing line was said; 0: not yet
+  std::int64_t said_frames_ = 0;  ///< number of frames at the closing line; 0: not logged yet
   std::string said_choice_;
   bool said_tolerance_ = false;
   int choices_said_ = 0;

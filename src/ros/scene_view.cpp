@@ -8,16 +8,16 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kAspect = 1.3;         ///< width over height that the picture has at least
+constexpr double kAspect = 1.3;         ///< least ratio of width to height of the picture
 constexpr double kMargin = 0.05;        ///< around the scene, in sizes of the picture
 constexpr double kTextHeight = 0.04;    ///< in sizes of the picture
 constexpr double kLineDistance = 1.35;  ///< in text heights
-constexpr double kGridLines = 8.0;      ///< at least, over the height of the picture
+constexpr double kGridLines = 8.0;      ///< least number in the height of the picture
 const double kHalfViewTangent = std::sqrt(2.0) - 1.0;  ///< tan of rviz's half angle, 22.5 degrees
 
-constexpr double kMostReaches = 4.0;  ///< how far from the anchor the probed motion is shown
-constexpr double kGrowth = 0.25;      ///< of the frame when the chain has left it
-constexpr double kMostGrowth = 3.0;   ///< the frame widens to so many times the motion's extent
+constexpr double kMostReaches = 4.0;  ///< largest shown distance from the anchor
+constexpr double kGrowth = 0.25;      ///< relative growth of the frame when the chain leaves it
+constexpr double kMostGrowth = 3.0;   ///< largest size of the frame, in extents of the motion
 constexpr double kMostWork = 1e6;     ///< steps times particles of the probe
 constexpr double kLargestProbeStep = 0.02;  // s
 
@@ -30,7 +30,7 @@ Box intersection(const Box& a, const Box& b) {
           std::min(a.top, b.top)};
 }
 
-/// Length of the chain at the start or of its relaxed springs, whichever is larger, m; never 0.
+/// The larger of the length at the start and the sum of rest lengths, m; never 0.
 double reachOf(const Chain& chain, const State& start) {
   const auto springs = static_cast<double>(chain.size() - 1);
   double length = 0.0;
@@ -61,7 +61,7 @@ Box padded(const Box& box, double share) {
   return {box.left - margin, box.right + margin, box.bottom - margin, box.top + margin};
 }
 
-/// Step that Runge-Kutta-4 is stable with, s: a spring between two particles of the least mass.
+/// Stable step size of Runge-Kutta-4, s: for a spring between two particles of the least mass.
 double probeStep(const Chain& chain) {
   const double mass = chain.masses().tail(chain.size() - 1).minCoeff();
   const double frequency = 2.0 * std::sqrt(chain.spring().stiffness / mass);
@@ -69,7 +69,7 @@ double probeStep(const Chain& chain) {
   return std::min(kLargestProbeStep, 1.0 / (frequency + rate));
 }
 
-/// Where the chain gets in `duration` s, as far as a bounded number of steps reaches.
+/// Bounds of the motion within `duration` s, or within a bounded number of steps.
 Box probeMotion(const Chain& chain, const State& start, double duration) {
   Box box = boxOf(start);
   if (chain.size() < 2) return box;

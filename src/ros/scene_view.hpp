@@ -1,4 +1,4 @@
-// The part of the plane of motion that a picture has to show, and the camera that shows it.
+// The visible part of the plane of motion, and the camera that shows it.
 #pragma once
 
 #include "ros/pendulum_run.hpp"
@@ -18,19 +18,18 @@ struct Box {
   double centerX() const { return 0.5 * (left + right); }
 };
 
-/// Frames the start of a run and its whole motion, which is probed with coarse steps and bounded
-/// work. A motion that leaves the frame later, because it is wrong or longer than what was probed,
-/// widens the frame in steps.
+/// A frame around the start and the whole motion, which is estimated with coarse steps and bounded
+/// work. If the motion leaves the frame later, the frame widens in steps.
 class SceneView {
  public:
-  /// \param text_lines lines of text to leave room for above the scene
+  /// \param text_lines lines of text above the scene
   SceneView(const PendulumRun& run, int text_lines);
 
   /// Widens the frame if the chain has left it.
-  /// \return whether the frame changed
+  /// \returns whether the frame changed
   bool follow(const State& state);
 
-  /// What the picture shows of the plane, without the text above it.
+  /// The visible rectangle of the plane, without the text above it.
   const Box& box() const { return box_; }
   /// Size of the picture in m: the unit of line widths and text heights.
   double size() const;
@@ -40,14 +39,14 @@ class SceneView {
   /// Distance of the grid lines, m: 1, 2 or 5 times a power of ten.
   double gridDistance() const;
 
-  /// Height of the camera's axis, m.
+  /// Height of the axis of the camera, m.
   double cameraHeight() const;
-  /// Distance of the camera from the plane, m, for rviz's angle of view of 45 degrees.
+  /// Distance of the camera from the plane, m, for the field of view of rviz, 45 degrees.
   double cameraDistance() const;
 
  private:
   int text_lines_;
-  Box largest_;  ///< the frame never grows beyond this, so that a diverging motion leaves it
+  Box largest_;  ///< limit of the frame, which a diverging motion leaves
   Box box_;
 };
 

@@ -6,7 +6,7 @@ namespace spring_pendulum {
 
 void ShownState::follow(const PendulumRun& run, double share) {
   if (last_.size() != run.state().size() || run.time() < last_time_) {
-    before_ = run.state();  // the first state, or the one after a reset
+    before_ = run.state();  // first state, or state after a reset
     before_time_ = run.time();
   } else if (run.time() > last_time_) {
     std::swap(before_, last_);

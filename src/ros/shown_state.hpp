@@ -1,4 +1,5 @@
-// The state that the markers show: that of the run, or in slow motion one between the last two.
+// The state that the markers show: the state of the run, or in slow motion one between the last
+// two.
 #pragma once
 
 #include "ros/pendulum_run.hpp"
@@ -7,9 +8,9 @@ namespace spring_pendulum {
 
 class ShownState {
  public:
-  /// Takes the state of the run.
-  /// \param share 1: that state; less: this share of the way to it from the state before, with
-  ///   the cubic that has the positions and velocities of both
+  /// Sets the state from the state of the run.
+  /// \param share 1: this state; less than 1: cubic Hermite interpolation between the previous
+  ///   state (0) and this
   void follow(const PendulumRun& run, double share = 1.0);
 
   const State& state() const { return between_ ? shown_ : last_; }

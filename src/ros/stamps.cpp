@@ -23,7 +23,7 @@ ros::Time Stamps::next(double simulated_time) {
   }
   if (fits && more > 0.0) played_ += ros::Duration(more);
   last_simulated_time_ = simulated_time;
-  // With use_sim_time and nobody publishing /clock, ROS time stands at 0.
+  // With use_sim_time and no publisher of /clock, ROS time is 0.
   ros::Time now = simulated_ ? ros::Time() : ros::Time::now();
   if (now.isZero()) now = played_;
   last_ = std::max(now, last_ + ros::Duration(0, 1));

@@ -1,4 +1,4 @@
-// The stamps of a run's messages: strictly increasing and never 0, whatever the clock does.
+// The stamps of messages: strictly increasing and never 0, whatever the clock does.
 #pragma once
 
 #include <ros/time.h>
@@ -7,15 +7,15 @@ namespace spring_pendulum {
 
 class Stamps {
  public:
-  /// Simulated time 0 is stamped with this, because 0 is no valid stamp.
+  /// The stamp of simulated time 0, because 0 is not a valid stamp.
   static ros::Time simulatedStart() { return {1, 0}; }
 
-  /// \param simulated stamp with simulated instead of ROS time
+  /// \param simulated use simulated time instead of ROS time
   explicit Stamps(bool simulated) : simulated_(simulated) {}
 
-  /// \param simulated_time s since the start of the run. When it jumps back (a reset), stamps go on
-  ///   from where they are.
-  /// \throws InputError if simulated time has become too long for a stamp
+  /// \param simulated_time s since the start of the run. If it jumps back (a reset), stamps
+  ///   continue from their last value.
+  /// \throws InputError if simulated time is too long for a stamp
   ros::Time next(double simulated_time);
 
  private:

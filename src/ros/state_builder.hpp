@@ -1,4 +1,4 @@
-// One state of a run as the message of the topic `state`.
+// Builds the message of the topic `state`.
 #pragma once
 
 #include "ros/pendulum_run.hpp"
@@ -8,7 +8,7 @@
 
 namespace spring_pendulum {
 
-/// Sets the four fields that `state` and `status` have for the position error.
+/// Sets the four fields for the position error of the messages `state` and `status`.
 template <typename Message>
 void setPositionError(const PendulumRun& run, Message& message) {
   const PositionError error = run.positionError();
@@ -20,10 +20,10 @@ void setPositionError(const PendulumRun& run, Message& message) {
 
 class StateBuilder {
  public:
-  /// \param y_offset m, where the plane of the motion lies
+  /// \param y_offset y of the plane of the motion, m
   explicit StateBuilder(double y_offset) : y_offset_(y_offset) {}
 
-  /// \return valid until the next call
+  /// \returns a reference that is valid until the next call
   const PendulumState& build(const PendulumRun& run, const std_msgs::Header& header);
 
  private:
@@ -33,7 +33,8 @@ class StateBuilder {
   PendulumState message_;  ///< kept, so that its arrays are allocated once
 };
 
-/// Largest length of a spring in rest lengths, less 1; in m if the springs have no rest length.
+/// Largest strain of a spring: length over rest length minus 1; length in m if the rest length is
+/// 0.
 double largestStretch(const Chain& chain, const State& state);
 
 }  // namespace spring_pendulum

@@ -22,7 +22,7 @@ double springLength(const State& state, Eigen::Index i) {
 EnergyScale::EnergyScale(const Chain& chain, const State& start) {
   requireSize(chain.size(), start);
   const SpringLaw& spring = chain.spring();
-  double depth = 0.0;  // of the hanging chain below zero energy, J
+  double depth = 0.0;  // -E_min, J
   double least = 0.0;
   double weight = 0.0;
   for (Eigen::Index i = chain.size() - 1; i > 0; --i) {

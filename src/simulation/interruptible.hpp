@@ -1,4 +1,4 @@
-// A long frame that can be interrupted.
+// Interrupting a run inside a long frame.
 #pragma once
 
 #include <spring_pendulum/integration/integrator.hpp>
@@ -12,18 +12,17 @@
 
 namespace spring_pendulum {
 
-/// Thrown out of `InterruptibleIntegrator::advance`; the state is then somewhere inside the frame.
+/// Thrown by `InterruptibleIntegrator::advance`; the state is then at a time inside the frame.
 struct Interrupted {};
 
-/// Hands a state to another integrator in pieces of about a tenth of a second of computing, and
-/// asks between them whether to go on. No bit of the result changes: `advance` gives the same for
-/// a + b steps as for a steps and then b, and for n steps of h as for m n steps of h/m, with m a
-/// power of 2, if the method controls its error.
+/// Calls another integrator in pieces of about 0.1 s of computing time and checks between them
+/// whether to continue. Results are the same bits: a + b steps equal a steps and then b steps, and
+/// for an error-controlled method n steps of h equal m n steps of h/m if m is a power of 2.
 class InterruptibleIntegrator : public Integrator {
  public:
-  /// \param error_controlled whether a step may be cut, as it is only a distance of output times
-  /// \param particles        of the chain
-  /// \param is_interrupted   asked between two pieces
+  /// \param error_controlled whether a step is only an output interval, which can be divided
+  /// \param particles        number of particles of the chain
+  /// \param is_interrupted   called between two pieces
   InterruptibleIntegrator(std::unique_ptr<Integrator> integrator, bool error_controlled,
                           Eigen::Index particles, std::function<bool()> is_interrupted);
 
@@ -39,13 +38,13 @@ class InterruptibleIntegrator : public Integrator {
   std::int64_t firstPiece(double part) const;
 
   std::unique_ptr<Integrator> integrator_;
-  std::int64_t parts_;      ///< of a step
-  std::int64_t piece_ = 0;  ///< parts in a call; 0: not known yet
+  std::int64_t parts_;      ///< number of parts of a step
+  std::int64_t piece_ = 0;  ///< parts per call; 0: not known yet
   double particles_;
   std::function<bool()> is_interrupted_;
 };
 
-/// The integrator of a run.
+/// Makes the integrator of a run.
 /// \throws InputError as makeIntegrator and checkTolerance
 std::unique_ptr<Integrator> makeInterruptible(const Scenario& scenario, const Chain& chain,
                                               const State& start, bool track_dissipation,

@@ -1,4 +1,4 @@
-// The options of one program, set from one or several sources; what comes later wins.
+// The options of a program, set from one or more sources. Later sources override earlier ones.
 #pragma once
 
 #include "simulation/option.hpp"
@@ -18,17 +18,17 @@ class OptionSet {
   void add(std::vector<Option> options);
   const std::vector<Option>& options() const { return options_; }
 
-  /// \param place put before an error message: "pendulum.yaml:3"
+  /// \param place prefix of error messages: "pendulum.yaml:3"
   /// \throws InputError that lists the known keys if there is no such option
   const Option& find(std::string_view key, std::string_view place) const;
 
   /// Sets one option from text.
-  /// \param place put before an error message: "--time-step", "pendulum.yaml:3: time_step"
+  /// \param place prefix of error messages: "--time-step", "pendulum.yaml:3: time_step"
   /// \throws InputError with place, range and text
   void set(const Option& option, std::string_view text, const std::string& place);
 
   bool isGiven(std::string_view key) const { return given_.count(key) > 0; }
-  /// Where an option was last set; empty if it was not.
+  /// Where an option was last set; empty if it was not set.
   std::string placeOf(std::string_view key) const;
 
  private:

@@ -14,15 +14,16 @@
 namespace spring_pendulum {
 namespace {
 
-/// Tolerances of the reference: m, and in parts of the chain's length for very short chains.
+/// Largest tolerances of the reference: in m, and relative to the length of the chain.
 constexpr double kTolerance = 1e-10;
 constexpr double kRelativeTolerance = 1e-9;
-/// Tolerance of the reference in parts of the run's.
+/// Tolerance of the reference, relative to the tolerance of the run.
 constexpr double kToleranceShare = 1e-3;
-/// Tolerance of the other runs, and the change of the third one's start, in tolerances of the first.
+/// Tolerance of the other runs, and the change of the third one's start, in tolerances of the
+/// first.
 constexpr double kOtherTolerance = 100.0;
 constexpr double kChange = 1000.0;
-/// Rounding limits what can be resolved, in parts of the largest coordinate.
+/// Smallest distance that can be resolved, relative to the largest coordinate.
 constexpr double kRounding = 1e-14;
 
 /// Work in force evaluations of Taylor-8 per particle that is always allowed: up to 0.2 s, measured
@@ -32,8 +33,8 @@ constexpr double kOverhead = 8.0;
 /// Longer chains would take too much memory to be measured unasked.
 constexpr Eigen::Index kMostParticles = 100'000;
 
-/// Damping rates in 1/s from which on stability may limit the steps of an explicit method, and from
-/// which on an implicit method is cheaper.
+/// Damping rates in 1/s above which stability can limit the steps of an explicit method, and above
+/// which an implicit method is cheaper.
 constexpr double kFastRate = 100.0;
 constexpr double kStiffRate = 1e4;
 
@@ -49,7 +50,8 @@ double largestDistance(const State& a, const State& b) {
   return std::sqrt(largest);
 }
 
-/// Two methods: where stability limits the steps, one method at two tolerances takes the same ones.
+/// The methods of reference and second trajectory. They differ where stability limits the step
+/// size: there, one method would take the same steps with both tolerances.
 std::pair<std::string_view, std::string_view> referenceMethods(const Chain& chain) {
   const double rate = chain.spring().damping * largestSpringMode(chain);
   if (rate < kFastRate) return {"Auto", "Auto"};
@@ -57,8 +59,8 @@ std::pair<std::string_view, std::string_view> referenceMethods(const Chain& chai
   return {"Auto", "Radau-9"};
 }
 
-/// The state with all distances from the first particle scaled so that none changes by more than
-/// `change` m.
+/// Returns the state with all distances from the first particle scaled by the same factor, such
+/// that the largest change is `change` m.
 State stretched(const State& state, double change) {
   State changed = state;
   const auto anchor = state.positions().row(0);

@@ -1,4 +1,4 @@
-// Watches a run, for Exercise3 and the node alike: energy balance, reference run and verdict.
+// Monitors a run, for Exercise3 and the node: energy balance, reference run and verdict.
 #pragma once
 
 #include <spring_pendulum/integration/integrator.hpp>
@@ -13,50 +13,50 @@
 
 namespace spring_pendulum {
 
-/// Whether a run computes its energy balance unasked: where that is expected to cost at most 50 ms
-/// or 10 %.
+/// Whether a run computes its energy balance by default: if the expected cost is at most 50 ms or
+/// 10 % of the run.
 bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain);
 
 class RunMonitor {
  public:
-  /// \param wants_energy the energy balance is computed whatever it costs
+  /// \param wants_energy compute the energy balance, whatever the cost
   /// \throws InputError as Judge, std::runtime_error as checkMemory
   RunMonitor(const Scenario& scenario, const Chain& chain, const State& start, bool wants_energy);
 
-  /// What the integrator of the run must be told. Without damping there is nothing to track.
+  /// Value of `track_dissipation` for the integrator of the run; false without damping.
   bool tracksDissipation() const { return tracks_dissipation_; }
 
-  /// Moves the reference on with the run.
+  /// Advances the reference run.
   void follow(double time_step, std::int64_t steps);
 
   /// Judges a frame at `time` s.
   const Verdict& judge(double time, const State& state, const Integrator& integrator);
 
-  /// Back to frame 0.
+  /// Returns to frame 0.
   void restart();
 
-  /// Whether the frame judged last may be shown and written: not if the motion diverged, unless
-  /// `on_divergence` says so and its energy is finite.
+  /// Whether the last judged frame may be shown and written: yes unless the motion diverged; after
+  /// a divergence only if `on_divergence` is `kContinue` and the energy is finite.
   bool isShown() const;
 
   /// The verdict on the run so far.
   const Verdict& verdict() const { return judge_.worst(); }
-  /// The energy balance of the frame judged last.
+  /// The energy balance of the last judged frame.
   const EnergyEntry& energyEntry() const { return judge_.entry(); }
   /// The energy balance of a state between the frames.
   EnergyEntry energyEntry(double time, const State& state, const Integrator& integrator) const;
-  /// Position errors at the frames judged so far.
+  /// Position errors at the frames so far.
   const PositionError& positionError() const { return judge_.positionError(); }
-  /// Position error of a state between the frames, m; NaN where it is not measured.
+  /// Position error of a state between the frames, m; NaN if not measured.
   double positionErrorOf(const State& state) const;
-  /// Null if no reference runs, or none runs any more.
+  /// The reference run; null if there is none or it has stopped.
   const ReferenceRun* reference() const;
 
   /// "largest position error 0.0039 m at t = 49.3 s, largest energy error 1.2e-07 of the energy scale"
   std::string measurements() const;
-  /// A tolerance that was not kept, and why; empty if it was, or there is none.
+  /// A sentence on a tolerance that was not met, and the reason; else empty.
   std::string toleranceRemark() const;
-  /// Wall-clock time that the reference took, s.
+  /// Wall-clock time of the reference run, s.
   double seconds() const { return seconds_; }
 
  private:

@@ -31,7 +31,8 @@ void SleepingIntegrator::advance(State& state, double time_step, std::int64_t st
     return;
   }
   if (asleep_) {
-    // The integrator remembers the time before the sleep. Its restart clears what was dissipated.
+    // The integrator keeps data from before the sleep. Its restart also clears the dissipated
+    // energy.
     dissipated_before_ += integrator_->dissipatedEnergy();
     integrator_->restart();
   }

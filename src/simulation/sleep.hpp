@@ -1,4 +1,4 @@
-// A chain that has come to rest need not be stepped.
+// Skipping the steps of a chain at rest.
 #pragma once
 
 #include <spring_pendulum/integration/integrator.hpp>
@@ -10,16 +10,17 @@
 
 namespace spring_pendulum {
 
-/// Whether no particle is faster than `tolerance` m/s, nor would be after `duration` s of the
-/// acceleration it has. A particle that turns round is not at rest: it is accelerated.
+/// Whether the speed of every particle is at most `tolerance` m/s, and its current acceleration
+/// changes the velocity by at most this in `duration` s. The second condition excludes particles at
+/// a turning point.
 bool isAtRest(const Chain& chain, const State& state, double duration, double tolerance);
 
-/// Hands a state to another integrator, unless the chain is at rest for as long as it is to be
-/// carried on: then it sleeps, and the state stays as it is. That changes the result, by less than
-/// the tolerance allows, so it is only done for a tolerance above 0.
+/// Calls another integrator unless the chain is at rest for the whole interval; then the chain
+/// "sleeps" and its state does not change. This changes results within the tolerance, so it is off
+/// by default.
 class SleepingIntegrator : public Integrator {
  public:
-  /// \param tolerance m/s; 0: never sleeps
+  /// \param tolerance m/s; 0: off
   SleepingIntegrator(std::unique_ptr<Integrator> integrator, const Chain& chain, double tolerance)
       : integrator_(std::move(integrator)), chain_(chain), tolerance_(tolerance) {}
 
@@ -32,7 +33,7 @@ class SleepingIntegrator : public Integrator {
   std::string report() const override { return integrator_->report(); }
   void restart() override;
 
-  /// How many calls of `advance` found the chain at rest.
+  /// Number of calls of `advance` that found the chain at rest.
   std::int64_t sleptCalls() const { return slept_calls_; }
 
  private:
@@ -40,7 +41,7 @@ class SleepingIntegrator : public Integrator {
   Chain chain_;
   double tolerance_;
   bool asleep_ = false;
-  double dissipated_before_ = 0.0;  ///< J, until the last sleep
+  double dissipated_before_ = 0.0;  ///< J, up to the last sleep
   std::int64_t slept_calls_ = 0;
 };
 

@@ -12,14 +12,14 @@
 namespace spring_pendulum {
 namespace {
 
-/// An oscillation that grows by this factor within so many steps is clearly unstable.
+/// An oscillation that grows by kClearGrowth within kSteps steps is clearly unstable.
 constexpr double kClearGrowth = 1e8;
 constexpr std::int64_t kSteps = 500;
 
-/// Work of a trial as in TrialBench: some 0.02 s.
+/// Work of a trial as in TrialBench: about 0.02 s.
 constexpr double kTrialWork = 2e6;
 
-/// Whether a single spring as fast as the chain's stiffest one is clearly unstable.
+/// Whether the method is clearly unstable for a single spring with the rate of the stiffest spring.
 bool isClearlyUnstable(const Method& method, const Chain& chain, const Scenario& scenario) {
   const double mode = stiffestSpring(chain);
   const SpringLaw spring{scenario.stiffness * mode, scenario.damping * mode, 1.0};

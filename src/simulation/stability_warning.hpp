@@ -9,11 +9,11 @@
 
 namespace spring_pendulum {
 
-/// One line about a time step that is clearly above the stability limit of the method, whatever
-/// shape the chain takes; else empty. Looks at the masses once, so it costs nothing beside a run.
+/// Returns one line if the time step is clearly above the stability limit of the method for every
+/// shape of the chain; else empty. O(N), negligible compared with a run.
 std::string stabilityWarning(const Chain& chain, const Scenario& scenario);
 
-/// The same, or else the result of trying the start of the run for at most some 0.02 s.
+/// Also tries the first steps of the run, for at most about 0.02 s.
 std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario);
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-// What position error can be aimed at.
+// Validation of the tolerance.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
@@ -7,8 +7,8 @@
 
 namespace spring_pendulum {
 
-/// Checks that the tolerance of an error-controlled method is above the rounding of the positions;
-/// below, a run would take ever shorter steps and not end.
+/// Checks that the tolerance of an error-controlled method is above the rounding errors of the
+/// positions. With a smaller tolerance the step size would shrink until the run makes no progress.
 /// \throws InputError naming the smallest possible tolerance
 void checkTolerance(const Scenario& scenario, const Chain& chain, const State& start);
 

@@ -1,4 +1,4 @@
-// A run made only to see how it ends, and the search for the largest step size that still passes.
+// Trial runs, and the search for the largest step size that passes.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -13,23 +13,23 @@
 namespace spring_pendulum {
 
 struct Trial {
-  bool affordable = true;  ///< whether it ended within the work allowed
+  bool affordable = true;  ///< whether it ended within the allowed work
   Verdict verdict;
-  double energy_error = 0.0;  ///< largest residual of the energy balance in energy scales
+  double energy_error = 0.0;  ///< largest relative residual of the energy balance
   PositionError position_error;
   bool measured = false;         ///< whether the reference could follow to the end
   std::int64_t evaluations = 0;  ///< of the force, without those of the reference
   double work = 0.0;             ///< the same in force evaluations of Taylor-8
 };
 
-/// What is tried: a chain, a start and a time, with any method and step size.
+/// Makes trial runs of a chain from a start, with any method and step size.
 class TrialBench {
  public:
-  /// Work of one trial in force evaluations times particles, without the reference's: some 0.2 s.
+  /// Work of a trial without its reference run: force evaluations times particles; about 0.2 s.
   static constexpr double kMostWork = 2e7;
 
-  /// \param duration       s
-  /// \param frame_interval s, about the time from one look at the state to the next
+  /// \param duration       duration of the run, s
+  /// \param frame_interval approximate time between judged states, s
   TrialBench(const Chain& chain, const State& start, double duration, double frame_interval,
              double most_work = kMostWork)
       : chain_(chain),
@@ -38,17 +38,17 @@ class TrialBench {
         frame_interval_(frame_interval),
         most_work_(most_work) {}
 
-  /// Runs frame by frame to the end, or until the verdict reaches `enough`.
+  /// Runs frame by frame to the end, or until the verdict is `enough` or worse.
   Trial run(const Method& method, std::optional<double> tolerance, const FrameSteps& frame,
             std::int64_t frames, bool with_reference,
             VerdictKind enough = VerdictKind::kDiverged) const;
 
-  /// The same with frames of about the interval. With an error-controlled method `step` is the
-  /// tolerance.
+  /// Runs with frames of about `frame_interval`.
+  /// \param step step size in s; for an error-controlled method the tolerance in m
   Trial run(const Method& method, double step, bool with_reference,
             VerdictKind enough = VerdictKind::kDiverged) const;
 
-  /// Smallest step size whose trial is affordable, s.
+  /// Smallest step size of an affordable trial, s.
   double leastStep(const Method& method) const;
 
   /// Work of a run with a fixed step, in force evaluations of Taylor-8.

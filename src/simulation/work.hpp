@@ -1,4 +1,4 @@
-// How a scenario is to be worked on: what the integrator is told, and what need not be done.
+// Settings of the integrator for a scenario, and the work that a run skips.
 #pragma once
 
 #include <spring_pendulum/integration/integrator.hpp>
@@ -10,6 +10,7 @@
 
 namespace spring_pendulum {
 
+/// Returns the options of the integrator for a scenario.
 IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipation);
 
 /// Work of a force evaluation of a method, in those of Taylor-8. Measured for the fixed-step methods:

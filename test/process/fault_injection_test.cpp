@@ -36,8 +36,8 @@ bool cleansUp(const std::string& call) {
 
 class FaultInjection : public testing::TestWithParam<std::string> {
  protected:
-  /// The folder as a run finds it: frames and an energy file of an earlier run, and a file of a run that
-  /// was killed. Frames 0 and 1 have the length of the new ones, and 2 has not.
+  /// The folder as a run finds it: frames and an energy file of an earlier run, and a file of a run
+  /// that was killed. Frames 0 and 1 have the length of the new ones, and 2 has not.
   static void fill(const TemporaryFolder& folder) {
     folder.write("particle.txt", kTwoParticles);
     folder.write("run.yaml", "frames: 3\n");

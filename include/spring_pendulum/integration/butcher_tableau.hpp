@@ -2,8 +2,8 @@
 //
 //     k_i = F(z_n + h sum_{j<i} a_ij k_j)        z_{n+1} = z_n + h sum_i b_i k_i
 //
-// F is autonomous here, so the nodes c_i = sum_j a_ij are never needed. Tableaus are constexpr
-// data; one engine runs them all.
+// F is autonomous here, so the nodes c_i = sum_j a_ij are not needed. Tableaus are constexpr data;
+// one engine runs all of them.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
 // ed., Springer 1993, section II.1.
@@ -16,8 +16,8 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// Coefficients of an explicit method of at most `kMaxStages` stages; what lies on or above the
-/// diagonal of `a` is 0.
+/// Coefficients of an explicit method with at most `kMaxStages` stages. All entries of `a` on and
+/// above the diagonal are 0.
 struct ButcherTableau {
   static constexpr std::size_t kMaxStages = 16;
   std::size_t stages = 0;

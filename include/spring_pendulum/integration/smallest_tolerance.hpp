@@ -1,4 +1,4 @@
-// What rounding allows: how small a position error any method can reach.
+// The smallest position error that rounding allows.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
@@ -7,11 +7,11 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// Estimates the smallest position error in m that a method can reach within seconds of motion from
-/// `start`: a hundred rounding errors of the largest coordinate, of the way covered in a second, or
-/// of the chain's own length, whichever is the largest. About 2e-13 m for a chain of 10 m; an
-/// anchor at 1e12 m can't be known to better than 0.02 m.
-/// \param start as many particles as the chain has
+/// Estimates the smallest position error in m that any method can reach within a few seconds of
+/// motion from `start`: a hundred times the rounding error of the largest coordinate, of the
+/// distance covered in a second, or of the length of the chain, whichever is largest. Examples:
+/// about 2e-13 m for a chain of 10 m; 0.02 m for an anchor at x = 1e12 m.
+/// \param start state with the size of the chain
 double smallestTolerance(const Chain& chain, const State& start);
 
 }  // namespace spring_pendulum

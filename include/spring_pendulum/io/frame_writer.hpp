@@ -1,4 +1,4 @@
-// Frame files: where the particles are at the times t = 0, T, 2T, ...
+// Frame files: the positions of the particles at the times t = 0, T, 2T, ...
 //
 // `frame_0000.txt`, `frame_0001.txt`, ...: a line `x y` (m) for each particle, every number as the
 // shortest text that reads back as the same double. Above 9999 the index grows wider.
@@ -16,14 +16,14 @@ namespace SPRING_PENDULUM_API spring_pendulum {
 
 class FrameFolder;
 
-/// Writes the frames of one run into a folder. A frame is whole or absent, whenever the program is
-/// stopped. While a writer lives, its folder is locked against a second one.
+/// Writes the frames of a run into a folder. If the program is stopped at any time, each frame file
+/// is either complete or absent. The folder is locked against a second writer.
 class FrameWriter {
  public:
-  /// Makes the folder if it is absent, makes sure that it can be written, and removes the frames
-  /// of an earlier run: regular files named `frame_` + at least four digits + `.txt`, nothing else.
-  /// \param frames how many frames are going to be written
-  /// \param inputs files that the run reads, which are never removed
+  /// Creates the folder if needed, checks that it is writable, and removes the frames of an earlier
+  /// run: regular files named `frame_` + at least four digits + `.txt`, nothing else.
+  /// \param frames number of frames to be written
+  /// \param inputs input files of the run, which are never removed
   /// \throws InputError if one of the inputs has the name of a frame in this folder, or `frames` is
   ///         negative
   /// \throws FileError naming the folder or file
@@ -37,14 +37,14 @@ class FrameWriter {
   /// \throws FileError naming the file
   void write(std::int64_t index, const State& state);
 
-  /// Ends the run; the folder is free for another one. No write after this. A second call does
+  /// Ends the run and releases the folder. `write` must not be called after this. A second call does
   /// nothing.
   /// \throws FileError if the folder was moved away during the run
   void finish();
 
   /// Absolute path of the folder.
   const std::string& folder() const;
-  /// How many frames of an earlier run were removed.
+  /// Number of removed frames of an earlier run.
   std::int64_t earlierFrames() const;
   /// Wall-clock time spent in this class, s.
   double seconds() const { return seconds_; }
@@ -55,7 +55,7 @@ class FrameWriter {
   double seconds_ = 0.0;
   std::int64_t frames_;
   std::unique_ptr<FrameFolder> folder_;
-  std::vector<char> text_;  ///< of some lines, reused
+  std::vector<char> text_;  ///< buffer for some lines
 };
 
 }  // namespace spring_pendulum

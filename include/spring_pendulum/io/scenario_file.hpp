@@ -9,14 +9,14 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// Keys that the file does not name keep their defaults. Keys that the method does not use, like
-/// `time_step` for an error-controlled method, are checked but have no effect.
+/// Reads a scenario. Keys that are not in the file keep their defaults. Keys that the method does
+/// not use, like `time_step` for an error-controlled method, are checked but have no effect.
 /// \throws FileError if the file can't be read
 /// \throws InputError with file and line for invalid YAML, an unknown key or a wrong value
 Scenario readScenarioFile(const std::string& path);
 
-/// The same for text in memory.
-/// \param name what messages call the text
+/// Reads a scenario from text.
+/// \param name name of the text in error messages
 Scenario parseScenario(std::string_view text, std::string_view name);
 
 }  // namespace spring_pendulum

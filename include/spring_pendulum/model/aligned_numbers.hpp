@@ -1,8 +1,9 @@
-// Memory for numbers that a program and the library hand to each other.
+// Memory for numbers that a program and the library pass to each other.
 //
-// How Eigen aligns and frees memory depends on the compiler's vector options, so an Eigen matrix that
-// one side allocates and the other frees crashes if the two were compiled differently. The library
-// therefore allocates and frees all shared memory itself; Eigen only looks at it through Eigen::Map.
+// How Eigen aligns and frees memory depends on the compiler's vector options, so an Eigen matrix
+// that one side allocates and the other frees crashes if the two were compiled differently. The
+// library therefore allocates and frees all shared memory itself; Eigen accesses it through
+// Eigen::Map.
 #pragma once
 
 #include <spring_pendulum/model/export.hpp>
@@ -13,7 +14,7 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// An array of doubles that begins on a cache line.
+/// An array of doubles aligned to a cache line.
 class AlignedNumbers {
  public:
   static constexpr std::size_t kAlignment = 64;
@@ -22,8 +23,8 @@ class AlignedNumbers {
   using ConstView = Eigen::Map<const Eigen::VectorXd>;
 
   AlignedNumbers() noexcept;
-  /// \param size how many numbers, all 0
-  /// \throws InputError if it is negative
+  /// `size` zeros.
+  /// \throws InputError if `size` is negative
   explicit AlignedNumbers(std::ptrdiff_t size);
   /// Copies an Eigen vector or vector expression.
   template <typename Vector>

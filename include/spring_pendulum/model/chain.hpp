@@ -1,5 +1,5 @@
-// What is fixed about a chain: how many particles, how heavy, joined by which springs, under which
-// gravity. It holds no positions, no clock and no counters.
+// The constants of a chain: number of particles, masses, springs and gravity. Positions and time
+// are not part of it.
 #pragma once
 
 #include <spring_pendulum/model/aligned_numbers.hpp>
@@ -10,8 +10,8 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// A chain of N >= 1 particles P_1..P_N and N-1 equal springs. P_1 is fixed, so its mass is never
-/// used. Validated when made, never changed after.
+/// A chain of N >= 1 particles P_1..P_N and N-1 equal springs. P_1 is fixed; its mass is not used.
+/// Validated by the constructor, immutable afterwards.
 class Chain {
  public:
   /// \param masses  an Eigen vector of N masses in kg; all but the first finite and above 0.
@@ -28,11 +28,11 @@ class Chain {
   std::ptrdiff_t size() const { return masses_.size(); }
   /// N masses, kg.
   AlignedNumbers::ConstView masses() const { return masses_.view(); }
-  /// N numbers, 1/kg; 0 for P_1, as if it were infinitely heavy.
+  /// N inverse masses, 1/kg; 0 for P_1, which corresponds to infinite mass.
   AlignedNumbers::ConstView inverseMasses() const { return inverse_masses_.view(); }
   const SpringLaw& spring() const { return spring_; }
   double gravity() const { return gravity_; }
-  /// Whether all moving particles have the same mass to the last bit.
+  /// Whether all moving particles have exactly the same mass.
   bool equalMasses() const { return equal_masses_; }
 
  private:

@@ -1,4 +1,4 @@
-// Where the energy of a chain is, and how fast the dashpots turn it into heat.
+// The energies of a chain and the power dissipated by its dashpots.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
@@ -7,7 +7,7 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// Energies of one state, J. Sums run over the particles in order, so the bits never change.
+/// Energies of one state, J. Each sum has a fixed order, so the bits are the same on every machine.
 struct Energy {
   double kinetic = 0.0;  ///< sum of m v²/2
   double gravity = 0.0;  ///< sum of m g (y - y_1): 0 at the height of the fixed particle
@@ -16,11 +16,12 @@ struct Energy {
   double total() const { return kinetic + gravity + spring; }
 };
 
-/// \throws InputError if the state is not of the chain's size
+/// Computes the energies of a state.
+/// \throws InputError if the size of the state is not that of the chain
 Energy computeEnergy(const Chain& chain, const State& state);
 
 /// Power dissipated by the dashpots, sum of k_d (w·r)², W; never negative.
-/// \throws InputError if the state is not of the chain's size
+/// \throws InputError if the size of the state is not that of the chain
 double dissipatedPower(const Chain& chain, const State& state);
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-// The two ways an input can be refused. Each message is one line: what, where, what would be right.
+// The two kinds of errors. Each message is one line: what is wrong, where, and what would be right.
 #pragma once
 
 #include <spring_pendulum/model/export.hpp>

@@ -1,5 +1,5 @@
-// What the shared library exports: everything that a public header declares, and nothing else.
+// Visibility: the shared library exports what public headers declare, and nothing else.
 #pragma once
 
-/// Marks a block of the namespace whose functions and classes other programs may use.
+/// Marks a namespace block whose functions and classes the shared library exports.
 #define SPRING_PENDULUM_API [[gnu::visibility("default")]]

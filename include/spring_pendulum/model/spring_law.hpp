@@ -1,5 +1,5 @@
-// The force of one damped spring, written once: the plain code and the SIMD kernels both call it,
-// so both do the same arithmetic in the same order, with the same fused multiply-adds.
+// The force of one damped spring. Both the plain code and the SIMD kernels call these functions, so
+// they do the same arithmetic in the same order, with the same fused multiply-adds.
 #pragma once
 
 #include <spring_pendulum/model/export.hpp>
@@ -8,7 +8,7 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// Kelvin-Voigt spring: a linear spring and a linear dashpot side by side.
+/// Kelvin-Voigt element: a linear spring and a linear dashpot in parallel.
 struct SpringLaw {
   double stiffness = 50.0;   ///< k_s, N/m, at least 0
   double damping = 1.0;      ///< k_d, N·s/m, at least 0
@@ -22,12 +22,12 @@ struct PlaneVector {
   Value y;
 };
 
-/// a b + c, rounded once. Nothing else fuses: with -ffp-contract=off the compiler never does.
+/// a b + c, rounded once. With -ffp-contract=off the compiler fuses nothing else.
 [[gnu::always_inline]] inline double fused(double a, double b, double c) {
   return std::fma(a, b, c);
 }
 
-/// 1/sqrt(q), and 0 for q = 0: a spring without length has no direction, hence no force.
+/// 1/sqrt(q); 0 for q = 0, as a spring of length 0 has no direction and hence no force.
 [[gnu::always_inline]] inline double inverseSquareRoot(double q) {
   return q > 0.0 ? 1.0 / std::sqrt(q) : 0.0;
 }
@@ -45,14 +45,14 @@ template <typename Value>
   return fused(a.x, b.x, a.y * b.y);
 }
 
-/// w·r, m/s: how fast a spring grows longer; 0 without length.
+/// Rate of elongation w·r, m/s; 0 for a spring of length 0.
 template <typename Value>
 [[gnu::always_inline]] inline Value elongationRate(const PlaneVector<Value>& separation,
                                                    const PlaneVector<Value>& approach) {
   return dotProduct(approach, separation) * inverseSquareRoot(squaredLength(separation));
 }
 
-/// The force of a spring with w·d (m²/s) and 1/L (1/m) known.
+/// The force of a spring from given w·d (m²/s) and 1/L (1/m); see below.
 template <typename Value>
 [[gnu::always_inline]] inline PlaneVector<Value> springForce(const SpringLaw& law,
                                                              const PlaneVector<Value>& separation,
@@ -63,7 +63,7 @@ template <typename Value>
   return {factor * separation.x, factor * separation.y};
 }
 
-/// The same, to the last bit, of a spring whose damping is 0 (as long as w·d is finite).
+/// The force for damping 0. The same bits as springForce if w·d is finite.
 template <typename Value>
 [[gnu::always_inline]] inline PlaneVector<Value> undampedSpringForce(
     const SpringLaw& law, const PlaneVector<Value>& separation, const Value& inverse_length) {
@@ -71,11 +71,11 @@ template <typename Value>
   return {factor * separation.x, factor * separation.y};
 }
 
-/// Force in N of a spring on the end it is seen from,
+/// Force in N of a spring on the particle at one of its ends,
 ///
 ///     f = (k_s (L - L_0) + k_d w·r) r ,   L = |d| ,   r = d / L ,
 ///
-/// evaluated as f = (k_s + (k_d (w·d)/L - k_s L_0) / L) d, which needs 1/L alone.
+/// evaluated as f = (k_s + (k_d (w·d)/L - k_s L_0) / L) d, which needs only 1/L.
 /// \param separation d = p_other - p_this, m
 /// \param approach   w = v_other - v_this, m/s
 template <typename Value>
@@ -86,7 +86,7 @@ template <typename Value>
   return springForce(law, separation, dotProduct(approach, separation), inverse_length);
 }
 
-/// The same, to the last bit, of a spring whose damping is 0 (as long as w·d is finite).
+/// The force for damping 0. The same bits as springForce if w·d is finite.
 template <typename Value>
 [[gnu::always_inline]] inline PlaneVector<Value> undampedSpringForce(
     const SpringLaw& law, const PlaneVector<Value>& separation) {

@@ -1,4 +1,4 @@
-// Where the particles are and how fast they move: the unknown z = [p; v] of z' = F(z).
+// Positions and velocities of all particles: the unknown z = [p; v] of z' = F(z).
 #pragma once
 
 #include <spring_pendulum/model/aligned_numbers.hpp>
@@ -11,10 +11,10 @@
 namespace SPRING_PENDULUM_API spring_pendulum {
 
 /// Positions (m) and velocities (m/s) of N particles as a structure of arrays: an N×4 matrix whose
-/// columns x, y, vx, vy are each contiguous. Plain data: no clock, no invariants.
+/// columns x, y, vx, vy are each contiguous. Plain data without time and without invariants.
 ///
-/// The state owns the numbers; the member functions return Eigen views of them, valid until the state
-/// is destroyed, moved or assigned a state of another size.
+/// The state owns the numbers. The member functions return Eigen views, which are valid until the
+/// state is destroyed, moved from or assigned a state of another size.
 class State {
  public:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 4>;
@@ -31,7 +31,7 @@ class State {
   State& operator=(State&& other) noexcept;
   ~State();
 
-  /// N.
+  /// Number of particles N.
   std::ptrdiff_t size() const { return size_; }
 
   auto x() { return column(0); }

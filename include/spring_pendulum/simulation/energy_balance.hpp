@@ -1,8 +1,8 @@
-// The energy balance of a run: where the energy is, what the dashpots took, and what is missing.
+// The energy balance of a run.
 //
-// Nothing drives the chain, so E(t) + D(t) = E(0) at all times, with the energy E = kinetic +
-// gravity + spring and the energy D that the dashpots dissipated. The residual E(t) + D(t) - E(0)
-// is the integration error in the one quantity that is known exactly. It is put in relation to the
+// No external force does work on the chain, so E(t) + D(t) = E(0) at all times, with the energy
+// E = kinetic + gravity + spring and the dissipated energy D. The residual E(t) + D(t) - E(0) is
+// the integration error of a quantity whose exact value is known. It is given relative to the
 // energy scale of the scene.
 #pragma once
 
@@ -15,23 +15,23 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// The energy in J that a scene can turn over: from the larger of E(0) and 0 (the level of all
-/// particles unstretched at the height of P_1) down to the least energy there is, the chain hanging
+/// The energy in J available to a motion: the difference between the larger of E(0) and 0 (all
+/// springs unstretched and all particles at the height of P_1) and the minimum, the chain hanging
 /// at rest, where spring i carries the weight W_i of all particles beyond it:
 ///
 ///     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
 ///
-/// So a chain that starts at rest in equilibrium still has the scale of lifting it to the height of
-/// P_1. Two special cases keep it above zero and finite:
-/// - it is never below the energy of all springs stretched by a millionth of their length;
-/// - without stiffness (k_s = 0) no least energy exists, and M g² t²/2 takes the place of the last
-///   term: what the fall of the mass M has turned over at time t.
+/// For a chain that starts in equilibrium, this is the energy of lifting it to the height of P_1.
+/// Two rules keep the scale positive and finite:
+/// - it is at least the energy of all springs stretched by a millionth of their length;
+/// - without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
+///   the mass M until time t, replaces the last term.
 class EnergyScale {
  public:
-  /// \throws InputError if the energies of the start do not fit into a double
+  /// \throws InputError if an energy of the start exceeds the range of double
   EnergyScale(const Chain& chain, const State& start);
 
-  /// J, above 0 for any chain with springs.
+  /// Scale at a time in s, J; positive for any chain with springs.
   double at(double time) const { return constant_ + fall_ * time * time; }
 
  private:
@@ -39,27 +39,27 @@ class EnergyScale {
   double fall_ = 0.0;      ///< J/s²
 };
 
-/// One row of the energy balance. Energies in J, relative numbers in parts of the energy scale.
+/// One row of the energy balance. Energies in J, relative values in units of the energy scale.
 struct EnergyEntry {
   double time = 0.0;                 ///< s
   Energy energy;                     ///< not finite if the state is not
   double gain = 0.0;                 ///< E(t) - E(0)
   double relative_gain = 0.0;        ///< gain / scale
-  std::optional<double> dissipated;  ///< nothing if nobody tracked it
+  std::optional<double> dissipated;  ///< nothing if not tracked
   std::optional<double> residual;    ///< E(t) + D(t) - E(0)
   std::optional<double> relative_residual;
 };
 
 class EnergyBalance {
  public:
-  /// \param tracks_dissipation whether the integrator was made with `track_dissipation`. Without,
-  ///   the residual is known only if the chain has no damping, and then costs nothing.
+  /// \param tracks_dissipation whether the integrator has `track_dissipation` set. If not, the
+  ///   residual is known only for a chain without damping.
   /// \throws InputError as EnergyScale
   EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation);
 
-  /// One pass over the state.
+  /// Returns the balance of a state.
   /// \param time       s since the start
-  /// \param dissipated `Integrator::dissipatedEnergy()`, J; read only if it is tracked
+  /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
   EnergyEntry entry(double time, const State& state, double dissipated) const;
 
   /// Energy scale at a time, J.

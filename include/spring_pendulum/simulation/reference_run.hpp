@@ -1,14 +1,14 @@
-// A reference run: the same motion computed again, much more accurately, beside a run.
+// A reference run: the same motion, integrated alongside a run with a much smaller error.
 //
-// Two error-controlled runs advance together with the run that is measured. The first one is the
-// reference. The second one has a tolerance a hundred times as large, so the distance between the
-// two bounds the error of the reference, also where small changes of the state grow: once the two
-// have parted, the motion is too sensitive to be known, and the measurement ends.
+// Two error-controlled trajectories advance together with the measured run. The first is the
+// reference. The tolerance of the second is a hundred times as large, so the distance between the
+// two is a bound on the error of the reference, also where small perturbations grow. When they have
+// separated, the motion is too sensitive to be known, and the measurement ends.
 //
-// Beside an error-controlled run a third one starts from slightly longer springs. Its distance from
-// the reference tells how much a small change grows, and so which tolerance can be kept. (Scaling
-// the start keeps a straight chain straight: its motion would otherwise count as sensitive although
-// no error ever leaves the line.)
+// For an error-controlled run, a third trajectory starts with slightly longer springs. Its distance
+// from the reference measures the growth of perturbations, and thus which tolerance can be met.
+// (Scaling the start keeps a straight chain straight. Any other perturbation would make its motion
+// count as sensitive, although no error leaves the line.)
 //
 // The cost is bounded by a count of work, not by a clock, so how long a run is
 // measured does not depend on the machine. The run itself is never touched.
@@ -24,15 +24,15 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// Length in m that position errors of a chain are compared with: the sum of its springs' rest
-/// lengths, at least a tenth of its length at the start (for springs without rest length).
+/// Length in m to which position errors are related: the sum of the rest lengths, but at least a
+/// tenth of the length of the chain at the start (for springs with rest length 0).
 double chainLength(const Chain& chain, const State& start);
 
 struct ReferenceOptions {
-  /// Tolerance in m of the run that is measured, if it has one; infinite for a fixed step. The
-  /// reference's tolerance is a thousandth of it, at most 1e-10 m.
+  /// Tolerance in m of the measured run; infinite for a fixed-step method. The tolerance of the
+  /// reference is a thousandth of this, at most 1e-10 m.
   double run_tolerance = std::numeric_limits<double>::infinity();
-  /// Measure to the end whatever it costs.
+  /// Measure to the end, whatever the cost.
   bool always = false;
 };
 
@@ -40,15 +40,15 @@ class ReferenceRun {
  public:
   enum class Status {
     kMeasuring,
-    kCostTooMuch,  ///< stopped: the work allowed is used up
-    kSensitive,    ///< stopped: the two runs parted, the true motion is no longer known
+    kCostTooMuch,  ///< stopped: the allowed work is used up
+    kSensitive,    ///< stopped: the trajectories separated, the true motion is not known
     kFailed        ///< stopped: a reference run diverged
   };
 
-  /// An uncertainty above this share of the chain's length ends the measurement.
+  /// An uncertainty above this share of `chainLength` ends the measurement.
   static constexpr double kBelieved = 1e-3;
 
-  /// Nothing is allocated before the first `advance`.
+  /// Allocates the trajectories in the first `advance`.
   ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options = {});
   ~ReferenceRun();
   ReferenceRun(ReferenceRun&&) noexcept;
@@ -60,25 +60,25 @@ class ReferenceRun {
   ///   cost as much, or some 0.2 s if that is more
   void advance(double time_step, std::int64_t steps, double run_work);
 
-  /// Back to the start.
+  /// Returns to the start.
   void restart();
 
   Status status() const { return status_; }
   bool isMeasuring() const { return status_ == Status::kMeasuring; }
 
-  /// True state, as well as it is known. The last one known once the measurement has stopped.
+  /// State of the reference; the last one if the measurement has stopped.
   const State& state() const { return state_; }
 
-  /// Bound on the position error of `state()`, m; NaN once the measurement has stopped.
+  /// Bound on the position error of `state()`, m; NaN after the measurement has stopped.
   double uncertainty() const { return uncertainty_; }
 
-  /// Largest distance of a particle in `state` from where it should be, m; NaN once the
-  /// measurement has stopped. An error below `uncertainty()` is not resolved.
-  /// \throws InputError if `state` is not of the chain's size
+  /// Largest distance of a particle from its reference position, m; NaN after the measurement has
+  /// stopped. Errors below `uncertainty()` are not resolved.
+  /// \throws InputError if the size of the state is not that of the chain
   double errorOf(const State& state) const;
 
-  /// How many times a small change of the start has grown, the most so far; NaN beside a run
-  /// with a fixed step.
+  /// Largest growth factor of a small perturbation of the start so far; NaN for a fixed-step
+  /// method.
   double growth() const { return growth_; }
 
  private:
@@ -100,7 +100,7 @@ class ReferenceRun {
   Status status_ = Status::kMeasuring;
   State state_;
   double uncertainty_ = 0.0;
-  std::vector<Trajectory> trajectories_;  ///< reference, second, and third where growth is wanted
+  std::vector<Trajectory> trajectories_;  ///< reference, second, and third if growth is measured
 };
 
 }  // namespace spring_pendulum

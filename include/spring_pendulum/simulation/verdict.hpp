@@ -1,4 +1,4 @@
-// The verdict on a run: can the result be trusted?
+// The verdict on a run: can its result be trusted?
 //
 // Two things are judged after every frame, before it is written. A chain that nothing drives never
 // gains energy, whatever its damping, so energy above the start proves an unstable or inaccurate
@@ -20,57 +20,57 @@ namespace SPRING_PENDULUM_API spring_pendulum {
 /// In order of severity.
 enum class VerdictKind {
   kOk,
-  kNotChecked,    ///< positions were not compared with a reference run, or not to the end
-  kSensitive,     ///< small errors grow so much that the true positions are not known
-  kInaccurate,    ///< position error above 1 % of the chain's length
-  kDrift,         ///< the energy balance is off by over 1 % of the energy scale
-  kGainedEnergy,  ///< energy above the start by over 1 % of the energy scale
-  kDiverged       ///< a number that is not finite, or energy up by over the whole scale
+  kNotChecked,    ///< the position error was not measured, or not to the end
+  kSensitive,     ///< perturbations grow so much that the true positions are unknown
+  kInaccurate,    ///< position error above 1 % of `chainLength`
+  kDrift,         ///< residual of the energy balance above 1 % of the energy scale
+  kGainedEnergy,  ///< energy gain above 1 % of the energy scale
+  kDiverged       ///< a number is not finite, or energy gain above the energy scale
 };
 
 /// "ok", "not checked", "sensitive", "inaccurate", "drift", "gained energy", "diverged"
 std::string_view toString(VerdictKind kind);
 
-/// Whether the verdict blames the run: from `kInaccurate` on.
+/// Whether the result of the run is wrong: `kInaccurate` and worse.
 inline bool isBad(VerdictKind kind) {
   return kind >= VerdictKind::kInaccurate;
 }
 
 struct Verdict {
   VerdictKind kind = VerdictKind::kOk;
-  double time = 0.0;          ///< s, of the frame judged
-  Eigen::Index particle = 0;  ///< diverged: the particle to blame, counted from 1; else 0
+  double time = 0.0;          ///< of the judged frame, s
+  Eigen::Index particle = 0;  ///< first particle to diverge, counted from 1; else 0
   std::string text = "ok";    ///< one line: what is wrong, when and where
 };
 
-/// Position errors of a run against its reference run: the largest distance of a particle from
-/// where it should be. NaN where nothing was measured.
+/// Position errors of a run: the largest distance of a particle from its position in the reference
+/// run. NaN if not measured.
 struct PositionError {
   double now = std::numeric_limits<double>::quiet_NaN();             ///< m, at the last frame
   double largest = std::numeric_limits<double>::quiet_NaN();         ///< m, over the frames so far
   double largest_time = std::numeric_limits<double>::quiet_NaN();    ///< s
   double measured_until = std::numeric_limits<double>::quiet_NaN();  ///< s
-  double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< m, of what was measured last
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();     ///< m, of the last measurement
 };
 
 struct JudgeOptions {
-  bool tracks_dissipation = false;  ///< whether the integrator was made with `track_dissipation`
-  /// Step in s of a symplectic method; 0 for other methods. The energy then oscillates about its
-  /// true value, so the mean error over the run so far is judged.
+  bool tracks_dissipation = false;  ///< whether the integrator has `track_dissipation` set
+  /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
+  /// oscillates about its true value, so its mean error over the run so far is judged.
   double symplectic_step = 0.0;
-  /// Tolerance in m of an error-controlled method; 0 for fixed steps. Position errors within the
-  /// promised ten tolerances change the length of a spring by up to 20 of them. The energy of that is
-  /// allowed: for particles of 1e-9 kg it exceeds all that gravity can do.
+  /// Tolerance in m of an error-controlled method; 0 for fixed steps. Position errors up to the
+  /// promised ten tolerances change the length of a spring by up to 20 tolerances. The energy of
+  /// this change is allowed: for particles of 1e-9 kg it exceeds their potential energy.
   double tolerance = 0.0;
 };
 
-/// Judges the frames of one run and remembers the worst.
+/// Judges the frames of a run and keeps the worst verdict.
 class Judge {
  public:
   static constexpr double kDriftThreshold = 0.01;
   static constexpr double kGainThreshold = 0.01;
   static constexpr double kDivergenceThreshold = 1.0;
-  /// In chain lengths. The eye does not see less in a picture of the chain.
+  /// In units of `chainLength`. Smaller errors are not visible in a picture of the chain.
   static constexpr double kInaccurateThreshold = 0.01;
 
   /// \throws InputError as EnergyBalance
@@ -78,23 +78,23 @@ class Judge {
   Judge(const Chain& chain, const State& start, bool tracks_dissipation)
       : Judge(chain, start, JudgeOptions{tracks_dissipation, 0.0, 0.0}) {}
 
-  /// Judges the state at `time` s by its energy alone. No allocation while the motion is good.
-  /// \param dissipated `Integrator::dissipatedEnergy()`, J; read only if it is tracked
+  /// Judges the state at `time` s by its energy only. Does not allocate unless the verdict is bad.
+  /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
   const Verdict& judge(double time, const State& state, double dissipated);
 
   /// Judges the state at `time` s by its energy and its positions.
-  /// \param reference of the same time; null: there is none
+  /// \param reference at the same time; null: none
   const Verdict& judge(double time, const State& state, double dissipated,
                        const ReferenceRun* reference);
 
-  /// Forgets all frames judged.
+  /// Discards all judged frames.
   void restart();
 
   const EnergyBalance& balance() const { return balance_; }
-  /// The energy balance of the state judged last.
+  /// The energy balance of the last judged state.
   const EnergyEntry& entry() const { return entry_; }
   const PositionError& positionError() const { return position_error_; }
-  /// The verdict on the state judged last.
+  /// The verdict on the last judged state.
   const Verdict& latest() const { return latest_; }
   /// The first of the most severe verdicts so far: the verdict on the run.
   const Verdict& worst() const { return worst_; }
@@ -112,8 +112,8 @@ class Judge {
   double chain_length_;
   double symplectic_step_;
   double tolerance_energy_;    ///< J
-  double gain_sum_ = 0.0;      ///< of the relative gains of the frames judged
-  double residual_sum_ = 0.0;  ///< of their relative residuals
+  double gain_sum_ = 0.0;      ///< sum of the relative gains of the judged frames
+  double residual_sum_ = 0.0;  ///< sum of their relative residuals
   double frames_ = 0.0;
   EnergyEntry entry_;
   PositionError position_error_;

@@ -10,32 +10,32 @@
 namespace spring_pendulum {
 namespace {
 
-/// Tolerances in m below which order 12 pays, and the rate in 1/s from which on the second counts:
-/// of steps that stability makes short anyway, those of order 8 cost less.
+/// Tolerances in m below which order 12 costs less than order 8. The second holds for damping rates
+/// above kFastRate (1/s), where stability limits the steps and order 8 is cheaper.
 constexpr double kTightTolerance = 1e-2;
 constexpr double kTightToleranceIfFast = 1e-5;
 constexpr double kFastRate = 100.0;
 
-/// Rate in 1/s from which on the implicit method takes part.
+/// Damping rate in 1/s above which the implicit method is a candidate.
 constexpr double kRateForImplicit = 1e3;
 
-/// Part of its stability limit from which on an explicit method counts as held back by it.
+/// Share of the stability limit above which the motion counts as stiff for an explicit method.
 constexpr double kStiffFrom = 0.25;
 
-/// Steps of the active method before another takes its place, so that its pace is known.
+/// Least number of steps of the active method before a switch, to measure its pace.
 constexpr int kLeastSteps = 16;
 
-/// Steps of a challenger: those in which it finds its step length do not count.
+/// Steps of a candidate in a race: to find its step size, and to measure its pace.
 constexpr int kWarmingUp = 6;
 constexpr int kCounted = 6;
 
-/// Work between two races, in work of a race.
+/// Work between two races, in units of the work of a race.
 constexpr double kWorkPerRace = 25.0;
 
-/// Work before the first race: about as much as the race itself.
+/// Work before the first race, in force evaluations: about the work of a race.
 constexpr double kWorkBeforeFirstRace = 500.0;
 
-/// How much faster a challenger has to be.
+/// Least ratio of the paces for a switch.
 constexpr double kHysteresis = 1.2;
 
 /// Work of an evaluation, in those of Taylor-8: measured for chains of 2 to 50 particles. Steps of
@@ -115,7 +115,8 @@ void AutoStepper::start(const State& state) {
   startedAt(candidates_[0], state);
 }
 
-// The work is computed from the difference, which does not depend on what was counted before.
+// The product of the difference, not the difference of products: it does not depend on earlier
+// work, so a restarted run gives the same bits.
 double AutoStepper::workSince(const Candidate& candidate, std::int64_t evaluations) {
   return candidate.work_per_evaluation *
          static_cast<double>(evaluationsOf(candidate) - evaluations);

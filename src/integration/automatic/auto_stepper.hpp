@@ -1,23 +1,23 @@
-// Auto: takes the method that is cheapest for the chain, the tolerance and the motion at hand.
+// Auto: chooses the cheapest method for the chain, the tolerance and the current motion.
 //
-// It begins with a Taylor series method, of order 8 or 12 by tolerance, the cheapest as long as
-// accuracy limits its steps. When they come near its stability limit (step * k_d μ, with the
-// chain's largest spring mode μ), the motion has turned stiff. The stabilised series of order 8 then
-// takes over from the plain one of order 8, as it needs no more work. After that the methods race:
-// the plain series, the stabilised ones of order 4 and 8 and, for light particles, Radau-9.
-// Each takes a few steps from the same state, and what counts is the time it covers per work, in
-// force evaluations of Taylor-8. All control their error alike: long steps each, and short steps
-// per unit of time. The work of a method's evaluation is a constant, no clock is read, so every
-// machine chooses alike and the bits stay the same. A method is made when it is first needed.
+// The first method is a Taylor series method of order 8 or 12, depending on the tolerance. It is
+// the cheapest while accuracy limits the step size. When the steps approach its stability limit
+// (step * k_d μ, with the largest spring mode μ of the chain), the motion is stiff. The stabilised
+// series of order 8 then replaces the plain series of order 8, as it needs no more work. Later, the
+// methods race: the plain series, the stabilised series of order 4 and 8 and, for light particles,
+// Radau-9. Each candidate takes a few steps from the same state. The one that covers the most time
+// per work wins, where work is measured in force evaluations of Taylor-8. The work of an evaluation
+// is a constant for each method and no clock is read, so the choice and the bits are the same on
+// every machine. A method is constructed when it is first used.
 //
-// Races are held rarely enough to cost some percents of the work, and a challenger has to be
-// better by a fifth, so that two methods that are equally good do not take turns. Races go on while
-// a stiff method is at work, so it is left again when the motion stops being stiff.
+// Races take a few percent of the work. A candidate must be faster by a fifth to win, so that two
+// equally good methods do not alternate. Races continue while a stiff method is active, so Auto
+// returns to the plain series when the motion is no longer stiff.
 //
-// A method for a million particles takes about a gigabyte: for long chains, only the method at work
-// and one challenger exist at a time.
+// A method for a million particles takes about a gigabyte. For long chains, only the active method and
+// one candidate exist at a time.
 //
-// Reference for the idea: L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148,
+// Idea: L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148,
 // doi:10.1137/0904010.
 #pragma once
 
@@ -51,7 +51,7 @@ class AutoStepper final : public DenseOutputStepper {
   /// "Taylor-8 for 0.4 s, Stabilized-Taylor-8 for 4.6 s, 1 switch"
   std::string report() const override;
 
-  /// The method at work.
+  /// Name of the active method.
   std::string_view method() const { return active().name; }
 
  private:
@@ -59,12 +59,12 @@ class AutoStepper final : public DenseOutputStepper {
     std::string_view name;
     double work_per_evaluation;  ///< in force evaluations of Taylor-8
     std::unique_ptr<DenseOutputStepper> (*make)(const Chain& chain, double tolerance);
-    std::unique_ptr<DenseOutputStepper> stepper{};  ///< made when it is used
+    std::unique_ptr<DenseOutputStepper> stepper{};  ///< constructed when used
     double covered = 0.0;                           ///< time integrated with it, s
     std::int64_t earlier_evaluations = 0;           ///< of steppers that were given up
     std::int64_t earlier_rejected = 0;
   };
-  /// Time covered and the work it took.
+  /// Time covered, and the work spent on it.
   struct Pace {
     double time = 0.0;
     double work = 0.0;
@@ -80,23 +80,23 @@ class AutoStepper final : public DenseOutputStepper {
   Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
   DenseOutputStepper& startedAt(Candidate& candidate, const State& state);
-  /// Gives up the memory of a candidate that is not at work, if the chain is long.
+  /// Frees the memory of a candidate that is not active, if the chain is long.
   void release(Candidate& candidate);
-  /// `state_` becomes the end of the last step.
+  /// Sets `state_` to the end of the last step.
   void readState();
   void race();
-  /// Goes on from `state_` with another candidate, or with the same one.
+  /// Continues from `state_` with candidate `to`.
   void change(std::size_t to);
 
   Chain chain_;
   double tolerance_;
   Eigen::Index keeps_up_to_;
-  double fastest_rate_;               ///< of the damped modes, 1/s
-  bool successor_is_better_ = false;  ///< candidate 1 than the first, if the motion is stiff
-  double explicit_limit_ = 0.0;       ///< h|λ| up to which the first candidate is stable
+  double fastest_rate_;               ///< largest damping rate, 1/s
+  bool successor_is_better_ = false;  ///< candidate 1 beats candidate 0 in stiff motion
+  double explicit_limit_ = 0.0;       ///< stability limit h|λ| of candidate 0
   std::vector<Candidate> candidates_;
   std::size_t active_ = 0;
-  Pace recent_;  ///< of the active method since it began or since the last race
+  Pace recent_;  ///< of the active method since its start or the last race
   std::int64_t recent_steps_ = 0;
   double work_before_race_ = 0.0;
   std::int64_t steps_ = 0;

@@ -81,7 +81,7 @@ const EmbeddedPair kDormandPrince8{
      -5.801203960010585, -0.4226823213237919, -0.1521609496625161, 0.20136540080403034,
      0.02265179219836082},
     16,
-    // Hairer gives this polynomial by its differences; here it is multiplied out.
+    // Hairer gives this polynomial in nested form; here it is expanded in powers of θ.
     {{{1.0, -10.266057073759308, 48.161850968566455, -114.93304874997833, 147.46446875669767,
        -97.06685363011368, 25.69393346270375},
       {},

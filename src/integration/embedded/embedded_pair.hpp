@@ -1,12 +1,12 @@
-// Explicit Runge-Kutta methods that estimate their own error: a tableau of order p, weights of the
-// difference to a method of lower order made of the same slopes, and a polynomial that gives the
-// state inside the step.
+// Embedded explicit Runge-Kutta pairs: a tableau of order p, weights of the difference to an
+// embedded method of lower order, and a polynomial for the state inside a step (dense output).
 //
-//     z_{n+1} = z_n + h sum b_i k_i      error = h sum e_i k_i      z(t_n + θh) = z_n + h sum
-//     b_i(θ) k_i
+//     z_{n+1} = z_n + h sum b_i k_i
+//     error = h sum e_i k_i
+//     z(t_n + θh) = z_n + h sum b_i(θ) k_i
 //
-// The slope at the end of a step, k_s = F(z_{n+1}), is the first slope of the next one; it and the
-// extra slopes behind it, which only the dense output needs, are counted like stages.
+// The slope at the end of a step, k_s = F(z_{n+1}), is the first slope of the next step. It and the
+// extra slopes after it, which only the dense output needs, are numbered like stages.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
 // ed., Springer 1993, sections II.4 to II.6 and II.10.
@@ -24,20 +24,20 @@ struct EmbeddedPair {
   static constexpr std::size_t kMaxDegree = 7;
   using Weights = std::array<double, kMaxSlopes>;
 
-  /// Row `stages` of `a` belongs to k_s and is not used; the rows behind it make the extra slopes.
+  /// Row `stages` of `a` belongs to k_s and is not used; later rows define the extra slopes.
   ButcherTableau tableau;
-  /// Power of h with which the estimated error of a step grows.
+  /// The estimated error of a step is O(h^error_order).
   int error_order = 0;
-  /// Part of the tolerance that the estimated error of a step may have, measured on the reference
-  /// scenes: with it the position error is at most 7 tolerances on all of them, after 50 s of the
-  /// weakly chaotic `horizontal_11`, and far below one on the others.
+  /// Largest estimated error of a step, in tolerances. Chosen so that the position error on the
+  /// reference scenes is at most 7 tolerances: after 50 s of the weakly chaotic `horizontal_11`; on
+  /// the other scenes it is far below one tolerance.
   double share_of_tolerance = 0.0;
   /// e_i
   Weights error{};
-  /// Of a second, coarser estimate; all 0 if there is none. Both are joined to
-  /// error²/sqrt(error² + coarse²/100), which is less often deceived than either.
+  /// Weights of a second, coarser estimate; all 0 if there is none. The combined estimate is
+  /// error²/sqrt(error² + coarse²/100), which is more reliable than either.
   Weights coarse_error{};
-  /// How many slopes the dense output is made of.
+  /// Number of slopes in the dense output.
   std::size_t dense_slopes = 0;
   /// b_i(θ) = sum over d of dense[i][d] θ^(d+1)
   std::array<std::array<double, kMaxDegree>, kMaxSlopes> dense{};
@@ -47,7 +47,7 @@ struct EmbeddedPair {
   Weights denseWeights(double theta) const;
 };
 
-/// Dormand-Prince 5(4): six stages, order 5, dense output of order 4 from the slopes at hand.
+/// Dormand-Prince 5(4): six stages, order 5, dense output of order 4 without extra slopes.
 ///
 ///     0    |
 ///     1/5  | 1/5
@@ -63,7 +63,7 @@ struct EmbeddedPair {
 extern const EmbeddedPair kDormandPrince5;
 
 /// Dormand-Prince 8(5,3): twelve stages, order 8, dense output of order 7 with three extra slopes,
-/// which are only evaluated for steps that an output time falls into. Coefficients of Hairer's
+/// which are evaluated only for steps that contain an output time. Coefficients of Hairer's
 /// DOP853: Hairer, Nørsett, Wanner, section II.10; P. J. Prince, J. R. Dormand, J. Comput. Appl.
 /// Math. 7 (1981) 67-75, doi:10.1016/0771-050X(81)90010-3.
 extern const EmbeddedPair kDormandPrince8;

@@ -7,10 +7,10 @@
 namespace spring_pendulum {
 namespace {
 
-/// Errors so small that their squares are 0, m.
+/// Below this error, its square could underflow to 0, m.
 constexpr double kNoError = 1e-150;
 
-/// An error of a velocity counts for the position as if it lasted so long, s.
+/// Converts a velocity error to a position error, s.
 constexpr double kVelocityTime = 0.1;
 
 }  // namespace
@@ -22,7 +22,7 @@ class EmbeddedRungeKuttaStepper::Sum {
       if (weights[i] != 0.0) terms_[count_++] = {h * weights[i], slopes[i].data()};
     }
   }
-  operator SlopeSum() const {  // NOLINT(google-explicit-constructor): it is one
+  operator SlopeSum() const {  // NOLINT(google-explicit-constructor)
     return {terms_.data(), static_cast<std::ptrdiff_t>(count_)};
   }
 
@@ -69,7 +69,7 @@ double EmbeddedRungeKuttaStepper::attempt(double h) {
 double EmbeddedRungeKuttaStepper::errorOf(const EmbeddedPair::Weights& weights, double h) const {
   const LargestChange change =
       kernels().largestChange(begin().size(), begin().pitch(), Sum(h, weights, slopes_));
-  // NaN in either must not be lost.
+  // std::max may drop a NaN; the second term keeps it.
   return std::max(change.position, kVelocityTime * change.velocity) +
          0.0 * (change.position + change.velocity);
 }

@@ -1,8 +1,8 @@
-// Steps of an embedded Runge-Kutta pair whose length follows the estimated error.
+// Embedded Runge-Kutta pairs with step-size control.
 //
-// The error is controlled in the maximum norm: no particle's error is diluted by others that do
-// nothing. It is that of a step, one power of h above the error of the motion a unit of time; as
-// the method of higher order continues the motion, its error is then proportional to the tolerance.
+// The error is controlled per step and in the maximum norm, so that particles at rest do not dilute
+// the error of a moving one. The solution of higher order is continued (local extrapolation), which
+// makes the global error proportional to the tolerance.
 #pragma once
 
 #include "integration/embedded/embedded_pair.hpp"
@@ -23,7 +23,7 @@ class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
   StepStatistics statistics() const override;
 
  private:
-  /// h times some weights, with the slopes they weigh; weights of 0 are left out.
+  /// The sum h * weight * slope; terms with weight 0 are left out.
   class Sum;
 
   void prepare(bool restarted) override;
@@ -32,7 +32,7 @@ class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
   void makeExtraSlopes() const;
 
   const EmbeddedPair& pair_;
-  // The extra slopes are made when somebody asks for the state inside a step.
+  // `interpolate` computes the extra slopes when they are first needed.
   mutable std::vector<StateBuffer> slopes_;
   mutable bool extra_slopes_known_ = false;
   mutable std::int64_t extra_evaluations_ = 0;

@@ -10,8 +10,8 @@
 namespace spring_pendulum {
 namespace {
 
-/// A motion gets through a collision in a few of the shortest steps; one that takes so many in a
-/// row would never reach its next output time.
+/// A collision takes a few steps of the shortest length. So many of them in a row will not reach
+/// the next output time.
 constexpr int kMostShortestSteps = 1000;
 
 struct QuadraturePoint {
@@ -19,7 +19,7 @@ struct QuadraturePoint {
   double weight;
 };
 
-/// Gauss-Legendre, exact up to degree 11, so the dense output decides how accurate an integral is.
+/// Gauss-Legendre, exact up to degree 11: its error is below that of the dense output.
 /// M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, table 25.4.
 constexpr std::array<QuadraturePoint, 6> kGaussLegendre{
     {{-0.932469514203152028, 0.171324492379170345},
@@ -81,7 +81,7 @@ bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::i
                                           double most_work) {
   requireAdvance(started_ ? particles_ : state.size(), state, time_step, steps);
   if (!started_) {
-    stepper_->start(state);  // knows the size of its chain
+    stepper_->start(state);  // checks the size of the state
     particles_ = state.size();
     started_ = true;
     diverged_ = false;

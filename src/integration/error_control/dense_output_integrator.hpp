@@ -1,7 +1,7 @@
-// The integrator around every error-controlled method. The stepper runs ahead with steps of its own
-// length; the states at the output times, and the energy dissipated until then, come from its dense
-// output. No step is shortened for an output time, so how often a motion is sampled changes neither
-// its cost nor its bits.
+// The integrator of every error-controlled method. Its stepper chooses the step sizes and runs
+// ahead of the output times. States at output times and the dissipated energy come from the dense
+// output. No step is shortened to hit an output time, so the sampling rate changes neither the
+// steps nor the bits of states at common output times.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
 // ed., Springer 1993, section II.6 (dense output).
@@ -23,16 +23,16 @@ namespace spring_pendulum {
 
 class DenseOutputIntegrator final : public Integrator {
  public:
-  /// \param dissipating the chain, if its dissipated energy is to be tracked
+  /// \param dissipating the chain if the dissipated energy is tracked, else nothing
   explicit DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
                                  const std::optional<Chain>& dissipating = {});
 
   /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
-  /// as often with half the time_step gives the same bits at the common times. With another
-  /// time_step than in the last call the motion goes on from the last output time, and n counts
-  /// from there. Only the first call after a (re)start reads `state`.
-  /// If the motion diverges, all numbers of `state` but the first particle's position are NaN from
-  /// the first output time on that can't be reached.
+  /// as often with half the time_step gives the same bits at the common times. If time_step differs
+  /// from the last call, n counts from the last output time. Only the first call after a (re)start
+  /// reads `state`.
+  /// If the motion diverges, all numbers of `state` except those of the first particle are NaN from
+  /// the first output time on that was not reached.
   void advance(State& state, double time_step, std::int64_t steps) override;
 
   /// As `advance`, but gives up before a step once the work done since the integrator was made has
@@ -49,7 +49,7 @@ class DenseOutputIntegrator final : public Integrator {
 
  private:
   void takeStep();
-  /// Energy dissipated from the beginning of the last step to `fraction` of it, J.
+  /// Energy dissipated in the first `fraction` of the last step, J.
   double dissipated(double fraction);
 
   std::unique_ptr<DenseOutputStepper> stepper_;
@@ -65,9 +65,9 @@ class DenseOutputIntegrator final : public Integrator {
   };
   std::optional<Dissipation> dissipation_;
   bool started_ = false;
-  std::ptrdiff_t particles_ = 0;  ///< of the state it started from
+  std::ptrdiff_t particles_ = 0;  ///< of the initial state
   bool diverged_ = false;
-  int shortest_steps_ = 0;      ///< taken in a row until now
+  int shortest_steps_ = 0;      ///< consecutive ones, up to now
   double output_origin_ = 0.0;  ///< s since the start; outputs are n * time_step later
   double output_step_ = 0.0;    ///< time_step of the last call
   std::int64_t outputs_ = 0;    ///< n
@@ -75,7 +75,7 @@ class DenseOutputIntegrator final : public Integrator {
   double step_length_ = 0.0;    ///< s
   double step_end_ = 0.0;       ///< s since the start
   double dissipated_before_step_ = 0.0;
-  double dissipated_in_step_ = 0.0;  ///< until the last output time
+  double dissipated_in_step_ = 0.0;  ///< up to the last output time
 };
 
 }  // namespace spring_pendulum

@@ -1,6 +1,6 @@
-// The interface of error-controlled methods: one accepted step of a length that the method chooses,
-// and the motion inside that step. Output times, restarts and the dissipated energy are left to
-// `DenseOutputIntegrator`, which owns a stepper. `Auto` is a stepper that owns several.
+// The interface of error-controlled methods: one accepted step, whose size the method chooses, and
+// the motion inside this step. `DenseOutputIntegrator` owns a stepper and handles output times,
+// restarts and the dissipated energy. `AutoStepper` is a stepper that owns several steppers.
 #pragma once
 
 #include <spring_pendulum/model/state.hpp>
@@ -10,7 +10,7 @@
 
 namespace spring_pendulum {
 
-/// What a stepper has done since it was made.
+/// Work of a stepper since its construction.
 struct StepStatistics {
   std::int64_t force_evaluations = 0;  ///< of F for the whole chain
   /// What the evaluations of dearer methods cost beyond those of Taylor-8, in those of Taylor-8.
@@ -26,32 +26,33 @@ struct StepStatistics {
   double work() const { return static_cast<double>(force_evaluations) + extra_work; }
 };
 
-/// No stepper takes a shorter step: at this length it goes on whatever the estimated error, so a
-/// particle that runs through its neighbour (where the force jumps) does not stop the clock.
+/// Smallest step size. A step of this size is accepted whatever its estimated error, so that the
+/// integration gets past a collision of two neighbours, where the force is discontinuous.
 inline constexpr double kShortestStep = 1e-12;  // s
-/// No stepper takes a longer one, not even for a chain at rest.
+/// Largest step size, also for a chain at rest.
 inline constexpr double kLongestStep = 1.0;  // s
 
-/// An error-controlled method for one chain. The workspace is allocated when the stepper is made or
-/// first started, never while stepping. Nothing depends on output times.
+/// An error-controlled method for one chain. Allocates its workspace when constructed or first
+/// started, not while stepping (see `Integrator` for the exception). Steps do not depend on output
+/// times.
 class DenseOutputStepper {
  public:
   virtual ~DenseOutputStepper() = default;
   DenseOutputStepper(const DenseOutputStepper&) = delete;
   DenseOutputStepper& operator=(const DenseOutputStepper&) = delete;
 
-  /// Begins anew at `state`, with the first particle at rest. Only the statistics go on.
-  /// \throws InputError if the state is not of the chain's size
+  /// Starts at `state`, with the first particle at rest. Keeps only the statistics.
+  /// \throws InputError if the size of the state is not that of the chain
   virtual void start(const State& state) = 0;
 
   /// Takes one step that meets the tolerance, repeating it as needed.
-  /// \returns its length in s, in (0, kLongestStep]; 0 if the motion diverged (a number that is not
-  ///          finite came up), after which only `start` may be called
+  /// \returns its size in s, in (0, kLongestStep]; 0 if the motion diverged (a number is not
+  ///          finite), after which only `start` may be called
   virtual double step() = 0;
 
   /// The state inside the last step.
   /// \param fraction 0 at its beginning, 1 at its end
-  /// \param[out] state of the size of the chain
+  /// \param[out] state must have the size of the chain
   virtual void interpolate(double fraction, State& state) const = 0;
 
   virtual StepStatistics statistics() const = 0;

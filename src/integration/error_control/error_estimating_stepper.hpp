@@ -1,9 +1,8 @@
-// The common part of one-step methods that estimate the error of a step: repeats a step until its
-// error is small enough and chooses the length of the next one.
+// Base class of one-step methods that estimate their local error: repeats a step until its error is
+// small enough, then chooses the size of the next step.
 //
-// Steps are added up so that nothing is lost to rounding: what a sum cuts off its last term is
-// carried into the next step. Otherwise the rounding of very many steps would show at the tightest
-// tolerances.
+// States are sums with compensated summation: the rounding error of each sum is carried into the
+// next step. Without it, rounding errors would dominate at the tightest tolerances.
 //
 // Reference: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002,
 // section 4.3 (compensated summation).
@@ -26,25 +25,25 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
 
  protected:
   struct ErrorControl {
-    double allowed;     ///< estimated error that a step may have, in the unit of `attempt`
-    int order;          ///< power of h with which the estimated error grows
+    double allowed;     ///< largest estimated error of a step, in the unit of `attempt`
+    int order;          ///< the estimated error is O(h^order)
     double first_step;  ///< s
   };
   ErrorEstimatingStepper(const Chain& chain, const ErrorControl& control,
                          const ChainKernels& kernels);
-  /// A first step that is short for any scene.
+  /// With a first step that is short for any scene.
   ErrorEstimatingStepper(const Chain& chain, double allowed_error, int error_order,
                          const ChainKernels& kernels);
 
-  /// Before the first attempt from the new state that `begin()` holds.
-  /// \param restarted whether it is not the `end()` of the last step
+  /// Called before the first attempt from a new `begin()`.
+  /// \param restarted whether `begin()` is an initial state and not the end of the last step
   virtual void prepare(bool restarted) = 0;
 
-  /// Makes `end()` from `begin()`.
+  /// Computes `end()` from `begin()` with step size h.
   /// \returns the estimated position error, m; NaN if anything is not finite
   virtual double attempt(double h) = 0;
 
-  /// The longest step the method may take, at most h, s.
+  /// Largest admissible step size, at most h, s.
   virtual double admissible(double h) { return h; }
 
   const Chain& chain() const { return chain_; }
@@ -54,7 +53,7 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   StateBuffer& end() { return end_; }
   const StateBuffer& begin() const { return begin_; }
   const StateBuffer& end() const { return end_; }
-  /// What is missing to `begin()`, less than its last bits.
+  /// Rounding error of `begin()`: add it to the next step.
   const StateBuffer& carry() const { return begin_carry_; }
   /// end() = begin() + (change + sum), where change contains `carry()`.
   void setEnd(const StateBuffer& change, SlopeSum sum);

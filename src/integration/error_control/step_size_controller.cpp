@@ -11,7 +11,7 @@ namespace {
 constexpr double kSafety = 0.9;
 constexpr double kLargestGrowth = 5.0;
 constexpr double kLargestCut = 0.2;
-constexpr double kSmallestRoot = 0.05;  ///< errors below this ^k grow the step no further
+constexpr double kSmallestRoot = 0.05;  ///< smaller roots do not increase the step size further
 
 constexpr std::int64_t kOneBits = 0x3ff0000000000000;  ///< of 1.0
 constexpr double kSmallest = 1e-300;  ///< 1/x must not overflow

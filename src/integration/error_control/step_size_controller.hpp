@@ -1,11 +1,10 @@
-// Chooses step lengths from estimated errors: proportional-integral control, which damps the
-// oscillation between accepted and rejected steps that plain control shows when a step is limited
-// by stability.
+// Proportional-integral control of the step size. Where stability limits the steps, the integral
+// part damps the oscillation between accepted and rejected steps of purely proportional control.
 //
 //     h_new = h * safety * e^(-7/8k) * e_old^(1/4k)
 //
-// e is the error of the step divided by the allowed one, k the power of h with which e grows.
-// Powers are made of + - * / and square roots alone, so the steps are the same bits everywhere.
+// e is the estimated error divided by the allowed error, e = O(h^k). Powers are computed from + - *
+// / and square roots only, so step sizes are the same bits on every machine.
 //
 // Reference: K. Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554, doi:10.1145/210232.210242;
 // the exponents are near those of Hairer, Nørsett, Wanner, Solving ODEs I, section II.4, and
@@ -23,7 +22,7 @@ class StepSizeController {
   /// \param error_order k above, 1..32
   explicit StepSizeController(int error_order) : error_order_(error_order) {}
 
-  /// Forgets all earlier steps.
+  /// Discards the history of errors.
   void restart() {
     previous_root_ = 1.0;
     after_rejection_ = false;
@@ -32,8 +31,8 @@ class StepSizeController {
   /// Whether a step with this error is accepted.
   static bool accepts(double error) { return error <= 1.0; }
 
-  /// The length to try next, after a step of length h was accepted or rejected with this error.
-  /// A NaN counts as a very large error.
+  /// Returns the next step size to try, after a step of size h was accepted or rejected with this
+  /// error. NaN counts as a very large error.
   double next(double h, double error);
 
  private:

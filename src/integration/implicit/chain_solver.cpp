@@ -79,15 +79,15 @@ void ChainSolver<Scalar>::factor(const std::vector<LinearSpring>& springs, Scala
       eliminate(right, springBlock(right - 1), right_pivot, at(forward_, right - 1));
     }
   }
-  if (right > left) {  // an even number of moving particles: the right one goes before the left
+  if (right > left) {  // even number of moving particles: eliminate the right one first
     at(pivots_, right) = inverse(right_pivot);
     eliminate(right, springBlock(left), left_pivot, forward_middle_);
   }
   at(pivots_, left) = inverse(left_pivot);
 }
 
-// The last result of each recursion is carried along in registers: reading it back from memory
-// would lengthen the chain of dependent operations, which is what the time goes into.
+// Each recursion keeps its last result in registers. Reloading it from memory would lengthen the
+// chain of dependent operations, which determines the time.
 template <typename Scalar>
 void ChainSolver<Scalar>::solve(Scalar* x, Scalar* y) const {
   const auto size = static_cast<std::ptrdiff_t>(chain_.size());

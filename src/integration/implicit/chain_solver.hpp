@@ -1,18 +1,19 @@
 // The linear systems of implicit methods for a chain, solved in O(N).
 //
 // An implicit method with step h and an eigenvalue λ of its inverse matrix has to solve
-// (I - q J) w = b with q = h/λ and J the Jacobian of F. J has the shape [0 I; M⁻¹K M⁻¹C], so the
-// positions can be eliminated; with the masses multiplied in there remains, for two unknowns a
-// moving particle,
+// (I - q J) w = b with q = h/λ and the Jacobian J of F. J = [0 I; M⁻¹K M⁻¹C], so the positions can
+// be eliminated. After multiplication by the masses, a system with two unknowns per moving particle
+// remains,
 //
 //     (M - q C - q² K) u = b ,
 //
-// block tridiagonal with 2×2 blocks: a spring adds its block q df/dw + q² df/dd to the diagonal
-// blocks of its two ends and takes it off the two blocks that join them. q may be complex.
+// which is block tridiagonal with 2×2 blocks. A spring adds its block q df/dw + q² df/dd to the
+// diagonal blocks of its two particles and subtracts it from the two off-diagonal blocks between
+// them. q may be complex.
 //
-// Blocks are eliminated without pivoting from both ends at once towards the middle particle
-// ("twisted" or "burn at both ends" factorisation): two independent recursions keep the processor
-// busier than one. The order of elimination is fixed, so are the bits.
+// Blocks are eliminated without pivoting from both ends towards the middle particle ("twisted" or
+// "burn at both ends" factorisation): two independent recursions use the processor better than one.
+// The order of elimination is fixed, and so are the bits.
 //
 // Reference: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., 2013, section 4.5 (block
 // tridiagonal systems); J. J. Dongarra, I. S. Duff, D. C. Sorensen, H. A. van der Vorst, Numerical
@@ -43,7 +44,7 @@ class ChainSolver {
   void factor(const std::vector<LinearSpring>& springs, Scalar q);
 
   /// Solves for one right-hand side, in place.
-  /// \param x, y the N entries of a component; those of the fixed first particle are not touched
+  /// \param x, y N entries of each component; the entry of the first, fixed particle is not used
   void solve(Scalar* x, Scalar* y) const;
 
  private:
@@ -53,20 +54,20 @@ class ChainSolver {
   static Block product(const Block& a, const Block& b);
   static Block inverse(const Block& a);
 
-  /// q df/dw + q² df/dd of spring i; 0 behind the free end.
+  /// q df/dw + q² df/dd of spring i; 0 beyond the free end.
   Block springBlock(Eigen::Index i) const;
   Block diagonal(Eigen::Index particle) const;
-  /// Takes out what eliminating `from` does to its neighbour, to which `spring` joins it.
+  /// Eliminates particle `from` from the row of the neighbour that `spring` joins it to.
   void eliminate(Eigen::Index from, const Block& spring, Block& neighbour, Block& forward);
 
   const Chain& chain_;
   Eigen::Index middle_;  ///< particle eliminated last
   const std::vector<LinearSpring>* springs_ = nullptr;
   Scalar q_{};
-  std::vector<Block> pivots_;    ///< inverse diagonal block of particle i when its turn has come
-  std::vector<Block> forward_;   ///< what particle i takes of its outer neighbour's right-hand side
-  std::vector<Block> backward_;  ///< what particle i takes of its inner neighbour's solution
-  Block forward_middle_{};       ///< as forward_[middle_], which is from the left, from the right
+  std::vector<Block> pivots_;    ///< inverse diagonal block of particle i at its elimination
+  std::vector<Block> forward_;   ///< factor of the outer neighbour's right-hand side
+  std::vector<Block> backward_;  ///< factor of the inner neighbour's solution
+  Block forward_middle_{};       ///< like forward_[middle_], but for the right neighbour
 };
 
 extern template class ChainSolver<double>;

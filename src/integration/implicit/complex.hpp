@@ -1,5 +1,5 @@
-// Complex numbers whose products are written out: those of the standard library depend on its
-// treatment of infinities and on compiler options, so their bits could.
+// Complex numbers with explicit products. The bits of a std::complex product depend on how the
+// standard library treats infinities and on compiler options.
 #pragma once
 
 namespace spring_pendulum {

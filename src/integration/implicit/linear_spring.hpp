@@ -1,4 +1,4 @@
-// A spring whose tension is an unknown of its own, linearised.
+// Linearisation of a spring whose tension is an additional unknown.
 //
 // With the direction r, the separation d, the approach w, the length L and the tension T, the
 // force on one end is f = T r and its change
@@ -6,7 +6,7 @@
 //     df = r dT + e (I - r rᵀ) dd ,   e = T / L ,
 //     dT = a · dd + k_d r · dw ,      a = k_s r + k_d (w - (w · r) r) / L .
 //
-// With dT put into df, the derivatives are df/dd = r aᵀ + e (I - r rᵀ) and df/dw = k_d r rᵀ.
+// Substituting dT into df gives the derivatives df/dd = r aᵀ + e (I - r rᵀ) and df/dw = k_d r rᵀ.
 #pragma once
 
 #include <spring_pendulum/model/spring_law.hpp>
@@ -14,7 +14,7 @@
 namespace spring_pendulum {
 
 struct LinearSpring {
-  PlaneVector<double> r{};  ///< direction; 0 for a spring without length
+  PlaneVector<double> r{};  ///< direction; 0 for a spring of length 0
   PlaneVector<double> a{};  ///< derivative of the tension by the separation, N/m
   double e = 0.0;           ///< geometric stiffness, N/m
 

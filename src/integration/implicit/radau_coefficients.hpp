@@ -1,4 +1,4 @@
-// Coefficients of Radau IIA with five stages, made by benchmark/derivations/radau_coefficients.py.
+// Coefficients of Radau IIA with five stages, from benchmark/derivations/radau_coefficients.py.
 #pragma once
 
 #include "integration/implicit/complex.hpp"
@@ -27,8 +27,9 @@ inline constexpr std::array<Row, kStages> kMatrix{
      {0.14371356079122594132, 0.28135601514946206019, 0.31182652297574125408, 0.2231039010835707444,
       0.04}}};
 
-/// An eigenvalue of the inverse matrix, its left and its right eigenvector. Their product is 1;
-/// the right ones of the complex pairs are doubled, so that the real part is the sum of a pair.
+/// An eigenvalue of the inverse matrix with its left and right eigenvectors, normalised to product
+/// 1. The right eigenvectors of complex pairs are doubled, so that the real part is the sum of a
+/// pair.
 template <typename Scalar>
 struct Eigenvalue {
   Scalar value;

@@ -11,26 +11,26 @@ namespace {
 
 using radau::kStages;
 
-/// Part of the tolerance that the estimated error may reach per second.
+/// Largest estimated error per second, in tolerances.
 constexpr double kShareOfTolerance = 0.3;
 
-/// First step, times the root of the allowed error: short for any scene.
+/// Factor of the first step size, which is short for any scene.
 constexpr double kFirstStep = 1e-4;
 
-/// Order of the error of a step.
+/// The error of a step is O(h^kErrorOrder).
 constexpr int kErrorOrder = static_cast<int>(kStages) + 1;
 
-/// The stage nearest to the middle of the step, where springs are linearised.
+/// The stage nearest to the middle of the step, at which springs are linearised.
 constexpr std::size_t kMiddleStage = 2;
 
-/// The iteration ends when its error is this part of the error allowed in the step.
+/// Largest error of the iteration, relative to the allowed error of the step.
 constexpr double kIterationShare = 1e-3;
 constexpr int kMostIterations = 10;
 
-/// Changes that rounding errors alone make, relative to the positions, or m.
+/// Size of rounding errors, relative to the positions, and absolute in m.
 constexpr double kRounding = 1e-14;
 
-/// A failed iteration counts as this many times the allowed error, which halves the step.
+/// Error, relative to the allowed error, of a failed iteration; it halves the step size.
 constexpr double kErrorOfFailure = 32.0;
 
 void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]) {
@@ -252,7 +252,7 @@ RadauStepper::Change RadauStepper::updateStages() {
     }
     left = change;
   }
-  largest.velocity += finite;  // NaN, which a maximum loses
+  largest.velocity += finite;  // std::max may drop a NaN
   return largest;
 }
 
@@ -262,8 +262,8 @@ double RadauStepper::estimateError(double h) {
   return filteredError(true);
 }
 
-// The tension at the start is the last step's: that of the spring law would turn the rounding of
-// the velocities into forces that throw a light particle about.
+// The tension at the start is taken from the end of the last step. The spring law would amplify
+// rounding errors of the velocities to forces that are large for a light particle.
 PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected) const {
   const LinearSpring& linear = springs_[spring];
   Ends ends = endsOf(spring, begin());

@@ -1,23 +1,23 @@
-// Radau IIA of order 9 (five stages) for chains with very light particles, with the tension T of
-// every spring as an unknown beside positions and velocities:
+// Radau IIA of order 9 (five stages) for chains with very light particles. The tension T of every
+// spring is an unknown in addition to positions and velocities:
 //
 //     q' = v      m v' = sum of T r + m g      0 = k_s (L - L_0) + k_d L' - T
 //
-// An ordinary Newton iteration linearises the dashpots' force about one direction of the spring. The
-// spring turns within the step, the dashpot then pushes a light particle sideways, and the iteration
-// contracts no better than (k_d/m) h (ωh)² with the angular velocity ω of the spring. Here the
-// forces at a stage are taken from the iterate of T along the spring's direction at that stage,
-// and T follows its equation along the directions in the middle of the step. That contracts with
-// about ωh, whatever the mass. Eliminating the tensions leaves the systems of chain_solver.hpp: a
-// real one and two complex ones.
+// An ordinary Newton iteration linearises the dashpots' force about one direction of the spring.
+// The spring turns within the step, the dashpot then pushes a light particle sideways, and the
+// iteration contracts no better than (k_d/m) h (ωh)² with the angular velocity ω of the spring.
+// Here the forces at a stage are taken from the iterate of T along the spring's direction at that
+// stage, and T follows its equation along the directions in the middle of the step. That contracts
+// with about ωh, whatever the mass. Eliminating the tensions leaves the systems of
+// chain_solver.hpp: a real one and two complex ones.
 //
-// The positions at the stages follow from the velocities there, q_i = q_0 + h sum_j a_ij v_j, so
-// only velocities are solved for. The error is estimated by the embedded formula, filtered
-// by (I - q J)⁻¹, and controlled per unit of time: that is what keeps light particles that vibrate
-// at their tolerance. The dense output is the collocation polynomial.
+// The positions at the stages follow from the velocities, q_i = q_0 + h sum_j a_ij v_j, so only
+// velocities are solved for. The error estimate is the embedded formula filtered by (I - q J)⁻¹.
+// The error is controlled per unit step, which keeps vibrating light particles within the
+// tolerance. The dense output is the collocation polynomial.
 //
-// Take it for k_d/m from about 1e4/s on. Undamped vibration has to be resolved by every method, and
-// without light particles the Taylor methods need less time.
+// Use this method for k_d/m above about 1e4/s. Without light particles the Taylor methods need less
+// time, as every method has to resolve undamped vibration.
 //
 // References: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer
 // 1996, sections IV.5 and IV.8; the same, J. Comput. Appl. Math. 111 (1999) 93-111,
@@ -62,7 +62,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
     std::vector<Increments> particles;
     std::vector<Row> tensions;
   };
-  /// One of the systems with its right-hand sides, then solutions.
+  /// One linear system; x and y hold its right-hand side, then its solution.
   template <typename Scalar>
   struct System {
     System(const Chain& chain, const radau::Eigenvalue<Scalar>& coefficients)
@@ -74,7 +74,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
     void setRightHandSide(std::size_t particle, double mass, const Increments& increments,
                           const Row& fx, const Row& fy);
     void solve() { solver.solve(x.data(), y.data()); }
-    /// Adds the system's part of the change of a particle's stages.
+    /// Adds this system's contribution to the change of a particle's stages.
     void addChange(std::size_t particle, Increments& change) const;
 
     const radau::Eigenvalue<Scalar>& eigenvalue;
@@ -83,12 +83,12 @@ class RadauStepper final : public ErrorEstimatingStepper {
     std::vector<Scalar> x, y;
   };
   struct Change {
-    double position = 0.0;  ///< largest of a coordinate, m
+    double position = 0.0;  ///< largest change of a coordinate, m
     double velocity = 0.0;  ///< m/s
     double norm() const;    ///< NaN if not finite
   };
 
-  /// How the right end of a spring lies and moves to its left end.
+  /// Position and velocity of the right end of a spring relative to its left end.
   struct Ends {
     PlaneVector<double> separation;
     PlaneVector<double> approach;
@@ -100,33 +100,33 @@ class RadauStepper final : public ErrorEstimatingStepper {
   static Ends endsOf(std::size_t spring, const StateBuffer& state);
   Ends endsOf(std::size_t spring, const Ends& start, std::size_t stage) const;
 
-  /// First guess of the stages: the last step's polynomial, extrapolated.
+  /// Initial guess of the stages: extrapolates the polynomial of the last step.
   void predict(double h);
   void linearise();
-  /// Newton iteration. \returns whether it converged
+  /// Simplified Newton iteration. \returns whether it converged
   bool solveStages(double h);
-  /// Right-hand sides of all systems; moves the tensions to those of the spring law.
+  /// Right-hand sides of all systems; also sets the tensions to those of the spring law.
   void computeResiduals();
-  /// Force of spring i on particle i at all stages; as above.
+  /// Force of spring i on particle i at all stages; also sets the tensions of spring i.
   void springForces(std::size_t spring, Row& fx, Row& fy);
   Change updateStages();
   /// Largest estimated error of a coordinate, m.
   double estimateError(double h);
-  /// \param corrected whether the slope is taken at the start moved by the first estimate
+  /// \param corrected whether the slope is evaluated at the start plus the first estimate
   double filteredError(bool corrected);
   PlaneVector<double> startForce(std::size_t spring, bool corrected) const;
-  /// One explicit Euler step: through a collision, where no polynomial fits.
+  /// One explicit Euler step, for a collision, where the polynomial is no approximation.
   double stepExplicitly(double h);
   void setEndFromLastStage();
 
   double allowed_rate_;  ///< error per unit of time, m/s
   Collocation stages_;
   Collocation previous_;
-  double previous_length_ = 0.0;  ///< of the step of `previous_`; 0: there is none
+  double previous_length_ = 0.0;  ///< size of the previous step; 0: none
   std::vector<LinearSpring> springs_;
   System<double> real_;
   std::array<System<Complex>, 2> pairs_;
-  StateBuffer change_;  ///< of the state: in the step, or the estimated error
+  StateBuffer change_;  ///< change of the state in the step, or the estimated error
 };
 
 }  // namespace spring_pendulum

@@ -34,8 +34,8 @@ void addTo(Row& row, const std::array<Scalar, kStages>& factors, Scalar value) {
   for (std::size_t s = 0; s < kStages; ++s) row[s] += realPart(factors[s] * value);
 }
 
-/// Values at `time` (in steps) of the polynomial that is 1 at one node and 0 at the others.
-/// \param with_start whether 0 is a node too
+/// Values at `time` (in step sizes) of the Lagrange polynomials of the nodes.
+/// \param with_start whether 0 is a node as well
 inline Row lagrangeWeights(double time, bool with_start) {
   const Row& c = kNodes;
   Row weights;

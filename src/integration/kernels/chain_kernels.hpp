@@ -7,8 +7,9 @@
 //     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
 //
 // Every particle sees the operations of the plain code (computeSlope) in its order, with the
-// same fused multiply-adds, so the bits are the same for every instruction set. Eigen's types change
-// their layout with the instruction set; nothing but pointers and numbers crosses this border.
+// same fused multiply-adds, so the bits are the same for every instruction set. Eigen's types
+// change their layout with the instruction set; nothing but pointers and numbers crosses this
+// border.
 #pragma once
 
 #include "integration/kernels/taylor_workspace.hpp"
@@ -113,8 +114,8 @@ struct ChainKernels {
   bool (*springsChangeMuch)(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
                             const double* to);
 
-  /// Adds to each spring's heat, J, that of its dashpot in a state: weight * rate². Of N - 1 springs;
-  /// what comes behind them is without meaning.
+  /// Adds to each spring's heat, J, that of its dashpot in a state: weight * rate². Of N - 1
+  /// springs; what comes behind them is without meaning.
   void (*addHeat)(const KernelChain& chain, const double* state, double weight, double* heat);
 
   /// Whole steps of `kFastTableaus[tableau]`; see findAdvanceKernel.

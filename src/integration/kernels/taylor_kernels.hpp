@@ -1,5 +1,5 @@
-// Kernels of the Taylor series method. The recursion is derived in taylor_stepper.hpp; u, L, d and T
-// below are the quantities of that derivation.
+// Kernels of the Taylor series method. The recursion is derived in taylor_stepper.hpp; u, L, d and
+// T below are the quantities of that derivation.
 #pragma once
 
 #include "integration/kernels/block.hpp"
