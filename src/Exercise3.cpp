@@ -1,17 +1,17 @@
 // The exercise: integrates the motion of a chain of particles and writes one file per frame.
 #include "io/command_line.hpp"
-#include "io/failure.hpp"
+#include "io/exit_status.hpp"
 #include "io/interruption.hpp"
 #include "io/progress.hpp"
 #include "io/run_files.hpp"
 #include "io/standard_streams.hpp"
+#include "simulation/integrator_settings.hpp"
 #include "simulation/interruptible.hpp"
 #include "simulation/memory.hpp"
 #include "simulation/run_monitor.hpp"
 #include "simulation/scenario_options.hpp"
 #include "simulation/sleep.hpp"
 #include "simulation/stability_warning.hpp"
-#include "simulation/work.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <string>
 
 namespace spring_pendulum {
@@ -146,15 +145,5 @@ int runCommandLine(int argc, const char* const* argv) {
 }  // namespace spring_pendulum
 
 int main(int argc, char** argv) {
-  using namespace spring_pendulum;
-  prepareProcess();
-  try {
-    const int status = runCommandLine(argc, argv);
-    flushOutput();
-    return status;
-  } catch (const std::exception& error) {
-    const Failure failure = failureOf(error);
-    printError(failure.message + "\n");
-    return failure.status;
-  }
+  return spring_pendulum::runProgram([&] { return spring_pendulum::runCommandLine(argc, argv); });
 }

@@ -1,5 +1,5 @@
 // The ROS node: integrates the motion of a chain, writes its frames and shows it.
-#include "io/failure.hpp"
+#include "io/exit_status.hpp"
 #include "io/interruption.hpp"
 #include "io/standard_streams.hpp"
 #include "ros/parameter_watch.hpp"

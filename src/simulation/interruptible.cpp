@@ -1,7 +1,7 @@
 #include "simulation/interruptible.hpp"
 
+#include "simulation/integrator_settings.hpp"
 #include "simulation/tolerance.hpp"
-#include "simulation/work.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <algorithm>

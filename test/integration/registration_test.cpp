@@ -1,4 +1,7 @@
-// Methods that come from outside the library.
+// Methods that a program registers.
+#include "io/command_line.hpp"
+#include "simulation/scenario_options.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,6 +35,29 @@ TEST(OwnMethods, AreListedByName) {
   }
 }
 
+/// Parses the arguments of a program into a scenario.
+Switches parse(const std::vector<const char*>& arguments, Scenario& scenario) {
+  std::vector<const char*> with_program{"Exercise3"};
+  with_program.insert(with_program.end(), arguments.begin(), arguments.end());
+  OptionSet options(scenarioOptions(scenario));
+  return parseCommandLine(static_cast<int>(with_program.size()), with_program.data(),
+                          {"Exercise3", "", ""}, options, scenario);
+}
+
+TEST(OwnMethods, AreMethodsOfTheCommandLine) {
+  for (const Method* method : ownMethods()) {
+    Scenario scenario;
+    parse({method->name.c_str(), "--time-step", "0.002"}, scenario);
+    EXPECT_EQ(scenario.method, method);
+    EXPECT_EQ(scenario.time_step, 0.002);
+    EXPECT_THROW(parse({method->name.c_str(), "--tolerance", "1e-6"}, scenario), InputError);
+    const std::string listed = parse({"--list-methods"}, scenario).answer;
+    EXPECT_THAT(listed, testing::HasSubstr(method->name + " "));
+    EXPECT_THAT(listed, testing::HasSubstr(method->use));
+    EXPECT_THAT(parse({"--help"}, scenario).answer, testing::HasSubstr(method->name));
+  }
+}
+
 TEST(OwnMethods, HaveTheirOrder) {
   for (const Method* method : ownMethods()) {
     for (const char* name : {"single_vertical", "two_masses_45deg"}) {
@@ -60,8 +86,7 @@ TEST(OwnMethods, GetStabilityAdvice) {
   const test::Scene scene = referenceScene("two_masses_45deg");
   for (const Method* method : ownMethods()) {
     Scenario scenario;
-    scenario.method = method;
-    scenario.time_step = 0.01;
+    parse({method->name.c_str(), "--time-step", "0.01"}, scenario);
     EXPECT_THAT(describeStability(scene.chain, scene.start, scenario),
                 testing::HasSubstr(method->name));
   }

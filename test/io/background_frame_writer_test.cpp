@@ -25,7 +25,7 @@ State frame(Eigen::Index size, int index) {
 
 class BackgroundWriter : public testing::TestWithParam<Eigen::Index> {};
 
-// In order, whole, and with the bytes of the writer that makes the caller wait.
+// Frames are in order, complete, and equal those of FrameWriter.
 TEST_P(BackgroundWriter, WritesWhatTheFrameWriterWrites) {
   const TemporaryFolder folder;
   FrameWriter plain(folder.path("plain"), kFrames);
@@ -35,7 +35,7 @@ TEST_P(BackgroundWriter, WritesWhatTheFrameWriterWrites) {
     state = frame(GetParam(), i);
     plain.write(i, state);
     background.write(i, state);
-    state.values().setZero();  // the writer has a copy of its own
+    state.values().setZero();  // the writer has copied the state
   }
   plain.finish();
   background.finish();

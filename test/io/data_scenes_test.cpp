@@ -1,4 +1,4 @@
-// What data/README.md says about each scene.
+// The statements of data/README.md about each scene.
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/model/energy.hpp>

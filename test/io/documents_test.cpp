@@ -1,4 +1,4 @@
-// Tables in the documents that repeat facts of the code or of measurements.
+// Tables in the documents agree with the code and with the measured results.
 #include "simulation/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
@@ -40,7 +40,7 @@ TEST(Documents, ListTheMethodsOfTheTable) {
   ASSERT_EQ(rows.size(), methodTable().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Method& method = methodTable()[i];
-    // Auto has the order of whatever it takes.
+    // The order of Auto is that of the active method.
     const std::string order = method.name == "Auto" ? "" : fmt::format(" {}", method.order);
     EXPECT_THAT(rows[i], testing::StartsWith(fmt::format("| `{}` |{} | {} | ", method.name, order,
                                                          method.hasFixedStep() ? "fixed" : "own")));

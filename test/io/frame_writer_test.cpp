@@ -50,7 +50,7 @@ TEST(FrameWriter, EveryNumberReadsBackAsTheSameDouble) {
   State state(kParticles);
   for (Eigen::Index i = 0; i < 2 * kParticles; ++i) {
     double& value = state.values().data()[i];  // columns x and y
-    // Any bit pattern but those of infinities and NaN: every exponent comes up.
+    // Any bit pattern except infinities and NaN: covers every exponent.
     std::uint64_t bits = 0;
     do {
       bits = random();
@@ -64,7 +64,7 @@ TEST(FrameWriter, EveryNumberReadsBackAsTheSameDouble) {
     ASSERT_TRUE(lines >> x >> y);
     ASSERT_EQ(parseNumber(x), state.x()[i]);
     ASSERT_EQ(parseNumber(y), state.y()[i]);
-    ASSERT_LE(x.size(), 24U);  // what the writer's buffer has room for
+    ASSERT_LE(x.size(), 24U);  // the size of the buffer of the writer
     ASSERT_LE(y.size(), 24U);
   }
   EXPECT_FALSE(lines >> x);

@@ -8,7 +8,7 @@ namespace spring_pendulum {
 namespace {
 
 TEST(TextFile, IsReadToItsEndThoughItsSizeIsNotTold) {
-  const std::string path = "/proc/version";  // which says to be of 0 bytes
+  const std::string path = "/proc/version";  // whose size is reported as 0 bytes
   const std::string text = readTextFile(path);
   EXPECT_EQ(text, readFile(path));
   EXPECT_GT(text.size(), 20U);

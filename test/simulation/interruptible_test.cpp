@@ -1,4 +1,4 @@
-// A frame that is cut into pieces, so that it can be interrupted, has the bits of one that is not.
+// A frame in interruptible pieces has the bits of a frame in one piece.
 #include "simulation/interruptible.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -53,8 +53,8 @@ TEST_F(Interruptible, HasTheSameBitsWithEveryMethod) {
 }
 
 TEST_F(Interruptible, EndsInsideAFrame) {
-  for (const char* method : {"Euler", "Taylor-8"}) {
-    Scenario scenario = scenarioOf(method);
+  for (const Method& method : methodTable()) {
+    Scenario scenario = scenarioOf(method.name);
     scenario.steps_per_frame = std::int64_t{1} << 60U;
     scenario.frame_interval = 1e6;
     asked_ = 0;
@@ -62,7 +62,7 @@ TEST_F(Interruptible, EndsInsideAFrame) {
         makeInterruptible(scenario, chain_, start_, false, [this] { return ++asked_ > 3; });
     const FrameSteps frame = frameSteps(scenario);
     State state = start_;
-    EXPECT_THROW(cut->advance(state, frame.time_step, frame.steps), Interrupted);
+    EXPECT_THROW(cut->advance(state, frame.time_step, frame.steps), Interrupted) << method.name;
   }
 }
 

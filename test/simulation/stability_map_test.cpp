@@ -1,4 +1,4 @@
-// A coarse map of stability, pinned: the verdict on steps against properties of the chain.
+// A recorded coarse map of stability: the verdict by step size and properties of the chain.
 #include <gtest/gtest.h>
 
 #include <functional>

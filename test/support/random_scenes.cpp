@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// The standard distributions differ from library to library; these do not.
+/// Random numbers. Unlike the standard distributions, they are the same with every library.
 class Random {
  public:
   explicit Random(unsigned seed) : generator_(seed) {}
@@ -32,7 +32,7 @@ class Random {
   std::mt19937 generator_;
 };
 
-/// What a family draws; the default is a chain of the exercise's kind.
+/// A random scene; the default is a chain like that of the exercise.
 struct Draft {
   Eigen::Index size() const { return masses.size(); }
 
@@ -71,89 +71,68 @@ struct Family {
   std::function<Draft(Random&)> draw;
 };
 
+/// Draws a short chain and changes it.
+std::function<Draft(Random&)> with(const std::function<void(Random&, Draft&)>& change) {
+  return [change](Random& r) {
+    Draft d = shortChain(r);
+    change(r, d);
+    return d;
+  };
+}
+
+/// Redraws the start with springs of about one common length, `least` to `most` m.
+std::function<Draft(Random&)> withLengths(double least, double most) {
+  return with([=](Random& r, Draft& d) {
+    const double length = r.uniform(least, most);
+    d.start = walk(r, d.size(), 0.9 * length, 1.1 * length, 1.2);
+  });
+}
+
 std::vector<Family> shapes() {
   return {
       {"equal", [](Random& r) { return shortChain(r); }},
       {"two particles", [](Random& r) { return chainOf(r, 2); }},
       {"long", [](Random& r) { return chainOf(r, r.whole(13, 60), 0.3); }},
-      {"folded",
-       [](Random& r) {
-         Draft d = shortChain(r);
+      {"folded", with([](Random& r, Draft& d) {
          for (Eigen::Index i = 1; i < d.size(); ++i) {
            d.start.x()[i] = (i % 2 == 0 ? 0.0 : 1.0) + r.uniform(-0.1, 0.1);
            d.start.y()[i] = r.uniform(-0.1, 0.1);
          }
-         return d;
-       }},
-      {"curled",
-       [](Random& r) {
-         Draft d = shortChain(r);
+       })},
+      {"curled", with([](Random& r, Draft& d) {
          const double radius = 1.0 / r.uniform(0.3, 1.5);
          for (Eigen::Index i = 1; i < d.size(); ++i) {
            const double angle = static_cast<double>(i) / radius;
            d.start.x()[i] = radius * std::sin(angle) + r.uniform(-0.01, 0.01);
            d.start.y()[i] = radius * (1.0 - std::cos(angle)) + r.uniform(-0.01, 0.01);
          }
-         return d;
-       }},
-      {"compressed",
-       [](Random& r) {
-         Draft d = shortChain(r);
-         const double length = r.uniform(0.2, 0.6);
-         d.start = walk(r, d.size(), 0.9 * length, 1.1 * length, 1.2);
-         return d;
-       }},
-      {"stretched",
-       [](Random& r) {
-         Draft d = shortChain(r);
-         const double length = r.uniform(1.5, 3.0);
-         d.start = walk(r, d.size(), 0.9 * length, 1.1 * length, 1.2);
-         return d;
-       }},
+       })},
+      {"compressed", withLengths(0.2, 0.6)},
+      {"stretched", withLengths(1.5, 3.0)},
       {"mixed lengths",
-       [](Random& r) {
-         Draft d = shortChain(r);
-         d.start = walk(r, d.size(), 0.1, 3.0, 1.2);
-         return d;
-       }},
-      {"vertical",
-       [](Random& r) {
-         Draft d = shortChain(r);
+       with([](Random& r, Draft& d) { d.start = walk(r, d.size(), 0.1, 3.0, 1.2); })},
+      {"vertical", with([](Random& r, Draft& d) {
          for (Eigen::Index i = 1; i < d.size(); ++i) {
            d.start.x()[i] = 0.0;
            d.start.y()[i] = d.start.y()[i - 1] - r.uniform(0.5, 2.0);
          }
-         return d;
-       }},
-      {"at rest",
-       [](Random& r) {
-         Draft d = shortChain(r);
+       })},
+      {"at rest", with([](Random& r, Draft& d) {
          d.start = hangingAtRest(Chain(d.masses, d.spring, d.gravity));
          for (Eigen::Index i = 1; i < d.size(); ++i) {
            d.start.x()[i] += d.masses[0] > 1.0 ? 0.0 : r.uniform(-0.05, 0.05);
          }
-         return d;
-       }},
-      {"standing",
-       [](Random& r) {
-         Draft d = shortChain(r);
+       })},
+      {"standing", with([](Random& r, Draft& d) {
          for (Eigen::Index i = 1; i < d.size(); ++i) {
            d.start.x()[i] = d.start.x()[i - 1] + r.uniform(-0.2, 0.2);
            d.start.y()[i] = d.start.y()[i - 1] + r.uniform(0.8, 1.1);
          }
-         return d;
-       }},
+       })},
   };
 }
 
 std::vector<Family> springs() {
-  const auto with = [](const auto& change) {
-    return [change](Random& r) {
-      Draft d = shortChain(r);
-      change(r, d);
-      return d;
-    };
-  };
   return {
       {"undamped",
        [](Random& r) {
@@ -180,40 +159,26 @@ std::vector<Family> springs() {
        }},
       {"soft", with([](Random& r, Draft& d) { d.spring.stiffness = r.decades(-1, 1); })},
       {"no rest length", with([](Random&, Draft& d) { d.spring.rest_length = 0.0; })},
-      {"weightless",
-       [](Random& r) {
-         Draft d = shortChain(r);
+      {"weightless", with([](Random& r, Draft& d) {
          d.gravity = 0.0;
          d.start = walk(r, d.size(), 0.8, 1.4, 1.2);
-         return d;
-       }},
-      {"small springs",
-       [](Random& r) {
-         Draft d = shortChain(r);
+       })},
+      {"small springs", with([](Random& r, Draft& d) {
          d.spring.rest_length = 0.02;
          d.start = walk(r, d.size(), 0.018, 0.022, 1.2);
          d.masses.setConstant(0.1);
-         return d;
-       }},
+       })},
       {"strong gravity", with([](Random& r, Draft& d) { d.gravity = r.decades(1.5, 3); })},
   };
 }
 
 std::vector<Family> masses() {
   return {
-      {"mixed masses",
-       [](Random& r) {
-         Draft d = shortChain(r);
+      {"mixed masses", with([](Random& r, Draft& d) {
          const double decades = r.pick({1.0, 2.0, 3.0});
          for (Eigen::Index i = 0; i < d.masses.size(); ++i) d.masses[i] = r.decades(-decades, 0);
-         return d;
-       }},
-      {"light tail",
-       [](Random& r) {
-         Draft d = shortChain(r);
-         d.masses[d.size() - 1] = r.decades(-5, -2);
-         return d;
-       }},
+       })},
+      {"light tail", with([](Random& r, Draft& d) { d.masses[d.size() - 1] = r.decades(-5, -2); })},
       {"very light tail",
        [](Random& r) {
          Draft d = chainOf(r, r.whole(2, 6));
@@ -238,19 +203,11 @@ std::vector<Family> masses() {
          d.masses[1] = r.decades(-9, -3);
          return d;
        }},
-      {"all light",
-       [](Random& r) {
-         Draft d = shortChain(r);
-         d.masses.setConstant(r.decades(-4, -1));
-         return d;
-       }},
-      {"heavy end",
-       [](Random& r) {
-         Draft d = shortChain(r);
+      {"all light", with([](Random& r, Draft& d) { d.masses.setConstant(r.decades(-4, -1)); })},
+      {"heavy end", with([](Random& r, Draft& d) {
          d.spring.stiffness = 500.0;
          d.masses[d.size() - 1] = r.pick({20.0, 50.0});
-         return d;
-       }},
+       })},
       {"undamped with a light tail",
        [](Random& r) {
          Draft d = chainOf(r, r.whole(2, 6), 0.5);

@@ -130,7 +130,7 @@ TEST(EmbeddedPair, StabilityLimitsAreThoseOfTheTable) {
   }
 }
 
-TEST(EmbeddedPair, ExtraSlopesCostOnlyWhereSomebodyLooks) {
+TEST(EmbeddedPair, ExtraSlopesCostOnlyAtOutputTimes) {
   const Scene scene = referenceScene("two_masses_45deg");
   EmbeddedRungeKuttaStepper stepper(scene.chain, kDormandPrince8, 1e-6);
   stepper.start(scene.start);

@@ -1,5 +1,5 @@
-// The engine gives the same bits as the plain code and as a hash kept here, whatever the
-// instruction set, the threads, the blocks, the steps a call and the skips.
+// The engine gives the bits of the plain code and of recorded hashes for all instruction sets,
+// numbers of threads, block sizes, steps per call and skips.
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 
 #include "integration/fixed_step/plain_runge_kutta.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kTimeStep = 0.005;
 
-/// A chain that hangs down, folded and bent, a little out of rest everywhere.
+/// A folded and bent chain, with small velocities everywhere.
 State bentChain(Eigen::Index size) {
   std::mt19937 random(5);
   State state(size);
@@ -51,15 +51,22 @@ Chain chainOf(Eigen::Index size, const Kind& kind) {
   return Chain(masses, {50.0, kind.needs_all ? 1.0 : 0.0, 1.0}, kind.needs_all ? 9.81 : 0.0);
 }
 
-constexpr const char* kMethods[] = {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"};
+/// All methods that the engine runs.
+std::vector<const Method*> methods() {
+  std::vector<const Method*> rows;
+  for (const Method& method : methodTable()) {
+    if (method.hasFixedStep() && method.tableau != nullptr) rows.push_back(&method);
+  }
+  return rows;
+}
 constexpr Eigen::Index kShortChains[] = {1, 2, 3, 7, 8, 9, 11, 64, 1000};
-/// More numbers of blocks: those kept in registers, and around where the conveyor starts.
+/// Other numbers of blocks: those kept in registers, and around the size where the conveyor starts.
 constexpr Eigen::Index kOtherShortChains[] = {4, 5, 12, 13, 16, 17, 31, 32, 33, 40, 65, 100};
 constexpr Eigen::Index kLongChain = 100003;
 constexpr int kSteps = 12;
 constexpr int kStepsOfLongChain = 3;
 
-/// FNV-1a over the bytes of a state, going on from `hash`.
+/// FNV-1a over the bytes of a state, continuing `hash`.
 std::uint64_t hashOf(const State& state, std::uint64_t hash = 0xcbf29ce484222325U) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(state.values().data());
   const auto count = static_cast<std::size_t>(state.values().size()) * sizeof(double);
@@ -79,35 +86,35 @@ bool sameBits(const State& a, const State& b) {
   return a.size() == b.size() && std::memcmp(a.values().data(), b.values().data(), bytes) == 0;
 }
 
-/// Ways to run the engine, each with each.
+/// Ways to run the engine; all combinations are run.
 struct Ways {
   std::vector<std::pair<int, Eigen::Index>> threads_and_block_sizes;
   std::vector<int> steps_a_call;
   std::vector<unsigned> skips;  ///< bits: damping, gravity, masses
 };
 
-/// Runs the engine all these ways with every instruction set and compares the bits.
-void expectSameBits(const char* method, const Kind& kind, const State& start, int steps,
-                    const Ways& ways, bool heat = false) {
+/// Runs the engine in all these ways with every instruction set and compares the bits.
+void expectSameBits(const Method& method, const Kind& kind, const State& start, int steps,
+                    const Ways& ways, bool track_dissipation = false) {
   const Chain chain = chainOf(start.size(), kind);
-  PlainRungeKutta plain(chain, *findMethod(method).tableau, heat);
+  PlainRungeKutta plain(chain, *method.tableau, track_dissipation);
   const State expected = stateAfter(plain, start, steps, steps);
   for (const ChainKernels* kernels : supportedChainKernels()) {
     for (const auto& [threads, block_size] : ways.threads_and_block_sizes) {
       for (const unsigned skips : ways.skips) {
-        const EngineOptions options{
-            threads,          block_size,       1,   kernels, (skips & 1) != 0,
-            (skips & 2) != 0, (skips & 4) != 0, heat};
-        ExplicitRungeKutta engine(chain, *findMethod(method).tableau, options);
+        const EngineOptions options{threads,          block_size,       1,
+                                    kernels,          (skips & 1) != 0, (skips & 2) != 0,
+                                    (skips & 4) != 0, track_dissipation};
+        ExplicitRungeKutta engine(chain, *method.tableau, options);
         for (const int at_once : ways.steps_a_call) {
           engine.restart();
           EXPECT_TRUE(sameBits(stateAfter(engine, start, steps, at_once), expected))
-              << method << ", " << start.size() << " particles, scene " << kind.name << ", "
+              << method.name << ", " << start.size() << " particles, scene " << kind.name << ", "
               << kernels->name << ", " << threads << " threads, blocks of " << block_size << ", "
               << at_once << " steps a call, skips " << skips;
           EXPECT_EQ(engine.dissipatedEnergy(), plain.dissipatedEnergy())
-              << method << ", " << start.size() << " particles, " << kernels->name << ", blocks of "
-              << block_size;
+              << method.name << ", " << start.size() << " particles, " << kernels->name
+              << ", blocks of " << block_size;
         }
       }
     }
@@ -116,39 +123,39 @@ void expectSameBits(const char* method, const Kind& kind, const State& start, in
 
 TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeHoweverItIsRun) {
   const Ways ways{{{1, 4096}, {1, 16}, {2, 16}, {3, 64}}, {kSteps, 5}, {7, 6, 5, 3, 0}};
-  for (const char* method : kMethods) {
+  for (const Method* method : methods()) {
     for (const Kind& kind : kKinds) {
       for (const Eigen::Index size : kShortChains) {
-        expectSameBits(method, kind, bentChain(size), kSteps, ways);
+        expectSameBits(*method, kind, bentChain(size), kSteps, ways);
       }
     }
   }
 }
 
 TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeForEveryNumberOfBlocks) {
-  for (const char* method : kMethods) {
+  for (const Method* method : methods()) {
     for (const Eigen::Index size : kOtherShortChains) {
       for (const Kind& kind : kKinds) {
-        expectSameBits(method, kind, bentChain(size), kSteps, {{{1, 4096}}, {kSteps}, {7}});
+        expectSameBits(*method, kind, bentChain(size), kSteps, {{{1, 4096}}, {kSteps}, {7}});
       }
     }
   }
 }
 
-TEST(ExplicitRungeKutta, TracksTheHeatOfThePlainCodeHoweverItIsRun) {
+TEST(ExplicitRungeKutta, TracksTheDissipationOfThePlainCode) {
   const Ways ways{{{1, 4096}, {2, 16}, {3, 64}}, {kSteps, 5}, {7, 0}};
-  for (const char* method : kMethods) {
+  for (const Method* method : methods()) {
     for (const Eigen::Index size : {1, 2, 3, 11, 16, 64, 1000}) {
       for (const Kind& kind : kKinds) {
-        expectSameBits(method, kind, bentChain(size), kSteps, ways, true);
+        expectSameBits(*method, kind, bentChain(size), kSteps, ways, true);
       }
     }
   }
-  expectSameBits("Runge-Kutta-4", kKinds[0], bentChain(kLongChain), 2,
+  expectSameBits(findMethod("Runge-Kutta-4"), kKinds[0], bentChain(kLongChain), 2,
                  {{{1, 4096}, {3, 20000}}, {2}, {7}}, true);
 }
 
-// K. Heun's method, for which no kernel is compiled.
+// Heun's method, which has no kernel.
 TEST(ExplicitRungeKutta, RunsATableauWithoutAKernel) {
   const ButcherTableau heun{2, {{{}, {1.0}}}, {0.5, 0.5}};
   const Chain chain = chainOf(11, kKinds[0]);
@@ -170,28 +177,28 @@ TEST(ExplicitRungeKutta, RunsATableauWithoutAKernel) {
 
 TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeOnALongChain) {
   const State start = bentChain(kLongChain);
-  for (const char* method : kMethods) {
-    expectSameBits(method, kKinds[0], start, 2, {{{1, 4096}, {3, 20000}}, {2}, {7}});
-    expectSameBits(method, kKinds[1], start, 2, {{{2, 4096}}, {1}, {7, 0}});
+  for (const Method* method : methods()) {
+    expectSameBits(*method, kKinds[0], start, 2, {{{1, 4096}, {3, 20000}}, {2}, {7}});
+    expectSameBits(*method, kKinds[1], start, 2, {{{2, 4096}}, {1}, {7, 0}});
   }
 }
 
-// Written down once; whoever changes the arithmetic on purpose writes down the new ones.
-TEST(ExplicitRungeKutta, GivesTheBitsThatWereWrittenDown) {
+// Recorded hashes. Record new ones after an intended change of the arithmetic.
+TEST(ExplicitRungeKutta, GivesTheRecordedBits) {
   const std::map<std::string, std::uint64_t> expected{{"Euler", 0x4c46a64ae9807f8eU},
                                                       {"Runge-Kutta-2", 0x49745e6ce3e68c30U},
                                                       {"Runge-Kutta-4", 0x6239e3f06723fabeU}};
-  for (const char* method : kMethods) {
+  for (const auto& [name, recorded] : expected) {
     std::uint64_t hash = 0xcbf29ce484222325U;
     for (const Kind& kind : kKinds) {
       for (const Eigen::Index size : kShortChains) {
-        const auto engine = makeIntegrator(method, chainOf(size, kind));
+        const auto engine = makeIntegrator(name, chainOf(size, kind));
         hash = hashOf(stateAfter(*engine, bentChain(size), kSteps, kSteps), hash);
       }
     }
-    const auto engine = makeIntegrator(method, chainOf(kLongChain, kKinds[0]));
+    const auto engine = makeIntegrator(name, chainOf(kLongChain, kKinds[0]));
     hash = hashOf(stateAfter(*engine, bentChain(kLongChain), kStepsOfLongChain, 2), hash);
-    EXPECT_EQ(hash, expected.at(method)) << method << ": 0x" << std::hex << hash;
+    EXPECT_EQ(hash, recorded) << name << ": 0x" << std::hex << hash;
   }
 }
 
@@ -212,11 +219,11 @@ TEST(ExplicitRungeKutta, LeavesTheFixedParticleWhereItIsThoughItsNeighbourIsLost
 }
 
 TEST(ExplicitRungeKutta, EvaluatesEachStageOnce) {
-  for (const char* method : kMethods) {
-    const auto engine = makeIntegrator(method, chainOf(9000, kKinds[0]));
+  for (const Method* method : methods()) {
+    const auto engine = makeIntegrator(*method, chainOf(9000, kKinds[0]));
     State state = bentChain(9000);
     engine->advance(state, kTimeStep, 70);
-    EXPECT_EQ(engine->forceEvaluations(), 70 * findMethod(method).stages) << method;
+    EXPECT_EQ(engine->forceEvaluations(), 70 * method->stages) << method->name;
   }
 }
 

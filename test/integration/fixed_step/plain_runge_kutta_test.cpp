@@ -14,7 +14,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// A tableau that has no kernels of its own and needs every slope: the 3/8 rule.
+/// A tableau without a kernel that needs every slope: the 3/8 rule.
 const ButcherTableau kThreeEighths{4,
                                    {{{}, {1.0 / 3.0}, {-1.0 / 3.0, 1.0}, {1.0, -1.0, 1.0}}},
                                    {1.0 / 8.0, 3.0 / 8.0, 3.0 / 8.0, 1.0 / 8.0}};
@@ -58,8 +58,9 @@ TEST(PlainRungeKutta, HasTheBitsOfTheFormula) {
   }
 }
 
-// Energy lost and heat differ by the errors of the method alone. Measured: 4.9e-10 J of 3.8 J.
-TEST(PlainRungeKutta, HeatIsTheEnergyThatIsLost) {
+// The lost and the dissipated energy differ only by the errors of the method. Measured: 4.9e-10 J
+// of 3.8 J.
+TEST(PlainRungeKutta, DissipatedEnergyIsTheEnergyThatIsLost) {
   const test::Scene scene = test::referenceScene("horizontal_11");
   PlainRungeKutta plain(scene.chain, kThreeEighths, true);
   State state = scene.start;

@@ -1,4 +1,4 @@
-#include "io/failure.hpp"
+#include "io/exit_status.hpp"
 
 #include <spring_pendulum/model/errors.hpp>
 

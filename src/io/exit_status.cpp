@@ -1,5 +1,6 @@
-#include "io/failure.hpp"
+#include "io/exit_status.hpp"
 
+#include "io/standard_streams.hpp"
 #include "io/text_file.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
@@ -13,6 +14,19 @@ Failure failureOf(const std::exception& error) {
   }
   const bool bad_input = dynamic_cast<const InputError*>(&error) != nullptr;
   return {onOneLine(error.what()), bad_input ? kBadInput : kFileFailed};
+}
+
+int runProgram(const std::function<int()>& program) {
+  prepareProcess();
+  try {
+    const int status = program();
+    flushOutput();
+    return status;
+  } catch (const std::exception& error) {
+    const Failure failure = failureOf(error);
+    printError(failure.message + "\n");
+    return failure.status;
+  }
 }
 
 }  // namespace spring_pendulum

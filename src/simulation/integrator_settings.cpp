@@ -1,4 +1,4 @@
-#include "simulation/work.hpp"
+#include "simulation/integrator_settings.hpp"
 
 #include <algorithm>
 

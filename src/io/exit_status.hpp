@@ -1,7 +1,8 @@
-// Exit status and message of a program that fails.
+// The exit status of programs, and the common part of their main functions.
 #pragma once
 
 #include <exception>
+#include <functional>
 #include <string>
 
 namespace spring_pendulum {
@@ -15,5 +16,9 @@ struct Failure {
 
 /// Returns kBadInput for an InputError, kFileFailed for all other exceptions.
 Failure failureOf(const std::exception& error);
+
+/// Runs a program that prints to the standard streams: flushes its output and prints its failure.
+/// \returns the exit status of the program or of its failure
+int runProgram(const std::function<int()>& program);
 
 }  // namespace spring_pendulum
