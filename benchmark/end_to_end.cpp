@@ -1,6 +1,6 @@
-// The exercise's run from start to end, 500 frames of 11 particles, split into integrating,
-// formatting numbers and writing files; next to it the same run as a student writes it, with an
-// object a particle and one std::ofstream a frame.
+// The complete run of the exercise, 500 frames of 11 particles, divided into integrating,
+// formatting numbers and writing files, compared with a typical student solution: one object per
+// particle and one std::ofstream per frame.
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
@@ -33,7 +33,7 @@ namespace {
 
 const Scenario kDefaults;
 
-/// Makes both runs, and lets each be stopped after integrating or formatting.
+/// Makes both runs. Each can stop after integrating or formatting.
 class Runs {
  public:
   explicit Runs(std::filesystem::path folder)
@@ -122,7 +122,7 @@ class Runs {
     if (std::system(command.c_str()) != 0) throw std::runtime_error("Exercise3 failed");
   }
 
-  /// The two runs must agree: largest difference of their last frames, m.
+  /// Largest difference of the last frames of the two runs, m.
   double difference() const {
     std::vector<double> ours;
     std::vector<double> theirs;
@@ -150,7 +150,7 @@ class Runs {
   std::unique_ptr<Peer> student_;
 };
 
-/// Rounding, grown by fifty seconds of weakly chaotic motion.
+/// Rounding errors after fifty seconds of weakly chaotic motion.
 constexpr double kAgreement = 1e-6;  // m
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Times several pieces of work in turns, so that what disturbs the machine for a while disturbs all
-// of them and their ratios stand. (Google Benchmark finishes one before it begins the next.)
+// Times several pieces of work in turns, so that a disturbance of the machine affects all of them
+// and their ratios remain valid. (Google Benchmark finishes one before it begins the next.)
 #pragma once
 
 #include <functional>
@@ -20,11 +20,11 @@ struct Timing {
 };
 
 enum class Time {
-  kElapsed,  ///< on the wall
-  kAlone     ///< without waiting for a processor, see Stopwatch::alone
+  kElapsed,  ///< wall-clock time
+  kAlone     ///< without waiting for a processor; see Stopwatch::alone
 };
 
-/// One timing for each piece of work, each of which runs once in every round.
+/// Returns a timing for each piece of work; each runs once per round.
 std::vector<Timing> timeInTurns(const std::vector<Work>& pieces, int rounds, Time time);
 
 }  // namespace spring_pendulum::benchmark

@@ -16,10 +16,11 @@
 namespace spring_pendulum::benchmark {
 namespace {
 
-// Who is asleep uses no processor time: after so many times the limit on the wall it is ended too.
+// A sleeping process uses no processor time: it is ended after this multiple of the limit in
+// wall-clock time.
 constexpr double kPatience = 30.0;
 
-/// Ends this process, by SIGPROF, once it has used so many s of processor time.
+/// Ends this process with SIGPROF after a processor time in s.
 void limitProcessorTime(double limit) {
   const auto whole = static_cast<time_t>(limit);
   const auto rest = static_cast<suseconds_t>(1e6 * (limit - static_cast<double>(whole)));
@@ -27,7 +28,7 @@ void limitProcessorTime(double limit) {
   setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-/// The child's part; the first character of what it sends tells how it ended.
+/// The child process. The first character of its output is its status.
 [[noreturn]] void work(const std::function<std::string()>& task, int pipe_end) {
   std::string message;
   try {
@@ -39,7 +40,7 @@ void limitProcessorTime(double limit) {
   _exit(sent == static_cast<ssize_t>(message.size()) ? 0 : 1);
 }
 
-/// All that comes before the other end closes; false if the time runs out.
+/// Reads until the other end closes; false on timeout.
 bool receive(int pipe_end, double limit, std::string& message) {
   const auto start = std::chrono::steady_clock::now();
   std::array<char, 4096> buffer{};

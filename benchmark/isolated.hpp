@@ -1,5 +1,5 @@
-// Runs a piece of work in a process of its own, so that a peer that crashes, leaves the process or
-// never ends costs one point of a benchmark and not the benchmark.
+// Runs a piece of work in a separate process, so that a peer that crashes, exits or never ends
+// costs one point of a benchmark instead of all.
 #pragma once
 
 #include <functional>
@@ -10,14 +10,14 @@ namespace spring_pendulum::benchmark {
 
 struct Isolated {
   enum class Ending { kDone, kFailed, kTooSlow } ending;
-  std::string text;  ///< what the work returned, or why it failed
+  std::string text;  ///< result of the work, or reason of its failure
 };
 
-/// \param task  its result is handed over as text; an exception means failure
-/// \param limit s of processor time; after that it is ended
+/// \param task  returns its result as text; an exception means failure
+/// \param limit processor time in s, after which the process is ended
 Isolated runIsolated(const std::function<std::string()>& task, double limit);
 
-/// The numbers of a text, which whitespace separates; nan and inf are numbers too.
+/// Parses numbers separated by whitespace; also nan and inf.
 std::vector<double> numbersOf(const std::string& text);
 
 }  // namespace spring_pendulum::benchmark

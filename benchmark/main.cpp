@@ -1,4 +1,4 @@
-// What the benchmark programs share: each of them defines run().
+// The main function of all benchmarks, each of which defines run().
 #include <cstdio>
 #include <exception>
 #include <stdexcept>

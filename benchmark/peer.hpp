@@ -1,6 +1,6 @@
-// What is timed: one method of one library (ours included) carrying one chain through time. Peers
-// know nothing of this package's types: a problem is plain vectors, so that each of them can be
-// compiled with the flags that suit it best.
+// The interface of timed methods: one method of one library, this package included, integrates one
+// chain. A problem consists of plain vectors instead of types of this package, so that each peer
+// can be compiled with the flags that suit it best.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace spring_pendulum::benchmark {
 
-/// A chain and its start. States are structures of arrays of 4N numbers: x, y in m, then vx, vy in
-/// m/s, each N numbers long.
+/// A chain and its start. A state is a structure of arrays of 4N numbers: x, y in m, then vx, vy in
+/// m/s, N numbers each.
 struct Problem {
   std::string name;
-  std::vector<double> masses;  ///< kg; that of the fixed first particle is never used
+  std::vector<double> masses;  ///< kg; the mass of the first, fixed particle is not used
   std::vector<double> start;   ///< 4N
   double stiffness = 50.0;     ///< N/m
   double damping = 1.0;        ///< N·s/m
@@ -26,7 +26,7 @@ struct Problem {
   std::size_t size() const { return masses.size(); }
 };
 
-/// What one call of `Peer::advance` is to do.
+/// The work of one call of `Peer::advance`.
 struct Run {
   double time_step = 0.01;  ///< s
   std::int64_t steps = 10;  ///< the call moves the state on by steps * time_step
@@ -35,7 +35,7 @@ struct Run {
   bool energy = false;      ///< ours; whether the dissipated energy is tracked
 };
 
-/// A peer that cannot do what it is asked says why.
+/// Thrown by a peer that does not support a run, with the reason.
 class PeerError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -47,13 +47,13 @@ class Peer {
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
 
-  /// Back to the start of the problem. Not timed.
+  /// Returns to the start of the problem. Not timed.
   virtual void reset() = 0;
-  /// One call as `Run` says. Timed.
+  /// Does the work of `Run`. Timed.
   virtual void advance() = 0;
   /// 4N numbers, as `Problem::start`.
   virtual std::vector<double> state() const = 0;
-  /// Evaluations of all spring forces since the peer was made.
+  /// Evaluations of all spring forces since construction.
   virtual std::int64_t forceEvaluations() const = 0;
 
  protected:
@@ -67,15 +67,15 @@ struct PeerRow {
   std::string library;  ///< "own" for this package, "plain" for the two baselines
   std::string name;     ///< unique, as plots and tables show it
   Stepping stepping;
-  bool classical_runge_kutta;  ///< takes part in the throughput benchmark
-  /// May throw PeerError. Takes all the memory the peer needs; not timed.
+  bool classical_runge_kutta;  ///< whether it takes part in the throughput benchmark
+  /// Constructs the peer with all its memory. Not timed. May throw PeerError.
   std::function<std::unique_ptr<Peer>(const Problem&, const Run&)> make;
 };
 
-/// All that this build has: this package first, then the baselines, then the libraries.
+/// All peers of this build: this package, the baselines, then the libraries.
 const std::vector<PeerRow>& allPeers();
 
-/// Libraries that this build lacks, for the head of a result.
+/// Missing libraries, for the head of a result.
 std::vector<std::string> missingPeers();
 
 }  // namespace spring_pendulum::benchmark

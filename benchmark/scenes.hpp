@@ -1,4 +1,4 @@
-// The scenes that are timed: those with a reference solution, and a chain of any length.
+// The benchmark scenes: scenes with a reference solution, and a chain of any length.
 #pragma once
 
 #include <string>
@@ -8,21 +8,21 @@
 
 namespace spring_pendulum::benchmark {
 
-/// A scene whose exact motion at `duration` is known.
+/// A scene with known motion at the time `duration`.
 struct ReferenceScene {
   Problem problem;
   double duration = 0.0;      ///< s
   std::vector<double> exact;  ///< 4N, as Problem::start
 };
 
-/// Those of test/data/reference that are there, smallest first.
+/// The scenes of test/data/reference, smallest first.
 std::vector<ReferenceScene> referenceScenes();
 
-/// The exercise's chain with any number of particles: let go horizontally, 1 m apart, 1 kg each.
+/// The horizontal chain of the exercise with any number of particles: 1 m apart, 1 kg each.
 Problem horizontalChain(std::size_t particles);
 
-/// Largest distance in m between the places of one particle in two states; inf if a number of
-/// `state` is not finite.
+/// Largest distance in m of a particle between two states; inf if a number of `state` is not
+/// finite.
 double positionError(const std::vector<double>& state, const std::vector<double>& exact);
 
 /// Largest difference between two numbers of two states, m or m/s; inf as above.

@@ -1,5 +1,5 @@
-// What each skip saves: the same scene with the skip and without it. The bits of the result are
-// the same, which is checked before anything is timed.
+// Time saved by each skip: the same scene with and without the skip. The bits of both results are
+// checked to be equal before the timing.
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/frame_writer.hpp>
@@ -36,7 +36,7 @@ State startOf(Eigen::Index size) {
   return state;
 }
 
-/// A chain that is carried on, frame after frame.
+/// A chain that advances frame by frame.
 class Carried {
  public:
   Carried(const Chain& chain, const EngineOptions& options)
@@ -72,14 +72,14 @@ class Carried {
 struct Pair {
   std::string skip;
   Timing with, without;
-  double forces;  ///< spring forces a timing stands for
+  double forces;  ///< spring forces per timing
 };
 
 double forcesOf(const Carried& carried) {
   return static_cast<double>(4 * kStepsACall * carried.calls() * (carried.state().size() - 1));
 }
 
-/// One skip of the engine, on a scene that has no need of the work.
+/// A skip of the engine, on a scene without the skipped terms.
 Pair timeEngineSkip(const std::string& name, const Chain& chain, bool EngineOptions::*skip,
                     int rounds) {
   EngineOptions with_skip;
@@ -99,7 +99,7 @@ Pair timeEngineSkip(const std::string& name, const Chain& chain, bool EngineOpti
   return {name, timings[0], timings[1], forcesOf(with)};
 }
 
-/// No energy wanted: no dissipated power integrated along, no balance computed.
+/// Without energy balance: neither the dissipated energy nor the balance is computed.
 Pair timeEnergySkip(Eigen::Index size, int rounds) {
   const Chain chain = uniformChain(size, 1.0, 9.81);
   const auto integrator = [&](bool track) {
@@ -125,7 +125,7 @@ Pair timeEnergySkip(Eigen::Index size, int rounds) {
   return {"no energy balance", timings[0], timings[1], forcesOf(with)};
 }
 
-/// No frame files wanted.
+/// Without frame files.
 Pair timeFramesSkip(Eigen::Index size, const std::string& folder, int rounds) {
   const Chain chain = uniformChain(size, 1.0, 9.81);
   Carried carried(chain, EngineOptions{});

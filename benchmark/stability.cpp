@@ -1,4 +1,4 @@
-// Puts stability to the test.
+// Tests of stability limits and advice.
 // Two reports, as CSV in DIR:
 // - stability_map.csv, stability_limit.csv: the verdict on a chain of eleven particles on a grid of
 //   masses and time steps, for each method with a fixed step, and the linear limit of the step;
@@ -24,11 +24,11 @@ namespace {
 using test::Scene;
 using test::verdictOfRun;
 
-constexpr double kDuration = 10.0;  // s, of a run
-constexpr double kMostSteps = 1e6;  // a longer run is left out
-constexpr unsigned kScenes = 120;   // random ones
+constexpr double kDuration = 10.0;  // s, duration of a run
+constexpr double kMostSteps = 1e6;  // longer runs are skipped
+constexpr unsigned kScenes = 120;   // number of random scenes
 
-/// Cells on a side of the map.
+/// Number of cells along each side of the map.
 int cells(const Options& options) {
   return options.smoke ? 4 : 48;
 }
@@ -76,7 +76,7 @@ bool isStable(const Scene& scene, const Method& method, double time_step) {
   return verdictOfRun(scene, method, time_step, kDuration, true, kind).kind < kind;
 }
 
-/// Advised steps on random scenes against real runs with a little less and a little more.
+/// Compares advised step sizes on random scenes with runs at slightly smaller and larger steps.
 void writeAdvice(const Options& options) {
   auto table = fmt::output_file(options.output + "/stability_advice.csv");
   table.print(

@@ -1,4 +1,4 @@
-// Time that a piece of work took, on a machine that others use too.
+// Measures the time of work on a shared machine.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@ namespace spring_pendulum::benchmark {
 
 class Stopwatch {
  public:
-  /// s on the clock on the wall.
+  /// Wall-clock time, s.
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// s without those in which this thread waited for a processor; for work that neither starts
-  /// threads nor waits for a file. On a quiet machine the same as `elapsed`, and never more, as the
-  /// two clocks are read in this order.
+  /// Time in s without waiting for a processor; for work that neither starts threads nor waits for
+  /// a file. Equals `elapsed` on an idle machine and never exceeds it, as the clocks are read in
+  /// this order.
   double alone() const {
     const double wall = elapsed();
     const double used = processorTime() - processor_start_;

@@ -1,12 +1,12 @@
 // Throughput: nanoseconds per spring force of the classical Runge-Kutta method, for chains from 3
-// to ten million particles, ten steps a call.
+// to ten million particles, ten steps per call.
 //
-// Ratios between candidates are what matters, so all of them take turns within one run: in every
-// round each candidate is timed once, and the median over the rounds counts. A disturbance then
-// hits all alike. (Google Benchmark finishes one candidate before it begins the next.)
+// The result is ratios between candidates, so each candidate is timed once per round, and the
+// median over the rounds is used. A disturbance then affects all candidates alike. (Google
+// Benchmark finishes one candidate before it begins the next.)
 //
-// Before anything is timed, each candidate runs in a process of its own, next to the plain
-// structure-of-arrays loop, and must arrive at the same state.
+// Before the timing, each candidate runs in a separate process and must reach the same state as the
+// plain structure-of-arrays loop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,13 +27,13 @@
 namespace spring_pendulum::benchmark {
 namespace {
 
-// The same method in other order of operations differs by rounding alone. GSL is let off more
-// lightly: its step doubling really takes two half steps.
+// A different order of operations changes only rounding errors. The limit for GSL is larger, as its
+// step doubling takes two half steps.
 constexpr double kAgreement = 1e-10;       // m and m/s
 constexpr double kAgreementGsl = 1e-5;     // m and m/s
-constexpr double kSampleTime = 2e-3;       // s, at least, of one candidate in one round
-constexpr double kProbeLimit = 60.0;       // s, for making a peer and letting it run once
-constexpr std::size_t kLarge = 1'000'000;  // above, peers live only while they are timed
+constexpr double kSampleTime = 2e-3;       // s, least time per candidate and round
+constexpr double kProbeLimit = 60.0;       // s, for constructing a peer and one run
+constexpr std::size_t kLarge = 1'000'000;  // above, peers exist only while they are timed
 
 struct Candidate {
   const PeerRow* row = nullptr;
@@ -41,7 +41,7 @@ struct Candidate {
   std::string status = "ok";
   std::string note;
   double difference = 0.0;      // from the plain loop
-  double seconds_a_call = 0.0;  // as the probe saw it
+  double seconds_a_call = 0.0;  // measured by the probe
   std::unique_ptr<Peer> peer;
   std::vector<double> samples;  // ns per spring force
   double evaluations_a_step = 0.0;
@@ -52,7 +52,7 @@ const PeerRow& baseline() {
                        [](const PeerRow& row) { return row.name == "structure of arrays"; });
 }
 
-/// Runs in a process of its own: seconds of a call, and the difference from the plain loop.
+/// Runs in a separate process. Returns the seconds per call and the difference from the plain loop.
 std::string runOnce(const Problem& problem, const Candidate& candidate) {
   const int calls = problem.size() < kLarge ? 10 : 1;
   Run run = candidate.run;
@@ -97,7 +97,7 @@ void sample(const Problem& problem, Candidate& candidate) {
   const std::int64_t before = peer.forceEvaluations();
   const Stopwatch stopwatch;
   for (std::int64_t call = 0; call < calls; ++call) peer.advance();
-  // What other threads did only the clock on the wall knows.
+  // Wall-clock time, as the processor time of other threads is not measured.
   const double seconds = candidate.run.threads == 1 ? stopwatch.alone() : stopwatch.elapsed();
   const auto evaluations = static_cast<double>(peer.forceEvaluations() - before);
   candidate.samples.push_back(1e9 * seconds / evaluations /
@@ -113,7 +113,7 @@ std::vector<Candidate> candidatesFor(std::size_t particles) {
     const bool own = row.library == "own";
     Candidate candidate;
     candidate.row = &row;
-    // Only ours gains from several steps in one call; one is enough to time the others.
+    // Only this package gains from several steps per call; the others are timed with one.
     candidate.run.steps = own || particles < kLarge ? 10 : 1;
     candidates.push_back(std::move(candidate));
     if (!own) continue;
@@ -142,7 +142,7 @@ void write(const Problem& problem, Candidate& candidate, ResultFile& file) {
       quoted(candidate.note)));
 }
 
-/// \param lost methods that failed with fewer particles; they are not tried again
+/// \param lost methods that failed with fewer particles, which are skipped
 bool runSize(std::size_t particles, int rounds, std::set<std::string>& lost, ResultFile& file) {
   const Problem problem = horizontalChain(particles);
   std::vector<Candidate> candidates = candidatesFor(particles);

@@ -1,4 +1,4 @@
-// Any arguments, a line each, are either a scenario that can be run, an answer, or an error.
+// Arbitrary arguments, one per line, give a valid scenario, an answer, or an error.
 #include "io/command_line.hpp"
 #include "simulation/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>

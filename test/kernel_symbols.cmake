@@ -1,6 +1,6 @@
-# A function that the linker may merge with another of the same name must not come from a file that
-# is compiled for a newer instruction set: an older processor would run it. So these files may
-# define no function with external linkage.
+# The linker may merge functions of the same name and choose the one that is compiled for a newer
+# instruction set, which fails on an older processor. So these files must not define functions with
+# external linkage.
 # Usage: cmake -DNM=... -DOBJECTS=... -P kernel_symbols.cmake
 set(checked 0)
 foreach(object ${OBJECTS})

@@ -53,8 +53,8 @@ class ArkodePeer : public Peer {
 
  private:
   void setClassicalTableau() {
-    // The last node is 1. It is not given so, because SUNDIALS 6.4 then takes the method for one
-    // whose last stage is the first of the next step, and loses an order; F does not read the time.
+    // The last node should be 1. SUNDIALS 6.4 would then reuse the last stage as the first of the
+    // next step and lose an order. The value does not matter, as F does not depend on time.
     realtype c[] = {0.0, 0.5, 0.5, 0.75};
     realtype a[] = {0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0};
     realtype b[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};

@@ -1,8 +1,8 @@
 // Boost.odeint, with std::vector and with Eigen states.
 //
 // This file is compiled with the vector flags of the machine, which change the layout and the
-// allocator of Eigen's types. Its Eigen therefore lives in a namespace of its own, so that the
-// linker never mixes it with the Eigen of the library under test.
+// allocator of Eigen's types. Its Eigen therefore is in a separate namespace, so that the linker
+// does not mix it with the Eigen of the library.
 #define Eigen EigenOfTheBoostPeer
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using VectorState = std::vector<double>;
 using EigenState = Eigen::VectorXd;
-constexpr double kFirstStep = 1e-3;  // s, where an error-controlled method begins
+constexpr double kFirstStep = 1e-3;  // s, first step size of an error-controlled method
 
 template <typename State>
 class BoostPeer : public Peer {

@@ -1,5 +1,5 @@
 // SUNDIALS CVODE: Adams with fixed-point iteration, and BDF with Newton iteration, its band solver
-// and either its own difference quotients or the exact Jacobian.
+// and either difference quotients or the exact Jacobian.
 #include <cvode/cvode.h>
 #include <sunlinsol/sunlinsol_band.h>
 #include <sunmatrix/sunmatrix_band.h>

@@ -30,7 +30,7 @@ double dividerBound() {
     const Stopwatch stopwatch;
     for (int i = 0; i < kRepeats; ++i) {
       invertRoots(squares, results);
-      std::swap(squares, results);  // so that no repeat can be left out
+      std::swap(squares, results);  // so that the compiler keeps every repetition
     }
     least = std::min(least, stopwatch.alone());
   }

@@ -1,11 +1,11 @@
-// What no method can go below: every spring force needs one square root and one division, and the
-// processor's divider does nothing faster than this.
+// A lower bound for every method: each spring force needs one square root and one division, whose
+// throughput is limited by the divider of the processor.
 #pragma once
 
 namespace spring_pendulum::benchmark {
 
-/// ns for 1/sqrt(q) in double precision, over numbers in the first-level cache, with the vector
-/// flags of the baselines. Least of many runs.
+/// Least time in ns of 1/sqrt(q) in double precision for data in the first-level cache, with the
+/// vector flags of the baselines.
 double dividerBound();
 
 }  // namespace spring_pendulum::benchmark

@@ -1,8 +1,8 @@
 // DOP853, the compiled Fortran by E. Hairer that SciPy contains.
 //
-// Nothing but Python's module is exported from SciPy's library. The module keeps the address of
-// the Fortran routine in the attribute `_cpointer` of its function `dop853`. So the interpreter is
-// started once to ask for that address; it takes no part in what is timed.
+// SciPy's library exports only its Python module. The attribute `_cpointer` of the function
+// `dop853` holds the address of the Fortran routine. The interpreter is started once to read this
+// address and does not take part in the timing.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
 // ed., Springer 1993; http://www.unige.ch/~hairer/prog/nonstiff/dop853.f describes the arguments.
@@ -22,7 +22,7 @@ using Derivative = void(const int* size, const double* time, const double* state
                         void* force, int* unused);
 using Output = void();
 
-/// Fortran's subroutine. `real_data` and `integer_data` reach the derivative as they are.
+/// The Fortran subroutine. It passes `real_data` and `integer_data` to the derivative.
 using Dop853 = void(const int* size, Derivative*, double* time, double* state, const double* end,
                     const double* relative_tolerance, const double* absolute_tolerance,
                     const int* tolerance_kind, Output*, const int* output_kind, double* work,

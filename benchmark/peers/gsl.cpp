@@ -1,5 +1,5 @@
-// The GNU Scientific Library. Its rk4 estimates the error by step doubling whether it is asked or
-// not, which costs 11 evaluations of the right-hand side a step instead of 4.
+// The GNU Scientific Library. Its rk4 always estimates the error by step doubling, which costs 11
+// evaluations of the right-hand side per step instead of 4.
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 

@@ -1,5 +1,5 @@
-// MuJoCo with its Runge-Kutta integrator: two slide joints a particle, and a spatial tendon with
-// stiffness, damping and springlength a spring. That is exactly this model.
+// MuJoCo with its Runge-Kutta integrator: two slide joints per particle, and per spring a spatial
+// tendon with stiffness, damping and springlength, which is exactly this model.
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
@@ -76,7 +76,7 @@ class MujocoPeer : public Peer {
   void advance() override {
     for (std::int64_t n = 0; n < run_.steps; ++n) mj_step(model_, data_);
     steps_ += run_.steps;
-    // It puts a state that has become too large back to the start, with a warning.
+    // MuJoCo resets a state that has become too large, with a warning.
     for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
       if (data_->warning[bad].number > 0) throw PeerError("the motion diverged and was reset");
     }
@@ -85,7 +85,7 @@ class MujocoPeer : public Peer {
   std::vector<double> state() const override {
     const std::size_t n = problem_.size();
     std::vector<double> z = problem_.start;
-    for (std::size_t i = 1; i < n; ++i) {  // joint positions count from where the body starts
+    for (std::size_t i = 1; i < n; ++i) {  // joint positions are relative to the start
       for (std::size_t c = 0; c < 2; ++c) {
         z[c * n + i] += data_->qpos[2 * (i - 1) + c];
         z[(2 + c) * n + i] = data_->qvel[2 * (i - 1) + c];

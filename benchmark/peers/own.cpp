@@ -48,7 +48,7 @@ class OwnPeer : public Peer {
 
  private:
   Run run_;
-  const std::vector<double>& start_;  ///< a problem outlives its peers
+  const std::vector<double>& start_;  ///< the problem outlives its peers
   std::unique_ptr<Integrator> integrator_;
   State state_;
 };

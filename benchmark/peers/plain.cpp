@@ -1,5 +1,6 @@
-// Two baselines without a library, both with the classical Runge-Kutta method: one object a
-// particle, as a student writes it, and a structure of arrays, as a competent person writes it.
+// Two baselines without a library, both with the classical Runge-Kutta method: one object per
+// particle, as a student writes it, and a structure of arrays, as an experienced programmer writes
+// it.
 #include <cmath>
 
 #include "plain_force.hpp"
@@ -109,8 +110,8 @@ class ObjectPerParticle : public Peer {
   std::int64_t evaluations_ = 0;
 };
 
-/// Two passes a stage: spring forces, then the accelerations together with all that follows from
-/// them, so that no slope is ever stored.
+/// Two passes per stage: spring forces, then accelerations and the sums that need them, so that no
+/// slope is stored.
 class StructureOfArrays : public Peer {
  public:
   StructureOfArrays(const Problem& problem, const Run& run)

@@ -55,7 +55,7 @@ void PlainForce::operator()(const double* state, double* derivative) {
   double* __restrict ay = derivative + 3 * n;
   const double gravity = gravity_;
 #pragma GCC ivdep
-  for (std::size_t i = 1; i < n; ++i) {  // the force behind the last particle stays 0
+  for (std::size_t i = 1; i < n; ++i) {  // the force after the last particle stays 0
     dx[i] = vx[i];
     dy[i] = vy[i];
     ax[i] = (fx[i] - fx[i - 1]) * inverse_mass[i];

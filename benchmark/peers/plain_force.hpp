@@ -1,5 +1,5 @@
-// The right-hand side that every library peer calls: a plain structure-of-arrays loop, as a
-// competent person writes it, compiled with the vector flags of the machine.
+// The right-hand side of all library peers: a plain structure-of-arrays loop, compiled with the
+// vector flags of the machine.
 #pragma once
 
 #include "../peer.hpp"
@@ -13,8 +13,8 @@ class PlainForce {
   /// z' = F(z); z and z' hold x, y, vx, vy, each N numbers.
   void operator()(const double* state, double* derivative);
 
-  /// The same with the four numbers of a particle side by side, which gives a banded Jacobian of
-  /// 7 diagonals below and 5 above the main one.
+  /// The same for a state with the four numbers of a particle adjacent, for which the Jacobian is
+  /// banded with 7 lower and 5 upper diagonals.
   void interleaved(const double* state, double* derivative);
 
   /// The banded Jacobian of `interleaved`, at least 12 diagonals: entry (row, column) is
@@ -22,7 +22,7 @@ class PlainForce {
   void interleavedJacobian(const double* state, double* const* columns) const;
 
   std::size_t size() const { return size_; }
-  /// Computes the forces alone, for a caller that wants to go on with them by itself.
+  /// Computes only the forces.
   void springForces(const double* state);
   const double* forceX() const {
     return force_x_.data();
@@ -42,7 +42,7 @@ class PlainForce {
   std::int64_t evaluations_ = 0;
 };
 
-/// x y vx vy of each particle side by side, from a structure of arrays, and back.
+/// Converts a structure of arrays to adjacent x y vx vy of each particle, and back.
 void interleave(std::size_t size, const double* arrays, double* interleaved);
 void separate(std::size_t size, const double* interleaved, double* arrays);
 

@@ -1,4 +1,4 @@
-// What each file of peers adds to the list of all peers.
+// The rows that each file of peers adds to the list of all peers.
 #pragma once
 
 #include "../peer.hpp"
@@ -16,7 +16,7 @@ std::vector<PeerRow> simbodyRows();
 /// Empty if Python finds no SciPy.
 std::vector<PeerRow> dop853Rows();
 
-/// The usual `PeerRow::make`: a `Kind` made from problem, run, and whatever else it needs.
+/// A `PeerRow::make` that constructs a `Kind` from problem, run and other arguments.
 template <typename Kind, typename... More>
 auto makerOf(More... more) {
   return [=](const Problem& problem, const Run& run) -> std::unique_ptr<Peer> {

@@ -1,5 +1,5 @@
-// Simbody with its Runge-Kutta-Merson integrator: a Translation mobilizer a particle (no rotation
-// to integrate), a two-point spring and a two-point damper a spring.
+// Simbody with its Runge-Kutta-Merson integrator: a Translation mobilizer per particle (no
+// rotation), a two-point spring and a two-point damper per spring.
 #include <Simbody.h>
 
 #include "rows.hpp"
@@ -24,7 +24,7 @@ class SimbodyPeer : public Peer {
       SimTK::MobilizedBody::Translation mobilizer(matter_.Ground(), body);
       bodies_.push_back(mobilizer);
       const SimTK::Vec3 near = i == 1 ? place(0) : SimTK::Vec3(0.0);
-      // The objects are handles: the subsystem owns what they make.
+      // The objects are handles; the subsystem owns the forces.
       // NOLINTNEXTLINE(bugprone-unused-raii)
       SimTK::Force::TwoPointLinearSpring(forces_, bodies_[i - 1], near, mobilizer, SimTK::Vec3(0.0),
                                          problem.stiffness, problem.rest_length);
@@ -49,7 +49,7 @@ class SimbodyPeer : public Peer {
     try {
       const double end = integrator_.getTime() + run_.time_step * static_cast<double>(run_.steps);
       while (integrator_.stepTo(end) != SimTK::Integrator::ReachedReportTime) {
-        // It also returns at the start of a motion.
+        // stepTo also returns at the start of a motion.
       }
     } catch (const std::exception& error) {
       throw PeerError(error.what());

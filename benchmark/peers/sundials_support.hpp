@@ -1,4 +1,4 @@
-// What the peers from SUNDIALS share: owners of its handles, and the one check of its returns.
+// Common code of the SUNDIALS peers: ownership of handles and a check of return values.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -44,7 +44,7 @@ class SundialsVector {
   N_Vector vector_;
 };
 
-/// A driver's own messages would end up between ours; its return values say enough.
+/// Suppresses messages of SUNDIALS; its return values are checked.
 inline void dropMessage(int /*code*/, const char* /*module*/, const char* /*function*/,
                         char* /*message*/, void* /*data*/) {}
 

@@ -1,9 +1,9 @@
-// Makes a reference solution: the Taylor series method of order 14 with a fixed step in extended
-// precision (64 bits of mantissa). Shares nothing with the package.
+// Computes a reference solution: the Taylor series method of order 14 with a fixed step in extended
+// precision (64 bits of mantissa). Shares no code with the package.
 //
 // usage: taylor_reference PARTICLES STEPS_PER_SECOND SECONDS OUTPUT_PREFIX
-// Reads "x y m" a line (every number as the nearest double), starts at rest with the default
-// constants, and writes "x y vx vy" a particle to OUTPUT_PREFIX_t1.txt, _t2.txt, ...
+// Reads lines "x y m" (every number as the nearest double), starts at rest with the default
+// constants, and writes a line "x y vx vy" per particle to OUTPUT_PREFIX_t1.txt, _t2.txt, ...
 //
 // With d the separation of a spring's ends, L its length and T = k_s (L - 1) + k_d L' its tension,
 // the force is (T/L) d. Each of these is a series in t; products and quotients of series follow
@@ -31,7 +31,7 @@ const Real kGravity = 9.81;  // the nearest double, as everywhere
 struct Particle {
   Real mass = 1.0L;
   Series x{}, y{};                         // coefficient 0 is the position, 1 the velocity
-  std::array<Real, 2> lost_x{}, lost_y{};  // what rounding took off these two
+  std::array<Real, 2> lost_x{}, lost_y{};  // rounding errors of these two
 };
 
 struct Spring {
@@ -60,7 +60,7 @@ void extendForce(Spring& s, int n) {
   s.fy[n] = product(s.ratio, s.dy, n);
 }
 
-// sum += term, and the rounding error is kept for the next time (Kahan).
+// sum += term with compensated summation (Kahan).
 void addExactly(Real& sum, Real& lost, Real term) {
   const Real wanted = term + lost;
   const Real rounded = sum + wanted;

@@ -1,6 +1,5 @@
 // Nothing is allocated while stepping. Every allocation of this program is counted: those of `new`
-// and those of Eigen, which calls malloc. Sanitizers bring a malloc of their own, so there this
-// test is left out.
+// and those of Eigen, which calls malloc. Sanitizers replace malloc, so this test is skipped there.
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 

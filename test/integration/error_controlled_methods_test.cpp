@@ -1,4 +1,4 @@
-// What every error-controlled method of the table promises, whatever it is made of.
+// Promises of every error-controlled method of the table.
 #include "integration/error_control/dense_output_integrator.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/energy.hpp>
@@ -70,8 +70,8 @@ double worstError(Integrator& integrator, const Scene& scene, const std::string&
   return worst;
 }
 
-// The promise, 10 tolerances, on the scenes that cost little; `scripts/benchmark.sh tolerance` puts
-// it to the test on all of them. Measured: at most 7.0 (Dormand-Prince-5), 5.4 (Dormand-Prince-8),
+// The promise, 10 tolerances, on the cheaper scenes; `scripts/benchmark.sh tolerance` tests it on
+// all scenes. Measured: at most 7.0 (Dormand-Prince-5), 5.4 (Dormand-Prince-8),
 // 1.3 (Taylor-8), 2.0 (Taylor-12), 5.0 (Stabilized-Taylor-4), 7.2 (Stabilized-Taylor-8), 2.0
 // (Auto), all after 50 s of horizontal_11. At 1e-10 m steps must not lose their last bits.
 TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
@@ -106,8 +106,8 @@ TEST_P(ErrorControlledMethod, KeepsItsToleranceOnStiffChains) {
   }
 }
 
-// A tolerance a hundred times tighter must pay: a method that ignores it would pass the tests above
-// by being always exact.
+// A looser tolerance must cost less: a method that ignores the tolerance and is always accurate
+// would pass the tests above.
 TEST_P(ErrorControlledMethod, SpendsLessForLess) {
   const Scene scene = referenceScene("horizontal_11");
   std::int64_t evaluations = 0;
@@ -168,7 +168,7 @@ TEST_P(ErrorControlledMethod, TakesLongStepsAtRest) {
   }
 }
 
-// Of the energy the chain has lost, all is in the dashpots.
+// The energy lost by the chain is the energy dissipated by the dashpots.
 TEST_P(ErrorControlledMethod, CountsTheDissipatedEnergyOnlyIfAskedTo) {
   const Scene scene = referenceScene("horizontal_11");
   const double tolerance = 1e-6;

@@ -1,4 +1,4 @@
-// What every method of the table does, on random scenes.
+// Properties of every method of the table, on random scenes.
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace spring_pendulum {
 namespace {
 
-// Scenes that every method integrates in little time.
+// Scenes that every method integrates quickly.
 std::vector<test::Scene> quickScenes() {
   std::vector<test::Scene> scenes;
   for (unsigned seed = 2000; seed < 2060; ++seed) {
@@ -24,7 +24,7 @@ std::vector<test::Scene> quickScenes() {
   return scenes;
 }
 
-// 0.5 s in steps that suit the kind of method. A divergence is a result too, but not equal to
+// Advances by steps that suit the method. A divergence is a result as well, but NaN is not equal to
 // itself.
 State::Matrix advanced(Integrator& integrator, const Method& method, State state) {
   const bool fixed = method.hasFixedStep();

@@ -1,5 +1,5 @@
-// The tolerance on random scenes, and the oracle that it is measured with. `scripts/benchmark.sh
-// tolerance` runs many more.
+// The tolerance on random scenes, and the oracle that measures the errors. `scripts/benchmark.sh
+// tolerance` runs many more scenes.
 #include "support/random_scenes.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -25,8 +25,8 @@ using test::Scene;
 
 constexpr double kInterval = 0.5;  // s
 constexpr int kOutputs = 6;
-constexpr double kBudget = 0.25;          // s for a scene; those that need more are skipped
-constexpr double kLargestGrowth = 100.0;  // of small changes of the start
+constexpr double kBudget = 0.25;          // s per scene; scenes that need more are skipped
+constexpr double kLargestGrowth = 100.0;  // growth of perturbations of the start
 
 /// Largest error at an output, in tolerances.
 double errorInTolerances(const Scene& scene, const test::ExactMotion& exact,
@@ -65,7 +65,7 @@ TEST(Oracle, MethodsAgree) {
 }
 
 TEST(Oracle, MeasuresGrowthOfASmallChange) {
-  // Upside down and rigid, an angle grows with exp(sqrt(g/L) t).
+  // The angle of an inverted rigid pendulum grows with exp(sqrt(g/L) t).
   Scene scene{"", Chain(Eigen::Vector2d::Ones(), {1e5, 100.0, 1.0}, 9.81), State(2)};
   scene.start.y()[1] = 1.0 - 9.81 / 1e5;
   const auto motion = test::exactMotion(scene, 0.5, 4, 10.0);

@@ -80,7 +80,7 @@ double slope(Integrator& integrator, const std::string& name, int seconds, int s
   return std::log2(coarse / fine);
 }
 
-/// Steps a second from which on halving the step shows the order cleanly.
+/// Steps per second that are enough to show the order when the step is halved.
 int stepsPerSecond(const Method& method) {
   return method.order == 1 ? 8192 : 512;
 }

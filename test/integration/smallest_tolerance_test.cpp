@@ -17,7 +17,7 @@ TEST(SmallestTolerance, GrowsWithTheCoordinates) {
   EXPECT_NEAR(smallestTolerance(chain, state), 0.022, 0.002);
 }
 
-// A tolerance at this limit is kept.
+// A tolerance at this limit is met.
 TEST(SmallestTolerance, IsReached) {
   test::Scene scene = test::referenceScene("two_masses_45deg");
   const double tolerance = smallestTolerance(scene.chain, scene.start);
@@ -30,7 +30,7 @@ TEST(SmallestTolerance, IsReached) {
   }
 }
 
-// Impossible tolerances cost time, but not for ever.
+// Impossible tolerances cost time, but runs end.
 TEST(SmallestTolerance, BelowItEveryMethodEnds) {
   const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{}, 9.81);
   for (const Method& method : methodTable()) {

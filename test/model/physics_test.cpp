@@ -1,4 +1,4 @@
-// The forces and energies of a chain against each other and against the laws of mechanics.
+// The forces and energies of a chain agree with each other and with the laws of mechanics.
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
 

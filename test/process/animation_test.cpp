@@ -1,4 +1,4 @@
-// The moving picture: animate_pendulum.plt makes it of any folder of frames, at the true speed.
+// animate_pendulum.plt animates any folder of frames at the true speed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

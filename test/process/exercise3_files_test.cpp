@@ -1,4 +1,4 @@
-// Output files in odd places: nothing that is not an output is written, nothing is lost.
+// Output files at unusual paths: only outputs are written, and nothing is lost.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -172,7 +172,7 @@ TEST_F(Exercise3Files, FramesHaveThePermissionsOfNewFiles) {
   }
 }
 
-// Without descriptors 0 to 2, the files of the run would get them, and messages land in them.
+// If descriptors 0 to 2 are closed, files of the run must not get them and receive messages.
 TEST_F(Exercise3Files, ClosedStandardStreamsChangeNoFile) {
   ASSERT_EQ(run(command({"--output", "expected", "--energy", "expected.csv"})).status, 0);
   for (const char* closed : {"<&-", ">&-", "2>&-", "<&- >&- 2>&-"}) {
@@ -194,7 +194,7 @@ TEST_F(Exercise3Files, ClosedStandardStreamsChangeNoFile) {
   }
 }
 
-/// A run that only ends if it is ended, with small frames or one frame that never ends.
+/// A run that does not end by itself, with short frames or one endless frame.
 class Exercise3Endless : public Exercise3Files {
  protected:
   Command endless(const std::vector<std::string>& options = {}) const {
@@ -285,7 +285,7 @@ TEST_F(Exercise3Endless, SignalsIgnoredAtTheStartStayIgnored) {
   }
 }
 
-// A warning is written at once, and progress after a second: by then the terminal is gone.
+// The warning is written at once, progress after a second, when the terminal is gone.
 TEST_F(Exercise3Endless, AVanishedTerminalDoesNotEndIt) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   ASSERT_TRUE(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);

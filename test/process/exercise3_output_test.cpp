@@ -1,4 +1,4 @@
-// What Exercise3 leaves in a folder: whole frames of this run, and everything that is not its own.
+// Exercise3 leaves complete frames of this run in a folder, and all files of others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,8 +38,7 @@ int countFrames(const std::string& folder) {
   }));
 }
 
-/// A chain long enough for a run of some tenths of a second; and a run that only ends if it is
-/// ended, however late the test gets to it.
+/// A chain for a run of a few tenths of a second, and a run that does not end by itself.
 class LongRun : public testing::Test {
  protected:
   static constexpr int kFrames = 200;
@@ -56,7 +55,7 @@ class LongRun : public testing::Test {
     while (access(folder_.path(output + "/" + frame(index)).c_str(), F_OK) != 0) usleep(200);
   }
 
-  /// The frames that are there are the same as in a run that nobody stopped, as far as that goes.
+  /// The existing frames are those of a run that was not stopped.
   void expectWholeFrames(const std::string& output, const std::string& complete) const {
     const int count = std::min(countFrames(folder_.path(output)), kFrames);
     for (int i = 0; i < count; ++i) {
@@ -114,7 +113,7 @@ TEST_F(LongRun, InterruptedEndsWithAWholeFrameAndTheClosingLine) {
 TEST_F(LongRun, ASecondRunIntoTheSameFolderIsRefused) {
   Process first(command("shared"));
   waitForFrame("shared", 0);
-  first.sendSignal(SIGSTOP);  // it is still there when the second one comes
+  first.sendSignal(SIGSTOP);  // it still exists when the second one starts
   const Result second = run(command("shared", 1));
   EXPECT_EQ(second.status, 1);
   EXPECT_EQ(second.errors,
@@ -222,7 +221,7 @@ TEST(Exercise3Output, EarlierFramesThatCannotBeRemovedStay) {
   chmod(folder.path("locked").c_str(), 0755);
 }
 
-/// All that a terminal is told until nobody holds its other end, or until it holds `wanted`.
+/// Reads the output of a terminal until its other end closes, or until it contains `wanted`.
 std::string readTerminal(int terminal, const std::string& wanted) {
   std::string text;
   for (char letter = 0; read(terminal, &letter, 1) == 1;) {
@@ -285,8 +284,8 @@ TEST(Exercise3Output, FolderThatCannotBeUsed) {
   EXPECT_THAT(listFolder(folder.path()), ElementsAre("locked", "particle.txt"));
 }
 
-/// Makes the folder "full" a disk with room for some frames only or, where mounting is forbidden,
-/// lets no file grow beyond the size of the first frame.
+/// Makes the folder "full" a file system with space for a few frames or, if mounting is not
+/// allowed, limits the size of files to that of the first frame.
 void fillDisk() {
   if (unshare(CLONE_NEWNS) == 0 && mount("", "/", "", MS_REC | MS_PRIVATE, nullptr) == 0 &&
       mount("tmpfs", "full", "tmpfs", 0, "size=64k") == 0) {

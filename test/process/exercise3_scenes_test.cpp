@@ -1,4 +1,4 @@
-// Particle files as they come from other systems and programs, and chains of every length.
+// Particle files from other systems and programs, and chains of every length.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Every call of the system that a run makes for its files fails once: one line, exit status 1, and
-// no file lost or half written. See support/fault_injection.cpp.
+// Every system call of a run for its files fails once: one line, exit status 1, and no file lost or
+// incomplete. See support/fault_injection.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

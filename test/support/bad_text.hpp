@@ -8,10 +8,10 @@ namespace spring_pendulum::test {
 
 struct BadText {
   std::string text;
-  std::string message;  ///< that it is refused with, or how that starts
+  std::string message;  ///< beginning of the error message
 };
 
-/// GoogleTest names a failing row by this.
+/// GoogleTest prints this for a failing row.
 inline std::ostream& operator<<(std::ostream& stream, const BadText& bad) {
   return stream << bad.message;
 }

@@ -1,4 +1,4 @@
-// How exactly a stepper knows the motion inside a step.
+// Accuracy of the dense output of a stepper.
 #pragma once
 
 #include "integration/error_control/dense_output_stepper.hpp"
@@ -10,8 +10,8 @@
 
 namespace spring_pendulum::test {
 
-/// Position error of the dense output at 0.4 of the first step that ends behind 0.5 s, for the
-/// state at its beginning, and the length of that step.
+/// Local position error of the dense output at 0.4 of the first step that ends after 0.5 s, and the
+/// size of this step.
 struct InsideOfStep {
   double error;
   double step;
@@ -29,7 +29,7 @@ inline InsideOfStep insideOfStep(DenseOutputStepper& stepper, const Scene& scene
   return {positionError(inside, exact), step};
 }
 
-/// Order of the dense output: the error of one step grows with a power one higher.
+/// Order of the dense output: its local error is one power higher.
 /// \param make_stepper makes one from a tolerance in m
 template <typename MakeStepper>
 double denseOutputOrder(const Scene& scene, double coarse, double fine,

@@ -1,9 +1,9 @@
 // An oracle: the motion of any chain in extended precision, and how sensitive it is.
 //
 // Shares no code with the library. Two methods: Gragg-Bulirsch-Stoer extrapolation of order 20, and
-// where light particles make that too slow Radau IIA of order 9 with the tension of every spring as
-// an unknown, full Newton iterations and dense algebra. Work is bounded by counting, not by a
-// clock, so the same scenes are solved on every machine.
+// for light particles, for which this is too slow, Radau IIA of order 9 with the tension of every
+// spring as an unknown, full Newton iterations and dense algebra. Work is bounded by counting, not
+// by a clock, so the same scenes are solved on every machine.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
 // ed., Springer 1993, section II.9; E. Hairer, G. Wanner, Solving ODEs II, 1996, section IV.8.
@@ -24,7 +24,7 @@ struct ExactMotion {
   double growth = 0.0;
 };
 
-/// Which method suits the scene.
+/// Returns the method that suits the scene.
 OracleMethod oracleMethodFor(const Scene& scene);
 
 /// States at `interval`, ..., `outputs` x `interval` s, each position within about 1e-12 m times

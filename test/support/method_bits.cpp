@@ -1,5 +1,5 @@
-// Prints a hash of the motion and the heat that each method gives, one method a line. The same
-// lines on two machines mean the same bits (scripts/test_arm64.sh).
+// Prints a hash of the motion and the dissipated energy for each method, one method per line. Equal
+// lines on two machines mean equal bits (scripts/test_arm64.sh).
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
@@ -11,7 +11,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// FNV-1a over the bytes of a number, going on from `hash`.
+/// FNV-1a over the bytes of a number, continuing `hash`.
 std::uint64_t hashOf(double number, std::uint64_t hash) {
   unsigned char bytes[sizeof(number)];
   std::memcpy(bytes, &number, sizeof(number));

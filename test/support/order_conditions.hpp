@@ -1,4 +1,4 @@
-// The algebraic conditions for the order of a Runge-Kutta method: one a rooted tree t,
+// The algebraic order conditions of a Runge-Kutta method, one for each rooted tree t:
 //
 //     sum_i b_i Phi_i(t) = 1 / gamma(t) ,
 //

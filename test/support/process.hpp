@@ -1,5 +1,4 @@
-// Programs run from a test: with arguments, environment and folder of their own, and what they
-// said.
+// Runs programs from a test, with arguments, environment and folder, and captures their output.
 #pragma once
 
 #include <functional>
@@ -15,7 +14,7 @@ namespace spring_pendulum {
 struct Command {
   std::vector<std::string> arguments;  ///< the first one is the program, found by PATH
   std::string folder = ".";
-  std::map<std::string, std::string> environment = {};  ///< in addition to the test's own
+  std::map<std::string, std::string> environment = {};  ///< in addition to that of the test
   std::function<void()> prepare = {};  ///< called in the child before the program starts
 };
 
@@ -39,13 +38,13 @@ class Process {
 
  private:
   pid_t pid_ = -1;
-  int output_ = -1;  ///< memory files: a program can say as much as it likes
+  int output_ = -1;  ///< memory files, so that the output is not limited by a pipe
   int errors_ = -1;
 };
 
 Result run(const Command& command);
 
-/// For Command::prepare: root is bound by the permissions of files like everybody else.
+/// For Command::prepare: makes file permissions apply to root as well.
 void respectPermissions();
 
 }  // namespace spring_pendulum

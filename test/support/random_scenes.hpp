@@ -1,5 +1,5 @@
-// Random scenes by number: scene n is the same everywhere, and neighbours are of different
-// families.
+// Random scenes by number: scene n is the same on every machine, and consecutive scenes belong to
+// different families.
 #pragma once
 
 #include <string>

@@ -40,7 +40,7 @@ inline Scene referenceScene(const std::string& name, const SpringLaw& spring = {
   return {name, Chain(masses, spring, gravity), start};
 }
 
-/// Where the scene really is after `seconds` (a time the folder has a file for).
+/// The exact state of a scene after `seconds`, a time for which the folder has a file.
 inline State referenceSolution(const std::string& name, int seconds) {
   const auto rows =
       readTable(TEST_DATA_DIR "/reference/" + name + "_t" + std::to_string(seconds) + ".txt", 4);

@@ -1,4 +1,4 @@
-// What a test lets move.
+// A chain and its initial state.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>

@@ -1,4 +1,4 @@
-// Scenes on which stability is put to the test.
+// Scenes for tests of stability.
 #pragma once
 
 #include <cmath>

@@ -32,7 +32,7 @@ State afterFixedSteps(TaylorStepper& series, const Scene& scene, int seconds,
 
 struct OrderCase {
   int order;
-  int steps_per_second;  ///< where halving the step shows the order cleanly
+  int steps_per_second;  ///< enough to show the order when the step is halved
 };
 
 TEST(TaylorStepper, OrderIsTheSlopeOfTheErrorFromBothSides) {
@@ -156,8 +156,8 @@ TEST(TaylorStepper, LeavingOutTheFreelyFallingEndChangesNoBit) {
   }
 }
 
-// Thrown up through the point it hangs from, a particle feels the spring's force jump there. The
-// series knows nothing of that; the energy shows whether the step control does.
+// A particle moves up through the anchor, where the spring force is discontinuous. The series does
+// not represent the jump; the energy shows whether the step-size control handles it.
 TEST(TaylorStepper, StopsWhereASpringHasNoLength) {
   for (const double sideways : {0.0, 1e-9}) {
     const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{50.0, 0.0, 1.0}, 9.81);
