@@ -1,12 +1,12 @@
-// The promise about tolerances, put to the test: every error-controlled method, every scene whose
-// exact motion is known, a tolerance a decade from 1e-3 to 1e-10 m. The largest position error at
-// any time with a reference solution may be ten times the tolerance.
+// Tests the promise about tolerances: every error-controlled method, every scene with a reference
+// solution, tolerances 1e-3, 1e-4, ..., 1e-10 m. The position error may be at most ten tolerances
+// at all times of the reference.
 //
-// Then the same on random scenes, down to 1e-9 m, against the oracle of the tests; those on which
-// small changes of the start grow more than a hundred times are measured, but promised nothing.
+// Then the same on random scenes, down to 1e-9 m, with the oracle of the tests as reference. Scenes
+// on which perturbations of the start grow more than a hundredfold are measured without a promise.
 //
-// Every point runs in a process of its own; one that needs more processor time than --limit is
-// recorded as not run to its end. Ends with status 1 if a promise is broken.
+// Every point runs in a separate process; one that needs more processor time than --limit is
+// recorded as incomplete. Ends with status 1 if the promise is broken.
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
@@ -33,9 +33,9 @@ constexpr double kPromise = 10.0;  // tolerances
 constexpr unsigned kRandomScenes = 155;
 constexpr double kInterval = 0.5;  // s, between comparisons on random scenes
 constexpr int kComparisons = 10;
-constexpr double kOracleBudget = 8.0;     // s for a scene
-constexpr double kLargestGrowth = 100.0;  // of a small change of the start
-constexpr double kRandomLimit = 2.0;      // s of processor time for a run
+constexpr double kOracleBudget = 8.0;     // s per scene
+constexpr double kLargestGrowth = 100.0;  // growth of perturbations of the start
+constexpr double kRandomLimit = 2.0;      // s of processor time per run
 
 constexpr const char* kScenes[] = {"single_vertical", "two_masses_45deg", "horizontal_11",
                                    "horizontal_1000", "light_100",        "lighter_100",
@@ -47,7 +47,7 @@ struct Case {
   int exponent = 0;  ///< the tolerance is 10^-exponent m
 };
 
-/// In s, those that have a file.
+/// Times with a reference file, s.
 std::vector<int> referenceTimes(const std::string& scene) {
   std::vector<int> times;
   for (const int time : {1, 2, 5, 10, 20, 50}) {
@@ -57,8 +57,8 @@ std::vector<int> referenceTimes(const std::string& scene) {
   return times;
 }
 
-/// Runs in a process of its own: the worst error in tolerances and its time, force evaluations and
-/// s of processor time until the last time.
+/// Runs in a separate process. Returns the worst error in tolerances and its time, the number of
+/// force evaluations, and the processor time in s.
 std::string measure(const Case& one) {
   const test::Scene scene = test::referenceScene(one.scene);
   const double tolerance = std::pow(10.0, -one.exponent);
@@ -86,7 +86,7 @@ constexpr const char* kColumns =
     "scene,method,tolerance_m,promise,worst_error_in_tolerances,at_s,force_evaluations,seconds,"
     "note";
 
-/// \returns whether the promise is kept, as far as the case was run
+/// \returns whether the promise is kept in the part of the case that was run
 bool runCase(const Case& one, double limit, ResultFile& file) {
   const Isolated result = runIsolated([&one] { return measure(one); }, limit);
   const bool done = result.ending == Isolated::Ending::kDone;
@@ -101,7 +101,7 @@ bool runCase(const Case& one, double limit, ResultFile& file) {
   return kept;
 }
 
-/// As `measure`, against the oracle.
+/// Like `measure`, with the oracle as reference.
 std::string measureRandom(const test::Scene& scene, const test::ExactMotion& exact,
                           const Method& method, double tolerance) {
   const auto integrator = makeIntegrator(method, scene.chain, {tolerance});

@@ -1,11 +1,11 @@
-// Work against precision: the time and the force evaluations of every method of this package and
-// of every peer, against its true error, over step sizes and tolerances, on all scenes whose exact
-// motion is known.
+// Work-precision diagrams: run time and force evaluations of every method of this package and of
+// every peer against the true error, for a range of step sizes and tolerances, on all scenes with a
+// reference solution.
 //
-// The state at the end is all that is asked for; making a solver is not timed. Every point runs in
-// a process of its own, several times in several passes over all points of a scene, and its least
-// time counts: whatever else the machine does can only add to it, and passes make a disturbance
-// that lasts a while hit all methods alike.
+// Only the final state is computed, and the construction of a solver is not timed. Every point runs
+// in a separate process, several times, in several passes over all points of a scene. The least
+// time is used, as other load on the machine only adds to it; passes spread a longer disturbance
+// over all methods.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ double secondsOf(Peer& peer) {
   return stopwatch.alone();
 }
 
-/// Runs in a process of its own.
+/// Runs in a separate process.
 std::string measure(const ReferenceScene& scene, const PeerRow& row, const Run& run,
                     double budget) {
   const std::unique_ptr<Peer> peer = row.make(scene.problem, run);
@@ -78,9 +78,9 @@ Point measured(const ReferenceScene& scene, const PeerRow& row, const Run& run,
   return point;
 }
 
-constexpr double kBestError = 2e-12;  // m; below, rounding decides and there is nothing to show
+constexpr double kBestError = 2e-12;  // m; smaller errors are rounding errors
 
-/// Step sizes from about 80 ms, two an octave, each dividing the duration.
+/// Step sizes from about 80 ms, two per octave; each divides the duration.
 std::vector<Run> fixedRuns(double duration, bool smoke) {
   std::vector<Run> runs;
   for (int k = 0; k < 40; k += smoke ? 12 : 1) {
@@ -91,8 +91,8 @@ std::vector<Run> fixedRuns(double duration, bool smoke) {
   return runs;
 }
 
-/// Tolerances from 100 to 1e-12, two a decade: coarse ones as some methods are far better than
-/// asked.
+/// Tolerances from 100 to 1e-12, two per decade. Large ones are needed because the error of some
+/// methods is far below the tolerance.
 std::vector<Run> controlledRuns(double duration, bool smoke) {
   std::vector<Run> runs;
   for (int k = smoke ? 2 : -4; k <= 24; k += smoke ? 10 : 1) {
@@ -107,7 +107,7 @@ struct Line {
   std::vector<Point> points;
 };
 
-/// A first pass takes the points of one method in order and stops where the rest cannot help.
+/// A first pass runs the points of a method in order and stops where later ones cannot improve.
 void firstPass(const ReferenceScene& scene, Line& line, const Options& options) {
   int worthless = 0;
   for (std::size_t k = 0; k < line.runs.size(); ++k) {
@@ -141,8 +141,7 @@ void laterPass(const ReferenceScene& scene, Line& line, const Options& options) 
   }
 }
 
-/// What a method must reach somewhere on its line, or the numbers mean nothing: it solves the same
-/// problem as the reference.
+/// Largest acceptable best error of a method: it must solve the same problem as the reference.
 constexpr double kAgreement = 2e-2;  // m
 
 bool agrees(const ReferenceScene& scene, const Line& line) {

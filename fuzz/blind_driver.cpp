@@ -19,7 +19,7 @@ std::size_t below(std::size_t bound, Random& random) {
   return static_cast<std::size_t>(random() % bound);
 }
 
-/// One change: a byte replaced or inserted, a piece removed, repeated or taken from another input.
+/// One mutation: replaces or inserts a byte, or removes, repeats or copies a piece.
 std::string mutate(std::string text, const std::vector<std::string>& corpus, Random& random) {
   const std::size_t at = below(text.size() + 1, random);
   const std::size_t length = below(16, random);
@@ -61,7 +61,7 @@ std::vector<std::string> readCorpus(const std::vector<std::string>& folders) {
 }
 
 void runOn(const std::string& text) {
-  std::ofstream("crash-input", std::ios::binary) << text;  // left behind by a crash
+  std::ofstream("crash-input", std::ios::binary) << text;  // remains after a crash
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 

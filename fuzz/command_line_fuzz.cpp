@@ -13,7 +13,7 @@ namespace {
 
 using namespace spring_pendulum;
 
-/// Text as the arguments of a program: they end at a newline, and hold no zero byte.
+/// Splits text into arguments at newlines; removes zero bytes.
 std::vector<std::string> argumentsFrom(const std::string& text) {
   std::vector<std::string> arguments{"Exercise3"};
   std::string argument;

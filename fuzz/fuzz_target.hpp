@@ -1,4 +1,4 @@
-// What all fuzz targets share.
+// Common declarations of all fuzz targets.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// Called by the driver for each input; the name is libFuzzer's.
+/// Called by the driver for each input, with the name that libFuzzer expects.
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-/// Ends the program if a reader broke a promise, so that the driver keeps the input.
+/// Aborts if a condition does not hold, so that the driver keeps the input.
 inline void require(bool promise, const char* what) {
   if (promise) return;
   std::fprintf(stderr, "broken promise: %s\n", what);

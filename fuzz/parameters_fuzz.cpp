@@ -1,5 +1,5 @@
-// Any keys and texts, lines `key text`, through the validator that the command line, YAML and the
-// ROS parameters share: values within their ranges, or an error that tells where.
+// Arbitrary lines `key text`, through the validation of command line, YAML and ROS parameters, give
+// values within their ranges or an error with its place.
 #include "simulation/scenario_options.hpp"
 #include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
@@ -41,7 +41,8 @@ bool isAtLeastZero(double value) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     std::string text(data, data + size);
-    text.erase(std::remove(text.begin(), text.end(), '\0'), text.end());  // would end a message
+    text.erase(std::remove(text.begin(), text.end(), '\0'),
+               text.end());  // would truncate a message
     Scenario scenario;
     OptionSet options(scenarioOptions(scenario));
     setOptions(text, options);

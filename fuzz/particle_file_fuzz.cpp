@@ -1,4 +1,4 @@
-// Any bytes are either a sound chain or an error of one line that tells where.
+// Arbitrary bytes give a valid chain or an error of one line with its place.
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/errors.hpp>

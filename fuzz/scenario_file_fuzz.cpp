@@ -1,4 +1,4 @@
-// Any bytes are either parameters within their ranges or an error that tells where.
+// Arbitrary bytes give parameters within their ranges or an error with its place.
 #include "simulation/scenario_options.hpp"
 #include <spring_pendulum/io/scenario_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace spring_pendulum;
 
-/// Every option accepts its own text, and the texts give the same scenario again.
+/// Every option accepts its own text, and the texts give the same scenario.
 void checkRoundTrip(Scenario& scenario) {
   Scenario again;
   const std::vector<Option> options = scenarioOptions(scenario), copies = scenarioOptions(again);

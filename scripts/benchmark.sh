@@ -3,8 +3,8 @@
 # Usage: scripts/benchmark.sh [PART] [options], PART one of throughput, end-to-end, skips, accuracy,
 #        tolerance, stability, all, smoke
 #   all (default)  everything, into benchmark/results
-#   smoke          a few points of everything, in seconds, into the build folder: shows that all works
-#   options        of the one benchmark, for example: accuracy --scene light_100 --passes 3
+#   smoke          a few points of everything, in seconds, into the build folder, to check that it runs
+#   options        of a benchmark, for example: accuracy --scene light_100 --passes 3
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -15,7 +15,7 @@ results=$project/benchmark/results
 reports=$project/benchmark/reports
 [ "$what" = smoke ] && results=$folder/smoke
 
-# run PROGRAM [options]: ends here if a peer does not agree with the others
+# run PROGRAM [options]: exits if a peer does not agree with the others
 run() {
   local name=$1; shift
   say "$name"
@@ -59,7 +59,7 @@ stability() {
 case $what in
   throughput | skips | accuracy | tolerance | stability) wanted=$what ;;
   end-to-end) wanted=end_to_end ;;
-  # Last the one that ends in an error where a tolerance is not kept.
+  # The last one, as it exits with an error if a tolerance is not met.
   all | smoke) wanted="throughput end_to_end skips accuracy stability tolerance" ;;
   *) die "benchmark.sh: unknown benchmark '$what': known are throughput, end-to-end, skips," \
          "accuracy, tolerance, stability, all, smoke" ;;

@@ -1,4 +1,4 @@
-# Sourced by every script: where the project is, a sane PATH, and the build.
+# Sourced by every script: project folder, PATH, and build functions.
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${SPRING_PENDULUM_BUILD:-$project/build}
@@ -6,8 +6,8 @@ build=${SPRING_PENDULUM_BUILD:-$project/build}
 # devel_of FOLDER: the devel space of a build folder. rosrun does not look below PACKAGE/build.
 devel_of() { [ "$1" = "$project/build" ] && echo "$project/devel" || echo "$1/devel"; }
 
-# ROS's Python modules belong to the system's python3: another one before it on the PATH (pyenv,
-# conda) knows neither catkin_pkg nor rospy.
+# The Python modules of ROS belong to the python3 of the system. Another python3 on the PATH (pyenv,
+# conda) has neither catkin_pkg nor rospy.
 export PATH=/usr/bin:$PATH
 
 say() { printf '%s\n' "-- $*"; }
@@ -19,20 +19,20 @@ configure() {
   local folder devel
   folder=$(cd "$1" && pwd); shift
   devel=$(devel_of "$folder")
-  [ "$devel" = "$folder/devel" ] || rm -rf "$folder/devel"  # of an older layout
+  [ "$devel" = "$folder/devel" ] || rm -rf "$folder/devel"  # from an older layout
   cmake -S "$project" -B "$folder" -G Ninja -DCATKIN_DEVEL_PREFIX="$devel" \
     -DSPRING_PENDULUM_TESTS=ON "$@" \
     > "$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; return 1; }
 }
 
-# compile FOLDER [targets]; shows progress, the compiler's output only if it fails
+# compile FOLDER [targets]; shows progress, and the output of the compiler if it fails
 compile() {
   local folder=$1; shift
   NINJA_STATUS='[%p] ' ninja -C "$folder" "$@" 2>&1 | tee "$folder/compile.log" | show_progress ||
     { grep -v '^\[' "$folder/compile.log" >&2; return 1; }
 }
 
-# Shows the percentages of ninja's output: on a terminal all of them in one line, else every tenth.
+# Shows the progress of ninja in percent: on a terminal in one line, otherwise every tenth.
 show_progress() {
   local line percent shown=0
   while IFS= read -r line; do
@@ -50,7 +50,7 @@ show_progress() {
 
 have_ros() { [ -x /usr/bin/catkin_make ] && [ -x /usr/bin/roslaunch ]; }
 
-# program NAME: where the build put it (catkin has its own folder for executables).
+# program NAME: path of the built program (catkin has its own folder for executables).
 program() {
   local folder
   for folder in "$(devel_of "$build")/lib/spring_pendulum" "$build"; do

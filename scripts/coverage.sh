@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Prints which lines and branches of the core (model, integration, simulation, io) the tests reach.
-# Usage: scripts/coverage.sh [LEAST]   (percent of lines and branches that must be reached, 95)
-# Branches that only an exception takes, and code that cannot be reached, do not count; which lines
-# that refuse something were taken is printed on its own.
+# Measures the coverage of lines and branches of the core (model, integration, simulation, io).
+# Usage: scripts/coverage.sh [LEAST]   (required percentage, default 95)
+# Exception branches and unreachable code do not count. The lines that report errors are listed
+# separately.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints which of the lines that refuse something (throw, refuse(), refuseForErrno()) a test took.
+"""Prints which lines that report an error (throw, refuse(), refuseForErrno()) are covered by tests.
 Usage: error_branches.py PROJECT COVERAGE_JSON   (of gcovr --json)"""
 import json
 import os

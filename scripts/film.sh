@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Plays a bag in a real rviz on a virtual display and films it, at the true speed. Every pendulum in
-# the bag is shown, whatever its namespace.
+# Plays a bag in rviz on a virtual display and films it at the true speed. Shows all pendulums in the
+# bag, in any namespace.
 # Usage: film.sh BAG OUT.gif|OUT.mp4|OUT.png [options]
 #   --config FILE     rviz configuration [rviz/pendulum.rviz]
-#   --start S         s of the bag to leave out at the start [0]
+#   --start S         s of the bag to skip at the start [0]
 #   --duration S      s to film [10]; a PNG shows the instant --start
 #   --fps N           pictures per second [20]
 #   --size WxH        of the picture [800x600]
@@ -11,7 +11,7 @@
 #   --window          the whole window of rviz instead of the scene alone
 set -euo pipefail
 here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd)
-export PATH=/usr/bin:$PATH  # ROS's Python modules belong to the system's python3
+export PATH=/usr/bin:$PATH  # the Python modules of ROS belong to the python3 of the system
 say() { printf '%s\n' "-- $*"; }
 die() { printf '%s\n' "film.sh: $*" >&2; exit 1; }
 
@@ -36,7 +36,7 @@ for option in start duration fps slow; do
   [[ ${!option} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--$option is '${!option}': must be a number"
 done
 
-# In the repository missing packages are installed; an installed script only says which they are.
+# In the repository, missing packages are installed; an installed script only lists them.
 [ ! -x "$here/setup.sh" ] || "$here/setup.sh" ros rviz film
 for program in Xvfb import ffmpeg roslaunch rosbag rosmaster rviz; do
   command -v $program > /dev/null ||
@@ -53,7 +53,7 @@ for name, info in rosbag.Bag(sys.argv[1]).get_type_and_topic_info()[1].items():
 
 work=$(mktemp -d)
 started=()
-# Ends what was started, last first, each by its own number; rviz's launcher ends its nodes itself.
+# Ends the started processes in reverse order; the launcher of rviz ends its nodes.
 clean_up() {
   local i
   for ((i = ${#started[@]} - 1; i >= 0; i--)); do
@@ -65,9 +65,9 @@ clean_up() {
 trap clean_up EXIT
 # A background job of a script ignores SIGINT; setsid and env start it with the default.
 start() { env --default-signal=INT "$@" > "$work/$(basename "$1").log" 2>&1 & started+=($!); }
-# give_up LOG REASON: shows what the program said, and why this script ends
+# give_up LOG REASON: prints the output of the program and the reason, and exits
 give_up() { tail -n 20 "$work/$1.log" >&2 2> /dev/null || true; die "$2"; }
-# until_true SECONDS LOG REASON COMMAND: tries until it succeeds
+# until_true SECONDS LOG REASON COMMAND: repeats the command until it succeeds
 until_true() {
   local end=$((SECONDS + $1)) log=$2 reason=$3; shift 3
   until "$@" > /dev/null 2>&1; do
@@ -76,13 +76,13 @@ until_true() {
   done
 }
 
-# Python finds a port that is free, and rviz the messages and files of the package.
+# Finds a free port, and sets the paths for rviz to find messages and files of the package.
 port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
 export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1 ROS_HOME=$work ROS_LOG_DIR=$work
 export LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb ROS_PACKAGE_PATH=$project:${ROS_PACKAGE_PATH:-/usr/share}
 unset ROS_HOSTNAME
 
-# rviz takes its size from the configuration.
+# The configuration determines the size of rviz.
 sed -e "s/^  Width: .*/  Width: ${size%x*}/" -e "s/^  Height: .*/  Height: ${size#*x}/" "${config:-$project/rviz/pendulum.rviz}" \
   > "$work/film.rviz"
 start Xvfb -displayfd 3 -screen 0 "${size}x24" -nolisten tcp -noreset 3> "$work/display"
@@ -92,7 +92,7 @@ start rosmaster --core -p "$port"
 until_true 20 rosmaster "the ROS master did not start" rosparam set /use_sim_time true
 rviz_listens() { for topic in $topics; do rostopic info "$topic" | grep -q '\* /rviz '; done; }
 rviz_listens_or_ended() { rviz_listens || ! kill -0 "${started[-1]}"; }
-# Mesa's software renderer can crash as rviz starts: one more try then.
+# The software renderer of Mesa can crash at the start of rviz: try once more.
 for try in first second; do
   start roslaunch "$project/launch/view.launch" config:="$work/film.rviz" bag:="$bag" \
     rviz_args:="$rviz_args"
@@ -117,13 +117,13 @@ if [[ $out = *.png ]]; then
   exit
 fi
 
-# Filmed losslessly from before the start; what came before the first message is cut off after.
+# Records losslessly from before the start; the part before the first message is cut off later.
 start ffmpeg -nostdin -y -f x11grab -framerate "$(calculate "$fps / $slow")" -video_size "$size" \
   -draw_mouse 0 -i "$DISPLAY" -c:v libx264rgb -crf 0 -preset ultrafast "$work/raw.mkv"
 camera=${started[-1]}
 until_true 20 ffmpeg "ffmpeg did not start to film" grep -q 'start: [0-9]' "$work/ffmpeg.log"
 camera_start=$(sed -n 's/.*start: \([0-9.]*\),.*/\1/p' "$work/ffmpeg.log" | head -n 1)
-# When this one's output was last written, the first message had come.
+# The time of the last write to this log is the time of the first message.
 PYTHONUNBUFFERED=1 start rostopic echo -n 1 /clock
 clock=${started[-1]}
 sleep 1.5

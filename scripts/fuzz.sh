@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Feeds the readers of particle and parameter files, the command line and the validator of the
-# parameters with broken input, under the sanitizers.
-# Usage: scripts/fuzz.sh [RUNS]   (of each target, 20000 unless told)
+# Runs the fuzz targets with sanitizers: particle files, parameter files, the command line and the
+# validation of parameters.
+# Usage: scripts/fuzz.sh [RUNS]   (per target, default 20000)
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -14,7 +14,7 @@ CXX=clang++ configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_B
   -DSPRING_PENDULUM_SANITIZE=fuzzer-no-link,address,undefined
 compile "$folder" {particle_file,scenario_file,command_line,parameters}_fuzz
 
-# What a target finds interesting goes into its first folder, so that is a temporary one.
+# libFuzzer adds new inputs to the first folder, so this is a temporary one.
 found=$(mktemp -d)
 trap 'rm -rf "$found"' EXIT
 for target in particle_file scenario_file command_line parameters; do

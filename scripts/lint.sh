@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Format, structure of the sources, clang-tidy, catkin_lint. Any finding fails.
 # Usage: scripts/lint.sh [--all | BASE]
-# clang-tidy reads the sources that changed since BASE (a commit; default: where this branch left
-# origin/main, on main itself the last commit), with --all every source.
+# clang-tidy checks the sources that changed since BASE (a commit; default: where this branch left
+# origin/main, on main itself the last commit); with --all it checks every source.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -10,7 +10,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 cd "$project"
 git() { command git -c safe.directory="$project" "$@"; }
 
-# base_commit: what to compare with; nothing if the history does not reach that far.
+# base_commit: the commit to compare with; nothing if the history is too short.
 base_commit() {
   local base
   base=$(git merge-base HEAD origin/main 2> /dev/null || true)
@@ -38,20 +38,20 @@ configure "$folder" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSPRING_PENDULUM_BENC
   -DSPRING_PENDULUM_FUZZ=ON
 if have_ros; then compile "$folder" spring_pendulum_generate_messages_cpp; fi
 
-# One process per source, as many at once as there are processors. The configuration files in test/,
-# benchmark/, fuzz/ and examples/ leave out the slow path-sensitive analysis.
+# One process per source, as many in parallel as there are processors. The configuration files in
+# test/, benchmark/, fuzz/ and examples/ disable the slow path-sensitive analysis.
 compiled=()
 for source in "${sources[@]}"; do
-  # The others need a package that this machine lacks.
+  # Other sources need a package that is not installed.
   grep -qF "\"file\": \"$project/$source\"" "$folder/compile_commands.json" && compiled+=("$source")
 done
 [ ${#compiled[@]} -eq 0 ] || printf '%s\0' "${compiled[@]}" | xargs -0 -n 1 -P "$(nproc)" \
   clang-tidy --quiet -p "$folder" > "$folder/tidy.log" 2>&1 ||
   { grep -E 'warning:|error:' "$folder/tidy.log" | sort -u >&2; die "clang-tidy found something"; }
 
-# What is ignored: the build without ROS makes catkin optional and installs to other folders; the
-# scripts, the benchmarks and the fuzz targets belong to the checkout; Eigen's and GSL's variables,
-# generated files, and ROS's headers as system headers are unknown to the linter.
+# Ignored checks: the build without ROS makes catkin optional and installs to other folders; scripts,
+# benchmarks and fuzz targets are not installed; the linter does not know the variables of Eigen and
+# GSL, generated files, and ROS headers as system headers.
 say "catkin_lint"
 catkin_lint -W1 --strict --quiet --resolve-env --offline \
   --ignore missing_required,wrong_install_destination,uninstalled_script \

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Checks the structure of the sources, and names the sources that clang-tidy has to read.
+"""Checks the structure of the sources, and lists the sources for clang-tidy.
 
     lint_sources.py check             include order, circles, public headers, length of files
     lint_sources.py tidy [BASE]       one path per line: sources to check after a change since commit
@@ -19,7 +19,7 @@ LAYERS = {'model': 0, 'integration': 1, 'simulation': 2, 'io': 3, 'ros': 4}
 ROOMS = {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3, 'implicit': 3,
          'automatic': 4}
 BELOW_ALL_ROOMS = ('integrator.hpp', 'butcher_tableau.hpp', 'smallest_tolerance.hpp')
-TABLE = 5  # the method table and what else lies in integration/ itself
+TABLE = 5  # the method table and other files directly in integration/
 
 
 def git(*arguments):
@@ -50,7 +50,7 @@ def place(path):
 
 
 def resolve(name, includer, known):
-    """The project's file that an include directive means; None for foreign headers."""
+    """The file of the project that an include directive refers to; None for other headers."""
     for folder in (includer.parent, *map(Path, ('include', 'src', 'test', 'benchmark', 'examples'))):
         if folder / name in known:
             return folder / name
@@ -85,7 +85,7 @@ def order_errors(graph):
 
 
 def circle(graph):
-    """A list of files that include each other in a circle; empty if there is none."""
+    """A list of files that include each other in a circle; empty: none."""
     done, trail = set(), []
 
     def visit(path):
@@ -127,7 +127,7 @@ def check():
 
 
 def reader_of(header, readers):
-    """A source that includes the header, directly or not; the header's own if there is one."""
+    """A source that includes the header, directly or indirectly; its own source if there is one."""
     seen, found, queue = set(), [], [header]
     while queue:
         for reader in readers.get(queue.pop(), []):

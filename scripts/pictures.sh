@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of the README: docs/pendulum.gif, docs/compare.gif and docs/run_time_error.png.
+# Makes the pictures of the documents: docs/pendulum.gif, docs/compare.gif and docs/run_time_error.png.
 # docs/rviz.gif and docs/rviz_window.png need a virtual display: scripts/pictures.sh rviz
 # The plots of results are drawn from benchmark/results, so run scripts/benchmark.sh for new ones.
 set -euo pipefail
@@ -20,7 +20,7 @@ pendulum() {
   mv "$work/pendulum/pendulum.gif" "$docs/pendulum.gif"
 }
 
-# Two of the three methods leave the energy's bounds: Exercise3 ends with an error there.
+# The energy of two of the three methods is out of bounds, so Exercise3 exits with an error.
 compare() {
   for method in Euler Runge-Kutta-2 Runge-Kutta-4; do
     "$(program Exercise3)" "$method" --particles "$project/data/particle.txt" --damping 0 \
@@ -36,7 +36,7 @@ plots() {
     horizontal_11 "$docs/run_time_error"
 }
 
-# A chain that shows waves: stiffer springs, heavier and lighter particles.
+# A chain with visible waves: stiffer springs, heavier and lighter particles.
 rviz() {
   "$project/scripts/setup.sh" ros rviz film
   compile "$build" record_bag

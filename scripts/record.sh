@@ -14,7 +14,7 @@ mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be made"
 [ -w "$(dirname "$bag")" ] || fail "no permission to write in the folder"
 rm -f "$bag" 2> /dev/null || fail "there is one that cannot be replaced"
 
-# In a group of its own, so that the recorder gets one SIGINT, from here.
+# In a separate process group, so that the recorder gets only the SIGINT of this script.
 setsid env --default-signal=INT rosrun rosbag record -O "$bag" "${topics[@]}" & recorder=$!
 trap 'kill -INT "$recorder" 2> /dev/null' INT TERM
 status=0

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs a pendulum: frame files, a moving picture and, with ROS,
-# a bag. With a display, opens rviz on the running node.
+# Installs missing packages, builds, and runs a pendulum: frame files, an animation and, with ROS, a
+# bag. With a display, opens rviz on the running node.
 # Usage: scripts/run.sh [METHOD] [options of Exercise3]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # Installs the Debian or Ubuntu packages that are missing. Usage: scripts/setup.sh COMPONENT ...
 #   core       compiler, CMake and the libraries of the simulator, Exercise3 and the GIF
-#   ros        ROS 1: what the node, the messages and the bags need
+#   ros        ROS 1: packages for the node, the messages and the bags
 #   rviz       the viewer
-#   test       what the tests need besides
-#   test-ros   what the tests of the node need: rostest, a virtual display
-#   film       what scripts/film.sh needs to film rviz
+#   test       additional packages for the tests
+#   test-ros   packages for the tests of the node: rostest, a virtual display
+#   film       packages for scripts/film.sh
 #   lint       clang-format, clang-tidy, catkin_lint
 #   sanitize   clang's sanitizers and fuzzer, coverage
-#   releases   what scripts/test_releases.sh needs
-#   arm64      a compiler for 64-bit ARM, and qemu to run what it makes
-#   benchmark  the solvers to compare with, all optional
+#   releases   packages for scripts/test_releases.sh
+#   arm64      a cross compiler for 64-bit ARM, and qemu
+#   benchmark  solvers to compare with, all optional
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -60,7 +60,7 @@ missing_packages() {
   done
 }
 
-# Not every release carries ROS 1: what of it is not there is left out, whole components at a time.
+# Not every release has ROS 1: components with missing packages are skipped.
 offered_components() {
   local component
   for component in "$@"; do
@@ -78,7 +78,7 @@ command -v apt-get > /dev/null ||
   die "needs Debian or Ubuntu; install by hand:" $(missing_packages "$@")
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-# A download that fails for a moment is tried again.
+# Downloads are retried.
 retry=(-o Acquire::Retries=3)
 as_root apt-get "${retry[@]}" update > "$log" 2>&1 || say "could not update the package lists"
 missing=$(missing_packages $(offered_components "$@"))

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test. Arguments go to ctest (-R NAME, -V, ...).
+# Installs missing packages, builds, and runs every test. Arguments go to ctest (-R NAME, -V, ...).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

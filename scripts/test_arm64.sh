@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Compiles the model and all methods for 64-bit ARM, runs them under qemu, and demands the bits of
-# this machine's build for every method. Needs scripts/setup.sh arm64.
+# Compiles the model and all methods for 64-bit ARM, runs them under qemu, and compares the bits of
+# every method with the native build. Needs scripts/setup.sh arm64.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$project/scripts/setup.sh" core arm64
 folder=$project/build-arm64
 mkdir -p "$folder/include" "$folder/objects"
-# Headers alone, apart from those of this machine's C library.
+# Only headers, without those of the native C library.
 for header in fmt eigen3/Eigen; do
   ln -sfn "/usr/include/$header" "$folder/include/${header##*/}"
 done
@@ -25,7 +25,7 @@ say "compiling for 64-bit ARM"
 rm -f "$folder"/objects/*.o
 (cd "$project" && ls src/model/*.cpp src/integration/*.cpp src/integration/*/*.cpp \
   test/support/method_bits.cpp) |
-  grep -v -e kernels/avx -e model/numbers |  # x86 alone; reads text, needs another library
+  grep -v -e kernels/avx -e model/numbers |  # only for x86; parses text, needs another library
   xargs -P "$(nproc)" -I{} bash -c 'compile_one {}'
 aarch64-linux-gnu-g++ -static "$folder"/objects/*.o -pthread -o "$folder/method_bits"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs scripts/run.sh and scripts/test.sh on other Debian releases, each in a folder of its own that
-# debootstrap fills. Needs root, 5 GB and half an hour per release. The folders are kept for the next
-# time; remove them by hand.
+# Runs scripts/run.sh and scripts/test.sh on other Debian releases, each in a chroot made by
+# debootstrap. Needs root, 5 GB and half an hour per release. The folders are kept for the next run;
+# remove them by hand.
 # Usage: scripts/test_releases.sh [RELEASE ...]     (default: bullseye bookworm trixie)
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -12,7 +12,7 @@ releases=${SPRING_PENDULUM_RELEASES:-/var/tmp/spring_pendulum_releases}
 [ $# -gt 0 ] || set -- bullseye bookworm trixie
 "$project/scripts/setup.sh" releases
 
-# File systems of their own: nothing of the host's /dev is visible inside.
+# Separate file systems: the /dev of the host is not visible inside.
 mount_in() {
   mount -t proc proc "$1/proc"
   mkdir -p "$1/dev/pts" "$1/dev/shm"

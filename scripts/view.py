@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Becomes rviz with a configuration that fits what is to be shown.
+"""Runs rviz with a configuration that fits the node or bag to be shown.
 
 Usage: view.py CONFIG BAG [arguments of rviz]
 
@@ -18,7 +18,7 @@ import yaml
 
 CAMERA = 'pendulum_camera'
 ASPECT = 1.3
-HALF_VIEW = math.pi / 8  # of rviz's camera
+HALF_VIEW = math.pi / 8  # half the field of view of rviz
 
 
 def marker_topics(bag):
@@ -40,7 +40,7 @@ def set_displays(config, topics):
 
 
 def set_view(config, bag, topics):
-    """Looks at the middle of all points, from where all are seen."""
+    """The view of the centre of all points from a distance at which all are visible."""
     points, frame = [], 'world'
     for _, message, _ in bag.read_messages(topics=topics):
         for marker in message.markers:
@@ -59,7 +59,7 @@ def set_view(config, bag, topics):
 
 
 def adapted(path, bag_path):
-    """The path of a copy of the configuration that shows the bag."""
+    """The path of a copy of the configuration with the topics of the bag."""
     with open(path) as file:
         config = yaml.safe_load(file)
     with rosbag.Bag(bag_path) as bag:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""record_bag with calls of the system that fail, and with other runs in its way."""
+"""record_bag with failing system calls, and with other runs that use its files."""
 import os
 import signal
 import subprocess

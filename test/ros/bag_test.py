@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""record_bag: the node's messages in a bag, the same bytes every run, read back by everything that
-reads bags."""
+"""record_bag: a bag with the messages of the node, the same bytes in every run, readable by all ROS
+tools."""
 import math
 import os
 import subprocess

@@ -74,7 +74,7 @@ class Ends(unittest.TestCase):
                 message = late.wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
                 self.assertIn('diverged at t = ', message.text)
                 late.close()
-                # All of this is said when it happens, not when the node ends.
+                # All of this is logged when it happens, not at the end of the node.
                 for part in ('diverged at t = ', 'particle 11', 'step'):
                     self.assertIn(part, node.lines('ERROR')[0])
                 self.assertIn('verdict: diverged', node.lines('INFO')[-2])

@@ -1,4 +1,4 @@
-"""Programs with calls of the system that fail: see ../support/fault_injection.cpp."""
+"""Programs with failing system calls; see ../support/fault_injection.cpp."""
 import os
 
 from pendulum_process import project
@@ -6,7 +6,7 @@ from pendulum_process import project
 SCENE = project('data/particle.txt')
 INJECTION = os.environ['FAULT_INJECTION']
 NO_MASTER = {'ROS_MASTER_URI': 'http://127.0.0.1:1'}
-CLEANS_UP = {'unlinkat', 'fstatat', 'fstat'}  # what removes the unfinished file
+CLEANS_UP = {'unlinkat', 'fstatat', 'fstat'}  # calls that remove the unfinished file
 
 
 def files_in(folder):

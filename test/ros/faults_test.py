@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What must not harm the node: a master that dies, subscribers that stop, come and go, long runs,
-many service calls."""
+"""The node survives a master that dies, subscribers that stop, come and go, long runs, and many
+service calls."""
 import os
 import random
 import signal

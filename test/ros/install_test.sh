@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds and installs the package in a catkin workspace of its own, and runs what was installed.
-# The workspace lies outside the package: roslaunch looks for its files in everything below it.
+# Builds and installs the package in a separate catkin workspace, and runs the installed programs.
+# The workspace is outside the package, as roslaunch searches all folders of a package.
 set -euo pipefail
 
 workspace=$(mktemp -d)
@@ -13,7 +13,7 @@ command -v ccache > /dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 catkin_make -C "$workspace" -j2 -DSPRING_PENDULUM_TESTS=OFF "${launcher[@]}" install \
   > "$workspace/build.log" 2>&1 || { tail -n 50 "$workspace/build.log"; exit 1; }
 
-# Nothing of the environment that built it.
+# Without the environment of the build.
 cd "$workspace/run"
 cat > user.sh << 'USER'
 set -eo pipefail

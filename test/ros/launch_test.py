@@ -45,7 +45,7 @@ class Launch(unittest.TestCase):
             self.assertEqual(node.wait(), 2)
             known = set(re.search(r'known[^,]* (\w+(?:, \w+)*)', node.output()).group(1).split(', '))
         self.assertGreater(len(known), 30)
-        known -= {'wanted_error'}  # for --check, which a node does not do
+        known -= {'wanted_error'}  # for --check, which the node does not have
         of_the_launch_file = {
             'pendulum': set(),
             'record': {'at_end', 'wait_for_subscribers'},

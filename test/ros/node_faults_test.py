@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""pendulum_node with calls of the system that fail, a clock that steps back, no master, a terminal
-that is gone."""
+"""pendulum_node with failing system calls, a clock that steps back, no master, and a closed
+terminal."""
 import os
 import pty
 import signal

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Parameters right and wrong."""
+"""Valid and invalid parameters."""
 import time
 import unittest
 

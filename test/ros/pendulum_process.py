@@ -1,4 +1,4 @@
-"""Runs the programs of the package as processes, and looks at what they send and write."""
+"""Runs the programs of the package as processes, and reads their messages and files."""
 import os
 import re
 import shutil
@@ -24,7 +24,7 @@ def project(path):
 
 
 def wait_until(condition, what, patience=PATIENCE):
-    """Asks until the answer is true, and returns it."""
+    """Polls until the result is true, and returns it."""
     end = time.monotonic() + patience
     while True:
         answer = condition()
@@ -92,7 +92,7 @@ class PendulumNode:
         return [line for line in self.output().splitlines() if line.startswith('[%5s]' % severity)]
 
     def messages_built(self):
-        """How many marker and state messages there were in all, once the node has ended."""
+        """The total numbers of marker and state messages, after the end of the node."""
         return map(int, re.search(r'(\d+) marker and (\d+) state messages built', self.output()).groups())
 
     def resident_bytes(self):
@@ -128,13 +128,13 @@ class Listener:
 
 
 def standing(states):
-    """The state that came twice, as a paused node shows it; None while the last two differ."""
+    """The last state if it was sent twice, as a paused node does; else None."""
     last = states[-2:]
     return last[1] if len(last) == 2 and last[0].time == last[1].time else None
 
 
 def run_exercise(folder, method='Runge-Kutta-4', *options, status=0):
-    """The frames that Exercise3 writes, by file name."""
+    """The frames of Exercise3 by file name."""
     done = subprocess.run([program('Exercise3'), method, '--output', folder, *options], cwd=folder,
                           capture_output=True, text=True)
     assert done.returncode == status, done.stderr

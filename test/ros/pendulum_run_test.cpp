@@ -20,7 +20,7 @@ Scenario scenarioOf(std::string_view method) {
   return scenario;
 }
 
-/// The states at the frames, however the run got there.
+/// The states at the frames.
 std::vector<State::Matrix> frames(PendulumRun& run, bool in_between) {
   std::vector<State::Matrix> states{run.state().values()};
   while (!run.isOver()) {

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A real rviz on a virtual display shows the running node, a replayed bag and the comparison. The
-pictures are looked at by their colours, and kept: PENDULUM_PICTURES says where."""
+"""rviz on a virtual display shows the running node, a replayed bag and the comparison. The tests check
+colours in the pictures, and keep the pictures in the folder PENDULUM_PICTURES."""
 import math
 import os
 import re

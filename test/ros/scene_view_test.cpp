@@ -1,4 +1,4 @@
-// The picture of a scene: what it shows, and that it holds for scenes of any size.
+// The visible part of a scene, for scenes of any size.
 #include "ros/scene_view.hpp"
 
 #include <gtest/gtest.h>

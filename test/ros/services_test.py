@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""~pause, ~step and ~reset: each answers with a sentence, and none changes a frame."""
+"""~pause, ~step and ~reset each answer with a sentence and do not change any frame."""
 import unittest
 
 import rospy

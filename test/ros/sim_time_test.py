@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""With use_sim_time and nobody publishing /clock the node must neither hang nor stamp with 0; a
-clock that jumps never turns the stamps back."""
+"""With use_sim_time and no publisher of /clock, the node neither hangs nor sends stamps of 0. Stamps
+increase even if the clock jumps back."""
 import time
 import unittest
 

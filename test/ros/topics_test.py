@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the node sends: topics, stamps and contents."""
+"""The messages of the node: topics, stamps and contents."""
 import csv
 import math
 import os

@@ -1,13 +1,13 @@
-// Preloaded into a program, makes one of its calls of the system fail, or ends it there; or moves
-// its clock. Only calls that concern files below one folder count. Told by the environment:
+// Preloaded into a program: makes one of its system calls fail, ends the program at this call, or
+// moves its clock. Counts only calls for files below one folder. Environment variables:
 //
-//   FAULT_FOLDER  whole path of the folder
-//   FAULT_CALL    which call, counted from 1
-//   FAULT_KIND    fail: that call fails; broken: it and all after it; kill: the program ends before
-//                 it; short: a read or write does half of its work; again: a read or write is
-//                 interrupted by a signal. For the last two only reads and writes are counted.
-//   FAULT_REPORT  file, outside the folder, that gets the name of the call; else it stays absent
-//   CLOCK_BACK    s by which the system's clock steps back one second after the start
+//   FAULT_FOLDER  absolute path of the folder
+//   FAULT_CALL    number of the call, counted from 1
+//   FAULT_KIND    fail: this call fails; broken: this and all later calls fail; kill: the program
+//                 ends before the call; short: a read or write transfers half of its bytes; again:
+//                 a signal interrupts a read or write. The last two count only reads and writes.
+//   FAULT_REPORT  file outside the folder to which the name of the call is written
+//   CLOCK_BACK    s by which the system clock steps back, one second after the start
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -33,7 +33,7 @@ std::string_view setting(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-/// 0 if it is not set.
+/// 0 if not set.
 long numberIn(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? 0 : std::strtol(value, nullptr, 10);
@@ -69,7 +69,7 @@ void report(const char* call) {
 
 enum class Fault { kNone, kFail, kShort };
 
-/// What happens to a call.
+/// The effect on a call.
 Fault faultOf(const char* call, const std::string& path, bool moves_data = false) {
   static std::atomic<int> calls{0};
   const std::string_view folder = setting("FAULT_FOLDER");
@@ -90,7 +90,7 @@ bool fails(const char* call, const std::string& path) {
   return faultOf(call, path) == Fault::kFail;
 }
 
-/// Size of a read or write that is done, -1 if it fails.
+/// Number of bytes of a read or write; -1 if it fails.
 ssize_t allowed(const char* call, int file, std::size_t size) {
   switch (faultOf(call, pathOf(file), true)) {
     case Fault::kFail:
@@ -121,7 +121,7 @@ timespec clockNow(clockid_t clock) {
 // NOLINTBEGIN(readability-identifier-naming,bugprone-macro-parentheses)
 #define NEXT(function) next(&::function, #function)
 
-// A file name with 64 is what programs compiled for large files call.
+// Programs compiled with large file support call functions with 64 in their name.
 #define OPEN(function)                                       \
   int function(const char* path, int flags, ...) {           \
     va_list arguments;                                       \
@@ -201,7 +201,7 @@ int fseeko(FILE* file, off_t offset, int from) {
   return NEXT(fseeko)(file, offset, from);
 }
 
-// What is closed is closed, as on Linux, but not all of it may have reached the disk.
+// A failing close still closes the descriptor, as on Linux, but data may be lost.
 int fclose(FILE* file) {
   const bool failed = fails("fclose", pathOf(fileno(file)));
   const int cause = errno;

@@ -39,7 +39,7 @@ inline Scene horizontalChain(const std::string& name, Eigen::Index particles, do
           straightLine(particles, 1.0, 0.0)};
 }
 
-/// Masses spread evenly on a logarithmic scale from `least` kg over `decades`.
+/// Masses evenly spaced on a logarithmic scale from `least` kg over `decades`.
 inline Scene randomMasses(unsigned seed, Eigen::Index particles, double least, double decades) {
   std::mt19937 generator(seed);
   Eigen::VectorXd masses(particles);
@@ -64,7 +64,7 @@ inline Scene heavyBob(const std::string& name, const SpringLaw& spring, double d
   return {name, Chain(masses, spring, 9.81), straightLine(10, dx, dy)};
 }
 
-/// Hanging at rest, then moved aside by up to 0.05 m.
+/// Hanging at rest, then displaced by up to 0.05 m.
 inline Scene pluckedChain() {
   Scene scene = horizontalChain("plucked", 11, 1.0);
   scene.start = hangingAtRest(scene.chain);

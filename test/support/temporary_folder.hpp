@@ -1,4 +1,4 @@
-// Files and folders for a test to play with.
+// Temporary files and folders for tests.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace spring_pendulum {
 
-/// A new empty folder, removed with all it holds at the end of its scope.
+/// A new empty folder, removed with its contents at the end of its scope.
 class TemporaryFolder {
  public:
   TemporaryFolder()
@@ -28,7 +28,7 @@ class TemporaryFolder {
 
   const std::string& path() const { return path_; }
   std::string path(const std::string& name) const { return path_ + "/" + name; }
-  /// \return the path of the file
+  /// \returns the path of the file
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
@@ -38,7 +38,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// Names of all entries of a folder, hidden ones too, sorted.
+/// Sorted names of all entries of a folder, also hidden ones.
 inline std::vector<std::string> listFolder(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

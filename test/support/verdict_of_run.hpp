@@ -1,4 +1,4 @@
-// A run without output, for its verdict alone.
+// The verdict on a run without output.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -12,9 +12,9 @@
 
 namespace spring_pendulum::test {
 
-/// The verdict on `duration` s with a fixed step, judged every 0.1 s, or every step if that is
-/// longer. Ends where the verdict reaches `enough`.
-/// \param with_energy whether drift is looked for, too
+/// Judges a run of `duration` s with a fixed step every 0.1 s, or every step if the step is longer.
+/// Ends when the verdict is `enough` or worse.
+/// \param with_energy whether drift is judged as well
 inline Verdict verdictOfRun(const Scene& scene, const Method& method, double time_step,
                             double duration, bool with_energy,
                             VerdictKind enough = VerdictKind::kDiverged) {
