@@ -69,10 +69,10 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
   printOutput(fmt::format(
       "{}{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, {:.3f} s reference run, "
       "{}, verdict: {}\n",
-      scenario.method->name, report.empty() ? "" : " (" + report + ")",
+      scenario.method.get().name, report.empty() ? "" : " (" + report + ")",
       counted(chain.size(), "particle"), counted(summary.frames, "frame"),
       slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
-      scenario.method->hasFixedStep() ? counted(steps, "step") + ", " : "",
+      scenario.method.get().hasFixedStep() ? counted(steps, "step") + ", " : "",
       counted(integrator.forceEvaluations(), "force evaluation"),
       std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0),
       files.secondsWriting(), files.destination(), monitor.seconds(), monitor.measurements(),

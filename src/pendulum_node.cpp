@@ -77,7 +77,7 @@ int runNode() {
   RunLog log;
   log.start(run, options, files);
   if (!configuration.unused.empty()) {
-    ROS_INFO_STREAM(scenario.method->name
+    ROS_INFO_STREAM(scenario.method.get().name
                     << " does not use "
                     << fmt::format("{}", fmt::join(configuration.unused, ", ")));
   }

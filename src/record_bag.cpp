@@ -28,7 +28,7 @@ void report(const Scenario& scenario, bool track_energy, const Switches& switche
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   checkTolerance(scenario, chain, particles.state);
   const auto integrator =
-      makeIntegrator(*scenario.method, chain, integratorOptions(scenario, track_energy));
+      makeIntegrator(scenario.method, chain, integratorOptions(scenario, track_energy));
   if (switches.report_skips) {
     for (const std::string& skipped : skippedWork(scenario, *integrator, track_energy)) {
       printOutput(fmt::format("skipped: {}\n", skipped));
@@ -63,7 +63,7 @@ int record(int argc, const char* const* argv) {
   const BagSummary summary = recordBag(scenario, display, bag);
   printOutput(fmt::format(
       "{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}\n",
-      scenario.method->name, summary.frames, summary.messages, summary.bytes, summary.path,
+      scenario.method.get().name, summary.frames, summary.messages, summary.bytes, summary.path,
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
       summary.measurements, summary.verdict.text));
   if (summary.verdict.kind == VerdictKind::kDiverged) return kDiverged;

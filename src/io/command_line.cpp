@@ -148,8 +148,8 @@ void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& op
   const std::vector<std::string_view> unused = unusedKeys(scenario, options);
   for (const std::string_view key : keys) {
     if (std::find(unused.begin(), unused.end(), key) == unused.end()) continue;
-    throw InputError(fmt::format("--{}: {} {}", optionName(key), scenario.method->name,
-                                 scenario.method->hasFixedStep()
+    throw InputError(fmt::format("--{}: {} {}", optionName(key), scenario.method.get().name,
+                                 scenario.method.get().hasFixedStep()
                                      ? "takes fixed steps; use --time-step and --steps-per-frame"
                                      : "chooses its own steps; use --tolerance and "
                                        "--frame-interval"));

@@ -305,7 +305,7 @@ int MarkerBuilder::textLines() const {
 
 void MarkerBuilder::label(const PendulumRun& run, double time, const std::string& pace) {
   const Scenario& scenario = run.scenario();
-  const bool fixed_step = scenario.method->hasFixedStep();
+  const bool fixed_step = scenario.method.get().hasFixedStep();
   const EnergyEntry entry = run.energyEntry();
   const std::string clock = fmt::format("t = {:.2f} s", time);
   const std::string error =
@@ -319,10 +319,10 @@ void MarkerBuilder::label(const PendulumRun& run, double time, const std::string
   }
   std::string& text = markers_.markers[kText].text;
   if (options_.text_rows > 1) {
-    text = joined({scenario.method->name + ": " + clock, position, error, verdict});
+    text = joined({scenario.method.get().name + ": " + clock, position, error, verdict});
     return;
   }
-  text = joined({scenario.method->name,
+  text = joined({scenario.method.get().name,
                  fixed_step ? fmt::format("time step {:.3g} s", scenario.time_step)
                             : fmt::format("tolerance {:.3g} m", scenario.tolerance),
                  clock}) +

@@ -40,7 +40,7 @@ PendulumRun::PendulumRun(const Scenario& scenario, const Particles& particles, b
           makeInterruptible(scenario, chain_, start_, monitor_.tracksDissipation(),
                             [] { return interruption() != 0; }),
           chain_, scenario.sleep)) {
-  const bool fixed_step = scenario.method->hasFixedStep();
+  const bool fixed_step = scenario.method.get().hasFixedStep();
   // `sleep` is checked once per call of `advance`: more calls could change the frames.
   if (scenario.sleep == 0.0) parts_ = partsPerFrame(frame_steps_, fixed_step, display_interval);
   if (!fixed_step) {

@@ -17,7 +17,7 @@ constexpr int kMostChoices = 5;  ///< number of logged choices of Auto
 
 /// Logs that the display rate exceeds the number of states that a fixed step gives.
 void logDisplayRate(const PendulumRun& run, const NodeOptions& options) {
-  if (!run.scenario().method->hasFixedStep() || options.real_time_factor <= 0.0) return;
+  if (!run.scenario().method.get().hasFixedStep() || options.real_time_factor <= 0.0) return;
   const double states = options.real_time_factor / run.scenario().time_step;
   if (options.display_rate <= states * (1.0 + 1e-9)) return;
   ROS_INFO_STREAM(fmt::format(
@@ -40,9 +40,9 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
   return fmt::format(
       "{}{}: {} particles, {} frames, {}{} force evaluations, {:.3f} s integrating, {:.3f} s "
       "writing {} frames, {} marker and {} state messages built, {}, verdict: {}",
-      run.scenario().method->name, report.empty() ? "" : " (" + report + ")", run.chain().size(),
-      totals.frames,
-      run.scenario().method->hasFixedStep() ? fmt::format("{} steps, ", totals.steps) : "",
+      run.scenario().method.get().name, report.empty() ? "" : " (" + report + ")",
+      run.chain().size(), totals.frames,
+      run.scenario().method.get().hasFixedStep() ? fmt::format("{} steps, ", totals.steps) : "",
       run.integrator().forceEvaluations(), totals.seconds, files.secondsWriting(),
       files.framesWritten(), publisher.markersBuilt(), publisher.statesBuilt(), run.measurements(),
       run.verdict().text);
@@ -51,7 +51,7 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
 void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {
   holds_ = options.at_end == AtEnd::kHold;
   const Scenario& scenario = run.scenario();
-  ROS_INFO_STREAM(scenario.method->name
+  ROS_INFO_STREAM(scenario.method.get().name
                   << " on "
                   << std::filesystem::absolute(scenario.particles).lexically_normal().string()
                   << ", " << files.description());
@@ -101,7 +101,7 @@ void RunLog::sayChoice(const PendulumRun& run) {
   if (choice.empty() || choice == said_choice_) return;
   said_choice_ = choice;
   ++choices_said_;
-  ROS_INFO_STREAM(run.scenario().method->name << " chose " << report);
+  ROS_INFO_STREAM(run.scenario().method.get().name << " chose " << report);
 }
 
 }  // namespace spring_pendulum

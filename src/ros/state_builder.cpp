@@ -21,7 +21,7 @@ const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs:
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const EnergyEntry entry = run.energyEntry();
   message_.header = header;
-  message_.method = run.scenario().method->name;
+  message_.method = run.scenario().method.get().name;
   message_.frame = run.frame();
   message_.at_frame = run.atFrame() ? 1 : 0;
   message_.time = run.time();

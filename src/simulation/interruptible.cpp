@@ -60,8 +60,8 @@ std::unique_ptr<Integrator> makeInterruptible(const Scenario& scenario, const Ch
                                               std::function<bool()> is_interrupted) {
   checkTolerance(scenario, chain, start);
   return std::make_unique<InterruptibleIntegrator>(
-      makeIntegrator(*scenario.method, chain, integratorOptions(scenario, track_dissipation)),
-      !scenario.method->hasFixedStep(), chain.size(), std::move(is_interrupted));
+      makeIntegrator(scenario.method, chain, integratorOptions(scenario, track_dissipation)),
+      !scenario.method.get().hasFixedStep(), chain.size(), std::move(is_interrupted));
 }
 
 }  // namespace spring_pendulum

@@ -20,8 +20,9 @@ constexpr double kBytesOfReference = 2.0 * 2200.0;
 constexpr double kMuch = 5e8;
 
 std::string needOf(const Scenario& scenario, Eigen::Index particles) {
-  return fmt::format("{} takes up to {:.2f} GB of memory for {} particles", scenario.method->name,
-                     1e-9 * expectedMemory(scenario, particles), particles);
+  return fmt::format("{} takes up to {:.2f} GB of memory for {} particles",
+                     scenario.method.get().name, 1e-9 * expectedMemory(scenario, particles),
+                     particles);
 }
 
 }  // namespace
@@ -29,7 +30,7 @@ std::string needOf(const Scenario& scenario, Eigen::Index particles) {
 double expectedMemory(const Scenario& scenario, Eigen::Index particles) {
   const double reference = scenario.reference == ReferenceUse::kAlways ? kBytesOfReference : 0.0;
   return static_cast<double>(particles) *
-         (kBytesPerParticle + scenario.method->bytes_per_particle + reference);
+         (kBytesPerParticle + scenario.method.get().bytes_per_particle + reference);
 }
 
 double usableMemory() {

@@ -84,7 +84,7 @@ bool Text::assign(std::string_view text) const {
 
 bool MethodName::assign(std::string_view text) const {
   if (text.empty()) return false;
-  *value = &findMethod(text);
+  *value = findMethod(text);
   return true;
 }
 

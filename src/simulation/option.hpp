@@ -91,11 +91,11 @@ struct Text {
 
 /// A row of the method table, given by its name.
 struct MethodName {
-  const Method** value;
+  std::reference_wrapper<const Method>* value;
 
   /// \throws InputError that lists the known names if there is no such method
   bool assign(std::string_view text) const;
-  std::string text() const { return (*value)->name; }
+  std::string text() const { return value->get().name; }
   std::string range() const { return "the name of a method"; }
   std::string placeholder() const { return "METHOD"; }
 };

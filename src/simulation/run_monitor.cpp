@@ -27,13 +27,13 @@ constexpr double kPromise = 10.0;
 constexpr double kSensitiveGrowth = 100.0;
 
 double toleranceOf(const Scenario& scenario) {
-  return scenario.method->hasFixedStep() ? std::numeric_limits<double>::infinity()
-                                         : scenario.tolerance;
+  return scenario.method.get().hasFixedStep() ? std::numeric_limits<double>::infinity()
+                                              : scenario.tolerance;
 }
 
 JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation) {
-  return {tracks_dissipation, scenario.method->symplectic ? scenario.time_step : 0.0,
-          scenario.method->hasFixedStep() ? 0.0 : scenario.tolerance};
+  return {tracks_dissipation, scenario.method.get().symplectic ? scenario.time_step : 0.0,
+          scenario.method.get().hasFixedStep() ? 0.0 : scenario.tolerance};
 }
 
 /// Expected number of steps of an error-controlled method: about twenty per second, and more if
@@ -49,9 +49,9 @@ double expectedSteps(const Scenario& scenario, const Chain& chain) {
 
 bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain) {
   const auto particles = static_cast<double>(chain.size());
-  if (!scenario.method->hasFixedStep())
+  if (!scenario.method.get().hasFixedStep())
     return expectedSteps(scenario, chain) * particles <= kCheapSteps;
-  const Method& method = *scenario.method;
+  const Method& method = scenario.method;
   if (method.tableau != nullptr && chain.size() >= kLongChain) return true;
   const double steps =
       static_cast<double>(scenario.frames - 1) * static_cast<double>(scenario.steps_per_frame);

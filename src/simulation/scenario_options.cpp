@@ -51,7 +51,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
 
 void checkScenario(const Scenario& scenario) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  const std::int64_t steps = scenario.method->hasFixedStep() ? scenario.steps_per_frame : 1;
+  const std::int64_t steps = scenario.method.get().hasFixedStep() ? scenario.steps_per_frame : 1;
   if (scenario.frames <= kMost / steps) return;  // frame times are computed from step counts
   throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
                                kMost, scenario.frames, steps));
@@ -59,7 +59,7 @@ void checkScenario(const Scenario& scenario) {
 
 std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options) {
   const AppliesTo other =
-      scenario.method->hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
+      scenario.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
   std::vector<std::string_view> keys;
   for (const Option& option : options.options()) {
     if (option.applies_to == other && options.isGiven(option.key)) keys.push_back(option.key);

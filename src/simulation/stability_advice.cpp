@@ -195,7 +195,7 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
 
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
   requireSize(chain.size(), start);
-  const Method& method = *scenario.method;
+  const Method& method = scenario.method;
   const bool fixed = method.hasFixedStep();
   const TrialBench bench = benchFor(chain, start, scenario);
   const double duration = bench.duration();
@@ -220,7 +220,7 @@ std::string describeStability(const Chain& chain, const State& start, const Scen
 }
 
 std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario) {
-  const Method& method = *scenario.method;
+  const Method& method = scenario.method;
   const TrialBench bench = benchFor(chain, start, scenario, kRemedyWork);
   std::string text;
   if (method.hasFixedStep()) {

@@ -41,7 +41,7 @@ bool isClearlyUnstable(const Method& method, const Chain& chain, const Scenario&
 }  // namespace
 
 std::string stabilityWarning(const Chain& chain, const Scenario& scenario) {
-  const Method& method = *scenario.method;
+  const Method& method = scenario.method;
   if (!method.hasFixedStep() || scenario.frames < 2) return {};
   if (!isClearlyUnstable(method, chain, scenario)) return {};
   const FrameSteps step = frameSteps(scenario);
@@ -55,7 +55,7 @@ std::string stabilityWarning(const Chain& chain, const Scenario& scenario) {
 
 std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario) {
   const std::string warning = stabilityWarning(chain, scenario);
-  const Method& method = *scenario.method;
+  const Method& method = scenario.method;
   if (!warning.empty() || !method.hasFixedStep()) return warning;
   const FrameSteps step = frameSteps(scenario);
   const TrialBench bench(chain, start, step.timeOfFrame(scenario.frames), step.timeOfFrame(1),

@@ -8,7 +8,7 @@
 namespace spring_pendulum {
 
 void checkTolerance(const Scenario& scenario, const Chain& chain, const State& start) {
-  if (scenario.method->hasFixedStep()) return;
+  if (scenario.method.get().hasFixedStep()) return;
   const double least = smallestTolerance(chain, start);
   if (scenario.tolerance >= least) return;
   throw InputError(

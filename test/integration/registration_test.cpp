@@ -48,7 +48,7 @@ TEST(OwnMethods, AreMethodsOfTheCommandLine) {
   for (const Method* method : ownMethods()) {
     Scenario scenario;
     parse({method->name.c_str(), "--time-step", "0.002"}, scenario);
-    EXPECT_EQ(scenario.method, method);
+    EXPECT_EQ(&scenario.method.get(), method);
     EXPECT_EQ(scenario.time_step, 0.002);
     EXPECT_THROW(parse({method->name.c_str(), "--tolerance", "1e-6"}, scenario), InputError);
     const std::string listed = parse({"--list-methods"}, scenario).answer;

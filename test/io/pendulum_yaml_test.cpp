@@ -82,7 +82,7 @@ TEST(PendulumYaml, WorksWithEveryMethod) {
     const std::string line = fmt::format("\nmethod: {}\n", method.name);
     const std::string with_method = std::regex_replace(text, std::regex("\nmethod: .*\n"), line);
     Scenario scenario = parseScenario(with_method, kFile), expected;
-    expected.method = &method;
+    expected.method = method;
     const std::vector<Option> options = scenarioOptions(scenario);
     const std::vector<Option> defaults = scenarioOptions(expected);
     for (std::size_t i = 0; i < options.size(); ++i) {

@@ -28,7 +28,7 @@ TEST(ScenarioFile, SetsWhatIsGivenAndNothingElse) {
       "damping: 0\n"
       "no_frames: true\n"
       "output: \"a folder\"\n");
-  EXPECT_EQ(scenario.method->name, "Runge-Kutta-2");
+  EXPECT_EQ(scenario.method.get().name, "Runge-Kutta-2");
   EXPECT_EQ(scenario.frames, 7);
   EXPECT_EQ(scenario.time_step, 1e-3);
   EXPECT_EQ(scenario.damping, 0.0);

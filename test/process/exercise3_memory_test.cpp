@@ -46,7 +46,7 @@ class Exercise3Memory : public testing::Test {
 TEST_F(Exercise3Memory, IsThatOfTheTableOfMethods) {
   Scenario scenario;
   for (const Method& method : methodTable()) {
-    scenario.method = method.name;
+    scenario.method = method;
     const double measured = peakMemory(folder_, method.name, "long.txt", 1e-3) -
                             peakMemory(folder_, method.name, "short.txt", 1e-3);
     const double expected = expectedMemory(scenario, kLong) - expectedMemory(scenario, kShort);
@@ -57,7 +57,7 @@ TEST_F(Exercise3Memory, IsThatOfTheTableOfMethods) {
 
 TEST_F(Exercise3Memory, OfAutoIsThatOfTwoMethodsAlsoWhereItTriesAll) {
   Scenario scenario;
-  scenario.method = "Auto";
+  scenario.method = findMethod("Auto");
   EXPECT_LT(peakMemory(folder_, "Auto", "light.txt", 0.005), 1.1 * expectedMemory(scenario, kLong));
 }
 

@@ -15,7 +15,7 @@ Particles scene() {
 
 Scenario scenarioOf(std::string_view method) {
   Scenario scenario;
-  scenario.method = &findMethod(method);
+  scenario.method = findMethod(method);
   scenario.frames = 8;
   return scenario;
 }

@@ -11,7 +11,7 @@ using testing::UnorderedElementsAre;
 
 std::vector<std::string> skippedIn(const Scenario& scenario, const Eigen::VectorXd& masses) {
   const Chain chain(masses, scenario.spring(), scenario.gravity);
-  return skippedWork(scenario, *makeIntegrator(*scenario.method, chain), !scenario.energy.empty());
+  return skippedWork(scenario, *makeIntegrator(scenario.method, chain), !scenario.energy.empty());
 }
 
 TEST(SkippedWork, NamesWhatTheSceneDoesNotNeed) {

@@ -17,7 +17,7 @@ State hangingOut(Eigen::Index size) {
 
 Scenario scenarioOf(std::string_view method) {
   Scenario scenario;
-  scenario.method = &findMethod(method);
+  scenario.method = findMethod(method);
   scenario.frame_interval = 20.0;  // the first piece is at most 1 s long
   return scenario;
 }

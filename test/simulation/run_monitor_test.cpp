@@ -26,7 +26,7 @@ class MonitoredRun {
   MonitoredRun(const Scenario& scenario, const test::Scene& scene)
       : step_(frameSteps(scenario)),
         monitor_(scenario, scene.chain, scene.start, false),
-        integrator_(makeIntegrator(*scenario.method, scene.chain,
+        integrator_(makeIntegrator(scenario.method, scene.chain,
                                    integratorOptions(scenario, monitor_.tracksDissipation()))),
         state_(scene.start) {
     monitor_.judge(0.0, state_, *integrator_);
@@ -56,7 +56,7 @@ class MonitoredRun {
 
 Scenario scenarioOf(std::string_view method) {
   Scenario scenario;
-  scenario.method = &findMethod(method);
+  scenario.method = findMethod(method);
   return scenario;
 }
 

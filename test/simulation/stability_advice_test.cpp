@@ -141,7 +141,7 @@ TEST(StabilityAdvice, CheckReportsTheVeryRun) {
 TEST(StabilityAdvice, CheckFindsAMethodForTheWantedError) {
   const Scene scene = test::horizontalChain("", 6, 1.0);
   Scenario scenario;
-  scenario.method = &findMethod("Taylor-8");
+  scenario.method = findMethod("Taylor-8");
   scenario.frames = 51;
   scenario.wanted_error = 1e-6;
   EXPECT_THAT(
@@ -183,7 +183,7 @@ TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
   ASSERT_THAT(text, StartsWith(before));
   EXPECT_TRUE(isStable(light, findMethod("Runge-Kutta-4"), std::stod(text.substr(before.size()))));
   Scenario controlled;
-  controlled.method = &findMethod("Auto");
+  controlled.method = findMethod("Auto");
   EXPECT_EQ(remedyForDivergence(light.chain, light.start, controlled),
             "try a tolerance below 1e-06 m");
 }

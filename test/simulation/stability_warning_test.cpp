@@ -20,7 +20,7 @@ using testing::StartsWith;
 
 Scenario scenarioOf(const Scene& scene, const std::string& method, double step, double duration) {
   Scenario scenario;
-  scenario.method = &findMethod(method);
+  scenario.method = findMethod(method);
   scenario.time_step = step;
   scenario.stiffness = scene.chain.spring().stiffness;
   scenario.damping = scene.chain.spring().damping;

@@ -13,7 +13,7 @@ std::string messageFor(double tolerance, double place, const char* method = "Aut
   State state(2);
   state.x() << place, place + 1.0;
   Scenario scenario;
-  scenario.method = &findMethod(method);
+  scenario.method = findMethod(method);
   scenario.tolerance = tolerance;
   try {
     checkTolerance(scenario, Chain(Eigen::VectorXd::Ones(2), SpringLaw{}, 9.81), state);

@@ -20,7 +20,7 @@ struct FrameSteps {
 /// The steps of a fixed-step method; for an error-controlled method, which chooses its steps, the
 /// interval between frames as one step.
 inline FrameSteps frameSteps(const Scenario& scenario) {
-  if (scenario.method->hasFixedStep()) return {scenario.time_step, scenario.steps_per_frame};
+  if (scenario.method.get().hasFixedStep()) return {scenario.time_step, scenario.steps_per_frame};
   return {scenario.frame_interval, 1};
 }
 

@@ -6,6 +6,7 @@
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace SPRING_PENDULUM_API spring_pendulum {
@@ -17,11 +18,12 @@ enum class OnDivergence { kStop, kContinue };
 enum class ReferenceUse { kAuto, kAlways, kNever };
 
 struct Scenario {
-  const Method* method = &findMethod("Runge-Kutta-4");  ///< a row of the method table
-  std::string particles = "particle.txt";               ///< the particle file
-  std::string output = ".";                             ///< folder for frame files
-  bool no_frames = false;                               ///< write no frame files
-  std::string energy;  ///< file for the energy balance; empty: none
+  /// A row of the method table.
+  std::reference_wrapper<const Method> method = findMethod("Runge-Kutta-4");
+  std::string particles = "particle.txt";  ///< the particle file
+  std::string output = ".";                ///< folder for frame files
+  bool no_frames = false;                  ///< write no frame files
+  std::string energy;                      ///< file for the energy balance; empty: none
   OnDivergence on_divergence = OnDivergence::kStop;
   ReferenceUse reference = ReferenceUse::kAuto;
 
