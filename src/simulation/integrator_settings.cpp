@@ -14,7 +14,7 @@ IntegratorOptions integratorOptions(const Scenario& scenario, bool track_dissipa
 }
 
 double workPerEvaluation(const Method& method, Eigen::Index particles) {
-  if (method.control == StepControl::kErrorControlled) return 1.0;
+  if (!method.hasFixedStep()) return 1.0;
   return 0.35 + 0.007 * static_cast<double>(particles);
 }
 

@@ -1,8 +1,8 @@
 #include "simulation/run_monitor.hpp"
 
 #include "model/chain_modes.hpp"
+#include "simulation/integrator_settings.hpp"
 #include "simulation/memory.hpp"
-#include "simulation/work.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ RunMonitor::RunMonitor(const Scenario& scenario, const Chain& chain, const State
                           (wants_energy || energyBalanceIsCheap(scenario, chain))),
       tolerance_(toleranceOf(scenario)),
       judge_(chain, start, judgeOptions(scenario, tracks_dissipation_)),
-      work_per_evaluation_(workPerEvaluation(findMethod(scenario.method), chain.size())) {
+      work_per_evaluation_(workPerEvaluation(scenario.method, chain.size())) {
   checkMemory(scenario, chain.size());
   if (scenario.reference == ReferenceUse::kNever) return;
   const bool always = scenario.reference == ReferenceUse::kAlways;

@@ -1,7 +1,7 @@
 #include "simulation/trial.hpp"
 
 #include "integration/error_control/dense_output_integrator.hpp"
-#include "simulation/work.hpp"
+#include "simulation/integrator_settings.hpp"
 #include <spring_pendulum/simulation/reference_run.hpp>
 
 #include <algorithm>

@@ -153,7 +153,7 @@ TEST(StabilityAdvice, TheMethodFoundKeepsTheWantedError) {
   for (const unsigned seed : {1U, 14U, 37U, 59U}) {
     const Scene scene = test::randomScene(seed);
     Scenario scenario;
-    scenario.method = "Auto";
+    scenario.method = findMethod("Auto");
     scenario.frames = 51;
     scenario.wanted_error = 1e-2;
     const std::string text = describeStability(scene.chain, scene.start, scenario);
