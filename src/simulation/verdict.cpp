@@ -128,7 +128,8 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
   entry_ = balance_.entry(time, state, dissipated);
   Verdict verdict = judgeEnergy(state);
   measure(time, state, verdict.kind == VerdictKind::kDiverged ? nullptr : reference);
-  if (verdict.kind == VerdictKind::kDrift && hasEnergyOf(reference)) verdict.kind = VerdictKind::kOk;
+  if (verdict.kind == VerdictKind::kDrift && hasEnergyOf(reference))
+    verdict.kind = VerdictKind::kOk;
   if (verdict.kind == VerdictKind::kOk) verdict = judgePositions(time, reference);
   return remember(std::move(verdict));
 }

@@ -14,7 +14,7 @@ constexpr double kLargestCut = 0.2;
 constexpr double kSmallestRoot = 0.05;  ///< smaller roots do not increase the step size further
 
 constexpr std::int64_t kOneBits = 0x3ff0000000000000;  ///< of 1.0
-constexpr double kSmallest = 1e-300;  ///< 1/x must not overflow
+constexpr double kSmallest = 1e-300;                   ///< 1/x must not overflow
 /// By so much the logarithm that the bits are exceeds the true one in the middle of its range.
 constexpr std::int64_t kMeanExcess = 0x0000b00000000000;
 
