@@ -13,7 +13,7 @@ namespace {
 
 Scenario scenarioOf(const char* method) {
   Scenario scenario;
-  scenario.method = method;
+  scenario.method = findMethod(method);
   return scenario;
 }
 
