@@ -41,12 +41,12 @@ void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {
   ++force_evaluations_;
 }
 
-void SymplecticMethod::kick(StateBuffer& state, double weight, const StateBuffer& slope) {
+void SymplecticMethod::kick(StateBuffer& state, double weight, const StateBuffer& slope) const {
   const Eigen::Index velocities = 2 * state.pitch();
   kernels_.addWeighted(velocities, weight, slope.data() + velocities, state.data() + velocities);
 }
 
-void SymplecticMethod::drift(StateBuffer& state, double weight) {
+void SymplecticMethod::drift(StateBuffer& state, double weight) const {
   const Eigen::Index positions = 2 * state.pitch();
   kernels_.addWeighted(positions, weight, state.data() + positions, state.data());
 }

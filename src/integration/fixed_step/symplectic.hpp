@@ -52,9 +52,9 @@ class SymplecticMethod : public Integrator {
   /// Accelerations of a state into the columns vx and vy of `slope`.
   void evaluate(const StateBuffer& state, StateBuffer& slope);
   /// state velocities += weight * slope accelerations
-  void kick(StateBuffer& state, double weight, const StateBuffer& slope);
+  void kick(StateBuffer& state, double weight, const StateBuffer& slope) const;
   /// positions += weight * velocities
-  void drift(StateBuffer& state, double weight);
+  void drift(StateBuffer& state, double weight) const;
 
  private:
   /// Adds the energy that the current dissipated power amounts to in `time` s.

@@ -283,7 +283,7 @@ PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected)
 
 double RadauStepper::filteredError(bool corrected) {
   const double q = real_.q;
-  const auto positionPart = [&](std::size_t i) {
+  const auto position_part = [&](std::size_t i) {
     const double* velocity = begin().data() + 2 * begin().pitch() + i;
     const Increments& stage = stages_.particles[i];
     return PlaneVector<double>{q * velocity[0] + radau::dot(radau::kError, stage.x),
@@ -293,7 +293,7 @@ double RadauStepper::filteredError(bool corrected) {
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     PlaneVector<double> right{}, next{};
     if (i < springs_.size()) {
-      next = positionPart(i + 1);
+      next = position_part(i + 1);
       const PlaneVector<double> force = startForce(i, corrected);
       const PlaneVector<double> change =
           springs_[i].stiffnessTimes({next.x - here.x, next.y - here.y});
@@ -311,7 +311,7 @@ double RadauStepper::filteredError(bool corrected) {
   ++counters().force_evaluations;
   double largest = 0.0, finite = 0.0;
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
-    const PlaneVector<double> part = positionPart(i);
+    const PlaneVector<double> part = position_part(i);
     const double errors[] = {part.x + q * real_.x[i], part.y + q * real_.y[i], real_.x[i],
                              real_.y[i]};
     setRow(change_, i, errors);
