@@ -1,12 +1,13 @@
 # The kernels are compiled once for every instruction set and picked when the program runs; all else
 # is compiled for the baseline of the architecture.
-set(kernel_sources src/integration/kernels/baseline.cpp)
+set(kernel_folder src/integration/kernels/instruction_sets)
+set(kernel_sources ${kernel_folder}/baseline.cpp)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(avx2_flags -mavx2 -mfma)
-  list(APPEND kernel_sources src/integration/kernels/avx2.cpp src/integration/kernels/avx512.cpp)
-  set_source_files_properties(src/integration/kernels/avx2.cpp PROPERTIES
+  list(APPEND kernel_sources ${kernel_folder}/avx2.cpp ${kernel_folder}/avx512.cpp)
+  set_source_files_properties(${kernel_folder}/avx2.cpp PROPERTIES
     COMPILE_OPTIONS "${avx2_flags}")
-  set_source_files_properties(src/integration/kernels/avx512.cpp PROPERTIES
+  set_source_files_properties(${kernel_folder}/avx512.cpp PROPERTIES
     COMPILE_OPTIONS "-mfma;-mavx512f;-mavx512dq;-mavx512vl;-mprefer-vector-width=512")
   set_source_files_properties(src/integration/kernels/chain_kernels.cpp PROPERTIES
     COMPILE_DEFINITIONS SPRING_PENDULUM_X86_KERNELS)

@@ -1,5 +1,5 @@
 // Arbitrary bytes give parameters within their ranges or an error with its place.
-#include "simulation/scenario_options.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/io/scenario_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
 

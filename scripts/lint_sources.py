@@ -1,25 +1,35 @@
 #!/usr/bin/python3
 """Checks the structure of the sources, and lists the sources for clang-tidy.
 
-    lint_sources.py check             include order, circles, public headers, length of files
+    lint_sources.py check             include order, circles, public headers, sizes of files and folders
     lint_sources.py tidy [BASE]       one path per line: sources to check after a change since commit
                                       BASE (default: all); for a changed header a source that reads it
 """
 import re
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parent.parent
 FOLDERS = ('include', 'src', 'test', 'benchmark', 'fuzz', 'examples')
 MOST_LINES = 400
+MOST_FILES = 15  # in a folder of the library
 
-# A folder includes itself and folders of a lower rank. Inside integration/ the rooms rank too.
+# A layer includes itself and layers of a lower rank. Inside a layer the rooms, its folders, rank too.
 LAYERS = {'model': 0, 'integration': 1, 'simulation': 2, 'io': 3, 'ros': 4}
-ROOMS = {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3, 'implicit': 3,
-         'automatic': 4}
-BELOW_ALL_ROOMS = ('integrator.hpp', 'butcher_tableau.hpp', 'smallest_tolerance.hpp')
-TABLE = 5  # the method table and other files directly in integration/
+ROOMS = {
+    'model': {},
+    'integration': {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3,
+                    'implicit': 3, 'automatic': 4},
+    'simulation': {'options': 1, 'advice': 1},
+    'io': {'files': 1, 'formats': 2, 'program': 3},
+    'ros': {'parameters': 1, 'messages': 2, 'node': 3},
+}
+# Files directly in the folder of a layer come before its rooms, in these layers after them ...
+AFTER_THE_ROOMS = {'integration': 5, 'ros': 4}
+# ... except for these.
+BEFORE_THE_ROOMS = ('integrator', 'butcher_tableau', 'smallest_tolerance', 'pendulum_run')
 
 
 def git(*arguments):
@@ -43,10 +53,10 @@ def place(path):
         return None
     if parts[0] not in LAYERS:
         return None  # programs and the umbrella header
-    room = 0
-    if parts[0] == 'integration' and parts[-1] not in BELOW_ALL_ROOMS:
-        room = ROOMS[parts[1]] if len(parts) > 2 else TABLE
-    return parts[0], room, parts[1] if len(parts) > 2 else ''
+    layer, room = parts[0], parts[1] if len(parts) > 2 else ''
+    if room:
+        return layer, ROOMS[layer][room], room
+    return layer, 0 if path.stem in BEFORE_THE_ROOMS else AFTER_THE_ROOMS.get(layer, 0), room
 
 
 def resolve(name, includer, known):
@@ -76,7 +86,7 @@ def order_errors(graph):
                 yield f'{path}: includes {target}, which is no part of the library'
             elif here and there and LAYERS[there[0]] > LAYERS[here[0]]:
                 yield f'{path}: includes {target}, but {there[0]} comes after {here[0]}'
-            elif here and there and here[0] == there[0] == 'integration':
+            elif here and there and here[0] == there[0]:
                 same_rank = there[1] == here[1] and there[2] != here[2]
                 if there[1] > here[1] or same_rank:
                     yield f'{path}: includes {target} of a room that is not below its own'
@@ -116,10 +126,17 @@ def file_errors(files):
             yield f'{path}: includes ROS, which only src/ros may'
 
 
+def folder_errors(files):
+    library = [path for path in files if path.parts[0] in ('include', 'src')]
+    for folder, count in Counter(path.parent for path in library).items():
+        if count > MOST_FILES:
+            yield f'{folder}: {count} files, allowed are {MOST_FILES}'
+
+
 def check():
     files = sources()
     graph = include_graph(files)
-    errors = [*order_errors(graph), *file_errors(files)]
+    errors = [*order_errors(graph), *file_errors(files), *folder_errors(files)]
     if round_trip := circle(graph):
         errors.append('circle of includes: ' + ' -> '.join(map(str, round_trip)))
     print('\n'.join(errors), end='\n' if errors else '')

@@ -24,8 +24,9 @@ export folder project
 say "compiling for 64-bit ARM"
 rm -f "$folder"/objects/*.o
 (cd "$project" && ls src/model/*.cpp src/integration/*.cpp src/integration/*/*.cpp \
+  src/integration/kernels/instruction_sets/baseline.cpp \
   test/support/method_bits.cpp) |
-  grep -v -e kernels/avx -e model/numbers |  # only for x86; parses text, needs another library
+  grep -v -e model/numbers |  # parses text, needs another library
   xargs -P "$(nproc)" -I{} bash -c 'compile_one {}'
 aarch64-linux-gnu-g++ -static "$folder"/objects/*.o -pthread -o "$folder/method_bits"
 

@@ -1,17 +1,17 @@
 // The exercise: integrates the motion of a chain of particles and writes one file per frame.
-#include "io/command_line.hpp"
-#include "io/exit_status.hpp"
-#include "io/interruption.hpp"
-#include "io/progress.hpp"
-#include "io/run_files.hpp"
-#include "io/standard_streams.hpp"
+#include "io/formats/run_files.hpp"
+#include "io/program/command_line.hpp"
+#include "io/program/exit_status.hpp"
+#include "io/program/interruption.hpp"
+#include "io/program/progress.hpp"
+#include "io/program/standard_streams.hpp"
+#include "simulation/advice/stability_warning.hpp"
 #include "simulation/integrator_settings.hpp"
 #include "simulation/interruptible.hpp"
 #include "simulation/memory.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include "simulation/run_monitor.hpp"
-#include "simulation/scenario_options.hpp"
 #include "simulation/sleep.hpp"
-#include "simulation/stability_warning.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>

@@ -1,12 +1,12 @@
 // The ROS node: integrates the motion of a chain, writes its frames and shows it.
-#include "io/exit_status.hpp"
-#include "io/interruption.hpp"
-#include "io/standard_streams.hpp"
-#include "ros/parameter_watch.hpp"
-#include "ros/parameters.hpp"
-#include "ros/player.hpp"
-#include "ros/publisher.hpp"
-#include "ros/run_log.hpp"
+#include "io/program/exit_status.hpp"
+#include "io/program/interruption.hpp"
+#include "io/program/standard_streams.hpp"
+#include "ros/node/player.hpp"
+#include "ros/node/publisher.hpp"
+#include "ros/node/run_log.hpp"
+#include "ros/parameters/parameter_watch.hpp"
+#include "ros/parameters/parameters.hpp"
 #include "simulation/interruptible.hpp"
 #include <spring_pendulum/model/errors.hpp>
 

@@ -1,12 +1,12 @@
 // Writes the messages of a run directly to a bag: without a master, as fast as possible, stamped
 // with simulated time, and with the same bytes in every run.
-#include "io/command_line.hpp"
-#include "io/exit_status.hpp"
-#include "io/interruption.hpp"
-#include "io/standard_streams.hpp"
+#include "io/program/command_line.hpp"
+#include "io/program/exit_status.hpp"
+#include "io/program/interruption.hpp"
+#include "io/program/standard_streams.hpp"
 #include "ros/bag_recorder.hpp"
 #include "simulation/integrator_settings.hpp"
-#include "simulation/scenario_options.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include "simulation/tolerance.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>

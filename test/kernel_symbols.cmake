@@ -4,7 +4,7 @@
 # Usage: cmake -DNM=... -DOBJECTS=... -P kernel_symbols.cmake
 set(checked 0)
 foreach(object ${OBJECTS})
-  if(object MATCHES "kernels/avx[0-9]+\\.cpp")
+  if(object MATCHES "instruction_sets/avx[0-9]+\\.cpp")
     execute_process(COMMAND ${NM} -C --defined-only --extern-only ${object}
       OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
     if(failed OR NOT symbols MATCHES "kAvx[0-9]+Kernels")

@@ -1,7 +1,7 @@
 // Records the messages of a run in a bag without a running ROS master.
 #pragma once
 
-#include "ros/node_options.hpp"
+#include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 

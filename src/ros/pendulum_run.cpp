@@ -1,6 +1,6 @@
 #include "ros/pendulum_run.hpp"
 
-#include "io/interruption.hpp"
+#include "io/program/interruption.hpp"
 #include "simulation/interruptible.hpp"
 #include "simulation/sleep.hpp"
 

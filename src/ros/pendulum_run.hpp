@@ -5,7 +5,7 @@
 // files are the same as those of Exercise3.
 #pragma once
 
-#include "io/run_files.hpp"
+#include "io/formats/run_files.hpp"
 #include "simulation/run_monitor.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/io/particle_file.hpp>

@@ -1,6 +1,6 @@
 // Methods that a program registers.
-#include "io/command_line.hpp"
-#include "simulation/scenario_options.hpp"
+#include "io/program/command_line.hpp"
+#include "simulation/options/scenario_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

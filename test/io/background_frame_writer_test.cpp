@@ -1,6 +1,6 @@
-#include "io/background_frame_writer.hpp"
+#include "io/formats/background_frame_writer.hpp"
 
-#include "io/frame_folder.hpp"
+#include "io/files/frame_folder.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <gmock/gmock.h>

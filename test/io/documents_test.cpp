@@ -1,5 +1,5 @@
 // Tables in the documents agree with the code and with the measured results.
-#include "simulation/scenario_options.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "io/energy_file.hpp"
+#include "io/formats/energy_file.hpp"
 
 #include <spring_pendulum/model/errors.hpp>
 

@@ -1,4 +1,4 @@
-#include "io/exit_status.hpp"
+#include "io/program/exit_status.hpp"
 
 #include <spring_pendulum/model/errors.hpp>
 

@@ -1,5 +1,5 @@
 // Frame files: their names, and that each number reads back as the same double, in few digits.
-#include "io/frame_folder.hpp"
+#include "io/files/frame_folder.hpp"
 #include "model/numbers.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
 

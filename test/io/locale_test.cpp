@@ -1,5 +1,5 @@
 // Numbers have a point in files, also in a program that has switched to a decimal comma.
-#include "simulation/scenario_options.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>

@@ -1,7 +1,7 @@
 // config/pendulum.yaml shows every parameter with its default.
-#include "io/text_file.hpp"
+#include "io/files/text_file.hpp"
 #include "model/numbers.hpp"
-#include "simulation/scenario_options.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
 

@@ -1,5 +1,5 @@
 // Parameters from YAML: what is accepted, and the message for everything that is not.
-#include "simulation/scenario_options.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/io/scenario_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
 

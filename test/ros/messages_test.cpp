@@ -1,10 +1,10 @@
 // Markers and state of chosen scenes, bags through the rosbag library, parameters.
 #include "ros/bag_recorder.hpp"
-#include "ros/color.hpp"
-#include "ros/marker_builder.hpp"
-#include "ros/parameters.hpp"
-#include "ros/state_builder.hpp"
-#include "simulation/option_set.hpp"
+#include "ros/messages/marker_builder.hpp"
+#include "ros/messages/state_builder.hpp"
+#include "ros/parameters/color.hpp"
+#include "ros/parameters/parameters.hpp"
+#include "simulation/options/option_set.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <gmock/gmock.h>

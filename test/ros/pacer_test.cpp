@@ -1,4 +1,4 @@
-#include "ros/pacer.hpp"
+#include "ros/node/pacer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The visible part of a scene, for scenes of any size.
-#include "ros/scene_view.hpp"
+#include "ros/messages/scene_view.hpp"
 
 #include <gtest/gtest.h>
 

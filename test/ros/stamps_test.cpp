@@ -1,4 +1,4 @@
-#include "ros/stamps.hpp"
+#include "ros/messages/stamps.hpp"
 
 #include <spring_pendulum/model/errors.hpp>
 

@@ -1,4 +1,4 @@
-#include "simulation/trial.hpp"
+#include "simulation/advice/trial.hpp"
 #include <spring_pendulum/simulation/reference_run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>

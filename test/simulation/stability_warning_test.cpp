@@ -1,4 +1,4 @@
-#include "simulation/stability_warning.hpp"
+#include "simulation/advice/stability_warning.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>
 

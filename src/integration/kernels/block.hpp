@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/pack.hpp"
+#include "integration/kernels/instruction_sets/pack.hpp"
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>

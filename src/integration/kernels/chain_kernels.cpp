@@ -1,7 +1,7 @@
 #include "integration/kernels/chain_kernels.hpp"
 
 #include "integration/kernels/fast_tableaus.hpp"
-#include "integration/kernels/instruction_sets.hpp"
+#include "integration/kernels/instruction_sets/instruction_sets.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include <spring_pendulum/model/errors.hpp>
 

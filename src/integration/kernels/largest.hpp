@@ -1,7 +1,7 @@
 // The maximum norm of many packs.
 #pragma once
 
-#include "integration/kernels/pack.hpp"
+#include "integration/kernels/instruction_sets/pack.hpp"
 
 namespace spring_pendulum {
 namespace {

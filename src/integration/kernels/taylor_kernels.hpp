@@ -3,8 +3,8 @@
 #pragma once
 
 #include "integration/kernels/block.hpp"
+#include "integration/kernels/instruction_sets/pack.hpp"
 #include "integration/kernels/largest.hpp"
-#include "integration/kernels/pack.hpp"
 #include "integration/kernels/taylor_workspace.hpp"
 #include <spring_pendulum/model/spring_law.hpp>
 

@@ -1,4 +1,4 @@
-#include "integration/kernels/emulated_fused.hpp"
+#include "integration/kernels/instruction_sets/emulated_fused.hpp"
 
 #include <gtest/gtest.h>
 

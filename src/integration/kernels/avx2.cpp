@@ -1,8 +1,0 @@
-#include "integration/kernels/all_kernels.hpp"
-#include "integration/kernels/instruction_sets.hpp"
-
-namespace spring_pendulum {
-
-const ChainKernels kAvx2Kernels = kernelsNamed("avx2");
-
-}  // namespace spring_pendulum

@@ -1,8 +1,0 @@
-#include "integration/kernels/all_kernels.hpp"
-#include "integration/kernels/instruction_sets.hpp"
-
-namespace spring_pendulum {
-
-const ChainKernels kAvx512Kernels = kernelsNamed("avx512");
-
-}  // namespace spring_pendulum

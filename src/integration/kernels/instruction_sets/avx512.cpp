@@ -1,0 +1,8 @@
+#include "integration/kernels/instruction_sets/all_kernels.hpp"
+#include "integration/kernels/instruction_sets/instruction_sets.hpp"
+
+namespace spring_pendulum {
+
+const ChainKernels kAvx512Kernels = kernelsNamed("avx512");
+
+}  // namespace spring_pendulum

@@ -1,0 +1,150 @@
+// Several doubles in one vector register, with the arithmetic of a double.
+//
+// Multiplications and additions are fused by `fused` alone, never by the compiler, so results do
+// not depend on the instruction set. Where there is no fused multiply-add, it is emulated exactly.
+//
+// Every file that includes this is compiled for another instruction set. All names have internal
+// linkage, so that the linker can never take a function compiled for AVX-512 for one of the same
+// name that an older processor is to run.
+#pragma once
+
+#include <spring_pendulum/model/spring_law.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#if defined(__FMA__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#else
+#include "integration/kernels/instruction_sets/emulated_fused.hpp"
+#endif
+
+namespace spring_pendulum {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kLanes = 8;
+#elif defined(__AVX2__) && defined(__FMA__)
+constexpr int kLanes = 4;
+#else
+constexpr int kLanes = 2;
+#endif
+
+/// `kLanes` doubles. GCC and Clang know this type on every processor; an operation on it is the
+/// operation on each double, rounded alike.
+struct Pack {
+  using Native [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+
+  [[gnu::always_inline]] static Pack load(const double* aligned) {
+    return {*reinterpret_cast<const Native*>(aligned)};
+  }
+  [[gnu::always_inline]] static Pack all(double value) { return {value - Native{}}; }
+  [[gnu::always_inline]] void store(double* aligned) const {
+    *reinterpret_cast<Native*>(aligned) = lanes;
+  }
+
+  Native lanes{};
+};
+
+[[gnu::always_inline]] inline Pack operator+(Pack a, Pack b) {
+  return {a.lanes + b.lanes};
+}
+[[gnu::always_inline]] inline Pack operator-(Pack a, Pack b) {
+  return {a.lanes - b.lanes};
+}
+[[gnu::always_inline]] inline Pack operator*(Pack a, Pack b) {
+  return {a.lanes * b.lanes};
+}
+[[gnu::always_inline]] inline Pack operator+(double a, Pack b) {
+  return {a + b.lanes};
+}
+[[gnu::always_inline]] inline Pack operator-(Pack a, double b) {
+  return {a.lanes - b};
+}
+[[gnu::always_inline]] inline Pack operator*(double a, Pack b) {
+  return {a * b.lanes};
+}
+
+[[gnu::always_inline]] inline Pack operator-(Pack a) {
+  return {-a.lanes};
+}
+
+/// a b + c, rounded once.
+[[gnu::always_inline]] inline Pack fused(Pack a, Pack b, Pack c) {
+#if defined(__AVX512F__)
+  return {_mm512_fmadd_pd(a.lanes, b.lanes, c.lanes)};
+#elif defined(__FMA__)
+  return {_mm256_fmadd_pd(a.lanes, b.lanes, c.lanes)};
+#elif defined(__aarch64__)
+  return {vfmaq_f64(c.lanes, a.lanes, b.lanes)};
+#else
+  return {emulatedFused(a.lanes, b.lanes, c.lanes)};
+#endif
+}
+[[gnu::always_inline]] inline Pack fused(double a, Pack b, Pack c) {
+  return fused(Pack::all(a), b, c);
+}
+[[gnu::always_inline]] inline Pack fused(Pack a, Pack b, double c) {
+  return fused(a, b, Pack::all(c));
+}
+
+[[gnu::always_inline]] inline Pack fused(Pack a, double b, double c) {
+  return fused(a, Pack::all(b), Pack::all(c));
+}
+
+/// As the function of a double of the same name.
+[[gnu::always_inline]] inline Pack inverseSquareRoot(Pack square) {
+  Pack root;
+  for (int lane = 0; lane < kLanes; ++lane) root.lanes[lane] = std::sqrt(square.lanes[lane]);
+  return {square.lanes > 0.0 ? 1.0 / root.lanes : Pack::Native{}};
+}
+
+[[gnu::always_inline]] inline Pack absolute(Pack a) {
+  return {a.lanes < 0.0 ? -a.lanes : a.lanes};
+}
+
+/// The larger of both; `a` where one of them is NaN.
+[[gnu::always_inline]] inline Pack larger(Pack a, Pack b) {
+  return {b.lanes > a.lanes ? b.lanes : a.lanes};
+}
+
+/// The lanes of a followed by those of b, from lane `kFirst` on.
+template <int kFirst, int... kLane>
+[[gnu::always_inline]] inline Pack lanesFrom(Pack a, Pack b, std::integer_sequence<int, kLane...>) {
+#if defined(__clang__)
+  return {__builtin_shufflevector(a.lanes, b.lanes, (kFirst + kLane)...)};
+#else
+  using Selection [[gnu::vector_size(kLanes * sizeof(double))]] = long long;
+  return {__builtin_shuffle(a.lanes, b.lanes, Selection{(kFirst + kLane)...})};
+#endif
+}
+
+/// Each lane's right neighbour, where `right` follows `here` in the chain.
+[[gnu::always_inline]] inline Pack rightNeighbours(Pack here, Pack right) {
+  return lanesFrom<1>(here, right, std::make_integer_sequence<int, kLanes>());
+}
+
+/// Each lane's left neighbour, where `left` precedes `here` in the chain.
+[[gnu::always_inline]] inline Pack leftNeighbours(Pack left, Pack here) {
+  return lanesFrom<kLanes - 1>(left, here, std::make_integer_sequence<int, kLanes>());
+}
+
+/// 0, 1, 2, ...
+[[gnu::always_inline]] inline Pack laneNumbers() {
+  Pack numbers;
+  for (int lane = 0; lane < kLanes; ++lane) numbers.lanes[lane] = lane;
+  return numbers;
+}
+
+/// `pack` where begin <= lane < end, else 0.
+[[gnu::always_inline]] inline Pack only(Pack pack, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const Pack lane = laneNumbers();
+  const Pack above = {lane.lanes < static_cast<double>(end) ? pack.lanes : Pack::Native{}};
+  return {lane.lanes >= static_cast<double>(begin) ? above.lanes : Pack::Native{}};
+}
+
+}  // namespace
+}  // namespace spring_pendulum

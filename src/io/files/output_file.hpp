@@ -1,0 +1,59 @@
+// An output file of a run: the energy balance, a bag.
+#pragma once
+
+#include "io/files/unfinished_file.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Written as FILE.unfinished and renamed at the end, so FILE is complete or absent, and a FILE of
+/// an earlier run is replaced only at the end. If FILE is a symbolic link, its target is written
+/// and the link stays. FILE.unfinished is locked, so that only one run at a time writes a file.
+class OutputFile {
+ public:
+  /// \param inputs input files of the run, which must not be overwritten
+  /// \throws InputError if the path is that of an input or of a frame file
+  /// \throws FileError if it is a folder, a pipe or a device, if it can't be written, or if another
+  ///         run is writing it
+  explicit OutputFile(const std::string& path, const std::vector<std::string>& inputs = {});
+  /// Removes the file if it is not finished.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// \throws FileError naming the file
+  void write(std::string_view text);
+  /// Copies the file that will be replaced, if there is one, to the beginning of the new file.
+  /// \returns whether there is one
+  /// \throws FileError naming the file
+  bool copyEarlier();
+  /// A path under which a library can open the unfinished file again.
+  std::string unfinishedPath() const;
+  /// Size of the unfinished file, bytes.
+  std::uintmax_t size() const;
+  /// \throws FileError naming the file
+  void finish();
+
+  /// Absolute path.
+  const std::string& path() const { return path_; }
+
+ private:
+  void openFolder();
+  void createUnfinished();
+  bool lock();
+  void refuseUnlessUnfinished() const;
+  [[noreturn]] void refuse(const std::string& reason) const;
+  [[noreturn]] void refuseForErrno() const;
+
+  std::string path_;         ///< absolute
+  std::string folder_path_;  ///< as given
+  std::string name_;
+  FileDescriptor folder_;
+  UnfinishedFile file_;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,45 @@
+#include "io/files/paths.hpp"
+
+#include <spring_pendulum/model/errors.hpp>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+namespace spring_pendulum {
+
+std::string fullPath(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path full = std::filesystem::absolute(path, error);
+  if (error) return path;
+  std::string normal = full.lexically_normal().string();
+  if (normal.size() > 1 && normal.back() == '/') normal.pop_back();
+  if (path.find("..") == std::string::npos) return normal;
+  return std::filesystem::equivalent(full, normal, error) ? normal : full.string();
+}
+
+std::string messageForErrno() {
+  return std::generic_category().message(errno);
+}
+
+bool leadsTo(const std::string& path, int descriptor) {
+  struct stat by_path {};
+  struct stat opened {};
+  return ::stat(path.c_str(), &by_path) == 0 && ::fstat(descriptor, &opened) == 0 &&
+         isSameFile(by_path, opened);
+}
+
+bool isInput(const struct stat& file, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (input.empty()) continue;
+    struct stat other {};
+    if (::stat(input.c_str(), &other) == 0) {
+      if (isSameFile(file, other)) return true;
+    } else if (errno != ENOENT) {
+      throw FileError(fullPath(input) + ": could not be read: " + messageForErrno());
+    }
+  }
+  return false;
+}
+
+}  // namespace spring_pendulum

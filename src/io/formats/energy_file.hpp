@@ -1,0 +1,37 @@
+// The energy balance of a run as CSV: one row per frame, units in the header.
+#pragma once
+
+#include "io/files/output_file.hpp"
+#include <spring_pendulum/simulation/energy_balance.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Complete or absent, like every OutputFile. Columns: frame, time in s, kinetic, gravity, spring,
+/// total, dissipated and residual energy in J, the residual relative to the energy scale, and the
+/// position error in m (nan if not measured). Every number is the shortest text that reads back as
+/// the same double.
+class EnergyFile {
+ public:
+  /// As OutputFile.
+  explicit EnergyFile(const std::string& path, const std::vector<std::string>& inputs = {});
+
+  /// \param entry          from an energy balance that tracks the dissipation
+  /// \param position_error m; NaN if not measured
+  void write(std::int64_t frame, const EnergyEntry& entry, double position_error);
+
+  /// \throws FileError naming the file
+  void finish();
+
+  /// Absolute path.
+  const std::string& path() const { return file_.path(); }
+
+ private:
+  OutputFile file_;
+  std::string text_;  ///< not yet written
+};
+
+}  // namespace spring_pendulum

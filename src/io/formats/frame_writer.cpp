@@ -1,0 +1,87 @@
+#include "io/files/frame_folder.hpp"
+#include "model/checks.hpp"
+#include "model/numbers.hpp"
+#include <spring_pendulum/io/frame_writer.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr std::size_t kLongestLine = 2 * (kLongestNumber + 1);
+constexpr Eigen::Index kLinesAtOnce = 4096;
+
+/// Adds its lifetime to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames,
+                         const std::vector<std::string>& inputs)
+    : frames_(frames), folder_([&] {
+        requireAtLeastZero("frames", frames);
+        const Stopwatch stopwatch(seconds_);
+        return std::make_unique<FrameFolder>(folder, frames, inputs);
+      }()) {}
+
+FrameWriter::FrameWriter(FrameWriter&&) noexcept = default;
+FrameWriter::~FrameWriter() = default;
+
+FrameFolder& FrameWriter::frameFolder() const {
+  if (!folder_) throw InputError("the frame writer was moved from");
+  return *folder_;
+}
+
+const std::string& FrameWriter::folder() const {
+  return frameFolder().path();
+}
+
+std::int64_t FrameWriter::earlierFrames() const {
+  return frameFolder().earlierFrames();
+}
+
+void FrameWriter::write(std::int64_t index, const State& state) {
+  const Stopwatch stopwatch(seconds_);
+  FrameFolder& folder = frameFolder();
+  if (!folder.isOpen()) throw InputError("the frame writer has finished");
+  if (index < 0 || index >= frames_) {
+    throw InputError(fmt::format("frame {}: must be 0 to {}", index, frames_ - 1));
+  }
+  const Eigen::Index size = state.size();
+  const double* const x = state.x().data();
+  const double* const y = state.y().data();
+  text_.resize(static_cast<std::size_t>(std::min(size, kLinesAtOnce)) * kLongestLine);
+  folder.beginFrame(index);
+  for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
+    char* end = text_.data();
+    for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
+      end = writeNumber(x[i], end);
+      *end++ = ' ';
+      end = writeNumber(y[i], end);
+      *end++ = '\n';
+    }
+    folder.write(text_.data(), static_cast<std::size_t>(end - text_.data()));
+  }
+  folder.endFrame();
+}
+
+void FrameWriter::finish() {
+  const Stopwatch stopwatch(seconds_);
+  if (frameFolder().isOpen()) folder_->close();
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,54 @@
+#include "io/formats/run_files.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+
+RunFiles::RunFiles(const Scenario& scenario, const std::string& config) {
+  const std::vector<std::string> inputs{scenario.particles, config};
+  if (!scenario.energy.empty()) energy_.emplace(scenario.energy, inputs);
+  if (!scenario.no_frames && !scenario.output.empty()) {
+    frames_.emplace(scenario.output, scenario.frames, inputs);
+  }
+}
+
+void RunFiles::write(std::int64_t frame, const State& state, const EnergyEntry& entry,
+                     double position_error) {
+  if (finished_ || frame < next_frame_) return;
+  if (frames_) frames_->write(frame, state);
+  if (energy_) energy_->write(frame, entry, position_error);
+  next_frame_ = frame + 1;
+}
+
+void RunFiles::finish() {
+  if (finished_) return;
+  finished_ = true;
+  if (energy_) energy_->finish();
+  if (frames_) frames_->finish();
+}
+
+std::string RunFiles::description() const {
+  std::string text = "no frame files";
+  if (frames_) {
+    text = "frames go to " + frames_->folder();
+    const std::int64_t earlier = frames_->earlierFrames();
+    if (earlier > 0)
+      text += fmt::format(" ({} earlier frame{} removed)", earlier, earlier == 1 ? "" : "s");
+  }
+  if (energy_) text += ", energies go to " + energy_->path();
+  return text;
+}
+
+std::string RunFiles::destination() const {
+  if (!frames_) return "";
+  const std::int64_t earlier = frames_->earlierFrames();
+  return " to " + frames_->folder() +
+         (earlier == 0 ? ""
+                       : fmt::format(" (after removing {} earlier frame{})", earlier,
+                                     earlier == 1 ? "" : "s"));
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,50 @@
+// The output files of a run, for Exercise3 and the node: frames and energy balance.
+#pragma once
+
+#include "io/formats/background_frame_writer.hpp"
+#include "io/formats/energy_file.hpp"
+#include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace spring_pendulum {
+
+/// Writes every frame once: after a reset, the run repeats its frames bit for bit.
+class RunFiles {
+ public:
+  /// Writes no frames with `no_frames` or an empty `output`, no energy balance with an empty
+  /// `energy`.
+  /// \param config configuration file of the run; empty: none
+  /// \throws InputError, FileError as EnergyFile and FrameWriter
+  explicit RunFiles(const Scenario& scenario, const std::string& config = "");
+
+  /// Writes a frame unless it has been written before.
+  /// \param position_error m; NaN if not measured
+  /// \throws FileError naming the file
+  void write(std::int64_t frame, const State& state, const EnergyEntry& entry,
+             double position_error);
+
+  /// Closes the files. No write after this.
+  void finish();
+
+  /// "frames go to /home/me/frames (500 earlier frames removed), energies go to ..."
+  std::string description() const;
+  /// " to /home/me/frames (after removing 500 earlier frames)", empty without frames
+  std::string destination() const;
+  std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
+  /// Wall-clock time spent writing frames, s. Valid after `finish`.
+  double secondsWriting() const { return frames_ ? frames_->secondsWriting() : 0.0; }
+  /// Wall-clock time that the run waited for the frame writer, s.
+  double secondsWaited() const { return frames_ ? frames_->secondsWaited() : 0.0; }
+
+ private:
+  std::optional<EnergyFile> energy_;
+  std::optional<BackgroundFrameWriter> frames_;
+  std::int64_t next_frame_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace spring_pendulum

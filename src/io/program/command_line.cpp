@@ -1,0 +1,195 @@
+#include "io/program/command_line.hpp"
+
+#include "io/formats/option_file.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/errors.hpp>
+
+#include <boost/program_options/errors.hpp>
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/parsers.hpp>
+#include <boost/program_options/value_semantic.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace spring_pendulum {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr std::string_view kMethodKey = "method";
+constexpr unsigned kLineLength = 90;
+
+/// `time-step` for `time_step`
+std::string optionName(std::string_view key) {
+  std::string name(key);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+std::string helpFor(const Option& option) {
+  std::string help(option.meaning);
+  if (option.applies_to == AppliesTo::kFixedStep) help += "; fixed-step methods";
+  if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
+  if (option.placeholder().empty()) return help;
+  const std::string value = option.text();
+  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,
+                     option.unit.empty() ? "" : " ", option.unit);
+}
+
+void addWithValue(po::options_description& description, const std::string& name,
+                  const std::string& placeholder, const std::string& help) {
+  description.add_options()(name.c_str(), po::value<std::string>()->value_name(placeholder),
+                            help.c_str());
+}
+
+/// All options except METHOD, for the parser and the help text.
+po::options_description describe(const OptionSet& options) {
+  po::options_description description("Options", kLineLength, kLineLength / 2);
+  addWithValue(description, "config", "FILE",
+               "YAML file with these options, underscores for dashes; the command line wins");
+  for (const Option& option : options.options()) {
+    const std::string name = optionName(option.key);
+    if (option.key == kMethodKey) continue;
+    if (option.placeholder().empty()) {
+      description.add_options()(name.c_str(), helpFor(option).c_str());
+    } else {
+      addWithValue(description, name, option.placeholder(), helpFor(option));
+    }
+  }
+  description.add_options()(
+      "check", "try the run, report verdict, errors and the largest step sizes; write nothing")(
+      "report-skips", "print what the run leaves out because the scene does not need it")(
+      "list-methods", "describe the methods")("version", "show the version")("help,h",
+                                                                             "show this help");
+  return description;
+}
+
+std::string helpText(const ProgramText& program, const po::options_description& description) {
+  std::ostringstream options;
+  options << description;
+  return fmt::format(
+      "{}\n\nUsage: {} METHOD [options]\nExample: {} {}\n\nMethods: {}\n\n{}\n"
+      "Exit status: 0 done, 1 could not read or write, 2 wrong use or bad input,\n"
+      "3 the motion diverged, 128 + n stopped by signal n.\n",
+      program.purpose, program.name, program.name, program.example, knownMethodNames(),
+      options.str());
+}
+
+std::string listOfMethods() {
+  std::string lists[2] = {"Methods with a fixed step (--time-step, --steps-per-frame):\n",
+                          "\nError-controlled methods (--tolerance, --frame-interval):\n"};
+  for (const Method& method : methodTable()) {
+    lists[method.hasFixedStep() ? 0 : 1] +=
+        fmt::format("  {:<20} order {}\n      {}\n", method.name, method.order, method.use);
+  }
+  return lists[0] + lists[1];
+}
+
+/// \param arguments without the name of the program
+std::vector<po::option> split(const std::vector<std::string>& arguments,
+                              const po::options_description& description) {
+  namespace style = po::command_line_style;
+  try {
+    return po::command_line_parser(arguments)
+        .options(description)
+        .style(style::unix_style & ~style::allow_guessing)
+        .run()
+        .options;
+  } catch (const po::unknown_option& error) {
+    std::string known;
+    for (const auto& option : description.options()) {
+      known += fmt::format("{}--{}", known.empty() ? "" : ", ", option->long_name());
+    }
+    throw InputError(
+        fmt::format("unknown option '{}': known are {}", error.get_option_name(), known));
+  } catch (const po::invalid_command_line_syntax& error) {
+    if (error.kind() != po::invalid_syntax::missing_parameter) throw InputError(error.what());
+    throw InputError(fmt::format("{}: needs a value, see --help", error.get_option_name()));
+  } catch (const po::error& error) {
+    throw InputError(fmt::format("{}, see --help", error.what()));
+  }
+}
+
+bool has(const std::vector<po::option>& given, std::string_view name) {
+  return std::any_of(given.begin(), given.end(),
+                     [&](const po::option& option) { return option.string_key == name; });
+}
+
+/// \returns the keys that were set
+std::vector<std::string_view> setOptions(const std::vector<po::option>& given, OptionSet& options) {
+  std::vector<std::string_view> keys;
+  bool has_method = false;
+  for (const po::option& argument : given) {
+    if (argument.string_key.empty()) {  // a positional argument
+      const std::string& method = argument.value.front();
+      if (has_method) throw InputError(fmt::format("'{}': give only one METHOD", method));
+      has_method = true;
+      options.set(options.find(kMethodKey, ""), method, "METHOD");
+      continue;
+    }
+    for (const Option& option : options.options()) {
+      if (optionName(option.key) != argument.string_key) continue;
+      options.set(option, argument.value.empty() ? "true" : argument.value.front(),
+                  "--" + argument.string_key);
+      keys.push_back(option.key);
+    }
+  }
+  return keys;
+}
+
+/// On the command line, unlike in a file, an option without effect is an error.
+void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& options,
+                  const Scenario& scenario) {
+  const std::vector<std::string_view> unused = unusedKeys(scenario, options);
+  for (const std::string_view key : keys) {
+    if (std::find(unused.begin(), unused.end(), key) == unused.end()) continue;
+    throw InputError(fmt::format("--{}: {} {}", optionName(key), scenario.method.get().name,
+                                 scenario.method.get().hasFixedStep()
+                                     ? "takes fixed steps; use --time-step and --steps-per-frame"
+                                     : "chooses its own steps; use --tolerance and "
+                                       "--frame-interval"));
+  }
+}
+
+/// \returns the path of the file; empty: none
+std::string readConfig(const std::vector<po::option>& given, OptionSet& options) {
+  std::string path;
+  for (const po::option& option : given) {
+    if (option.string_key == "config") path = option.value.front();
+  }
+  if (!path.empty()) {
+    readOptionFile(path, options);
+  } else if (has(given, "config")) {
+    throw InputError("--config: must be a file, got ''");
+  }
+  return path;
+}
+
+}  // namespace
+
+Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
+                          OptionSet& options, const Scenario& scenario) {
+  const po::options_description description = describe(options);
+  const std::vector<po::option> given =
+      split(std::vector<std::string>(argv + std::min(argc, 1), argv + argc), description);
+  if (has(given, "help")) return {false, false, helpText(program, description), ""};
+  if (has(given, "version"))
+    return {false, false, "spring_pendulum " SPRING_PENDULUM_VERSION "\n", ""};
+  if (has(given, "list-methods")) return {false, false, listOfMethods(), ""};
+  const std::string config = readConfig(given, options);
+  const std::vector<std::string_view> keys = setOptions(given, options);
+  if (!options.isGiven(kMethodKey)) {
+    throw InputError(fmt::format("METHOD is missing; try: {} {} (--help lists the options)",
+                                 program.name, program.example));
+  }
+  checkScenario(scenario);
+  refuseUnused(keys, options, scenario);
+  return {has(given, "check"), has(given, "report-skips"), "", config};
+}
+
+}  // namespace spring_pendulum

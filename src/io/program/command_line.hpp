@@ -1,0 +1,34 @@
+// The command line of all programs: METHOD, an option such as `--time-step X` for each key of the
+// option table, and common switches.
+#pragma once
+
+#include "simulation/options/option_set.hpp"
+#include <spring_pendulum/simulation/scenario.hpp>
+
+#include <string>
+
+namespace spring_pendulum {
+
+/// Texts about a program for --help and messages.
+struct ProgramText {
+  std::string name;     ///< "Exercise3"
+  std::string purpose;  ///< one sentence
+  std::string example;  ///< arguments of a typical run
+};
+
+/// The common switches.
+struct Switches {
+  bool check = false;         ///< validate the input, print the stability advice, write nothing
+  bool report_skips = false;  ///< print the terms that the run skips
+  std::string answer;         ///< text to print instead of a run: --help, --version, --list-methods
+  std::string config;         ///< file given with --config; empty: none
+};
+
+/// Sets `options` from the file given with --config and then from the other arguments, which win.
+/// \param argv    the name of the program and its arguments
+/// \param options `scenarioOptions(scenario)` and other options of the program
+/// \throws InputError, and FileError for --config
+Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
+                          OptionSet& options, const Scenario& scenario);
+
+}  // namespace spring_pendulum

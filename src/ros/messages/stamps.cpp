@@ -1,0 +1,33 @@
+#include "ros/messages/stamps.hpp"
+
+#include <spring_pendulum/model/errors.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kLatest = 2e9;  // s; a duration of ROS has 31 bits for them
+
+}  // namespace
+
+ros::Time Stamps::next(double simulated_time) {
+  const double more = simulated_time - last_simulated_time_;
+  const bool fits = played_.toSec() + more <= kLatest;
+  if (!fits && simulated_) {
+    throw InputError(
+        fmt::format("simulated time reaches {:g} s: stamps of ROS hold times up to {:g} s",
+                    simulated_time, kLatest));
+  }
+  if (fits && more > 0.0) played_ += ros::Duration(more);
+  last_simulated_time_ = simulated_time;
+  // With use_sim_time and no publisher of /clock, ROS time is 0.
+  ros::Time now = simulated_ ? ros::Time() : ros::Time::now();
+  if (now.isZero()) now = played_;
+  last_ = std::max(now, last_ + ros::Duration(0, 1));
+  return last_;
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,58 @@
+#include "ros/messages/state_builder.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum {
+
+double largestStretch(const Chain& chain, const State& state) {
+  if (state.size() < 2) return 0.0;
+  const Eigen::Index springs = state.size() - 1;
+  const double longest =
+      (state.positions().bottomRows(springs) - state.positions().topRows(springs))
+          .rowwise()
+          .norm()
+          .maxCoeff();
+  const double rest_length = chain.spring().rest_length;
+  return rest_length > 0.0 ? longest / rest_length - 1.0 : longest;
+}
+
+const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs::Header& header) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const EnergyEntry entry = run.energyEntry();
+  message_.header = header;
+  message_.method = run.scenario().method.get().name;
+  message_.frame = run.frame();
+  message_.at_frame = run.atFrame() ? 1 : 0;
+  message_.time = run.time();
+  message_.kinetic_energy = entry.energy.kinetic;
+  message_.gravity_energy = entry.energy.gravity;
+  message_.spring_energy = entry.energy.spring;
+  message_.dissipated_energy = entry.dissipated.value_or(kUnknown);
+  message_.total_energy = entry.energy.total() + message_.dissipated_energy;
+  message_.energy_error = entry.relative_residual.value_or(kUnknown);
+  setPositionError(run, message_);
+  message_.largest_stretch = largestStretch(run.chain(), run.state());
+  message_.verdict = std::string(toString(run.verdict().kind));
+  copyState(run.state());
+  message_.tip_position = message_.positions.back();
+  const geometry_msgs::Vector3& tip_velocity = message_.velocities.back();
+  message_.tip_speed = std::hypot(tip_velocity.x, tip_velocity.z);
+  return message_;
+}
+
+void StateBuilder::copyState(const State& state) {
+  const auto particles = static_cast<std::size_t>(state.size());
+  message_.positions.resize(particles);
+  message_.velocities.resize(particles);
+  for (std::size_t n = 0; n < particles; ++n) {
+    const auto i = static_cast<Eigen::Index>(n);
+    message_.positions[n].x = state.x()[i];
+    message_.positions[n].y = y_offset_;
+    message_.positions[n].z = state.y()[i];
+    message_.velocities[n].x = state.vx()[i];
+    message_.velocities[n].z = state.vy()[i];
+  }
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,42 @@
+#include "ros/node/pacer.hpp"
+
+#include <algorithm>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kLateness = 0.1;     // s, largest delay that is made up for
+constexpr double kMeasureOver = 0.5;  // s
+constexpr double kLongestWait = 1e9;  // s; ros::Duration has 32 bits for seconds
+
+}  // namespace
+
+void Pacer::start(double simulated_time, ros::SteadyTime now) {
+  start_simulated_ = measured_simulated_ = simulated_time;
+  start_ = measured_ = now;
+}
+
+ros::SteadyTime Pacer::dueTime(double simulated_time) const {
+  if (factor_ <= 0.0) return start_;
+  return start_ +
+         ros::WallDuration(std::min((simulated_time - start_simulated_) / factor_, kLongestWait));
+}
+
+bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {
+  return factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > 0.5 * kLateness;
+}
+
+void Pacer::note(double simulated_time, ros::SteadyTime now) {
+  const double seconds = (now - measured_).toSec();
+  if (seconds >= kMeasureOver) {
+    speed_ = (simulated_time - measured_simulated_) / seconds;
+    measured_simulated_ = simulated_time;
+    measured_ = now;
+  }
+  if (factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > kLateness) {
+    start_simulated_ = simulated_time;
+    start_ = now;
+  }
+}
+
+}  // namespace spring_pendulum

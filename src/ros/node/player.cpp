@@ -1,0 +1,192 @@
+#include "ros/node/player.hpp"
+
+#include "io/program/interruption.hpp"
+
+#include <fmt/format.h>
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kShowAgainInterval = 0.5;  // s, while the run is paused
+constexpr double kLongestWait = 0.1;        // s, latency of the end of ROS
+constexpr double kSlowStates = 1.5;         // shown states per state of the run, for slow motion
+constexpr double kLongestInterval = 1e9;    // s; ros::Duration has 32 bits for seconds
+constexpr double kLoopPause = 1.0;          // s, pause at the last frame before a loop
+
+void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
+  response.success = success ? 1 : 0;
+  response.message = std::move(sentence);
+}
+
+/// Whether neither ROS nor a signal has ended the program.
+bool isWanted() {
+  return ros::ok() && interruption() == 0;
+}
+
+}  // namespace
+
+Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
+               const NodeOptions& options, MasterRegistration& registration)
+    : run_(run), options_(options), pacer_(options.real_time_factor) {
+  pause_ = private_node.advertiseService("pause", &Player::onPause, this);
+  step_ = private_node.advertiseService("step", &Player::onStep, this);
+  reset_ = private_node.advertiseService("reset", &Player::onReset, this);
+  for (const auto& service : {pause_, step_, reset_}) registration.addService(service.getService());
+  for (const char* of_roscpp : {"get_loggers", "set_logger_level"}) {
+    registration.addService(private_node.resolveName(of_roscpp));
+  }
+  if (!options.follow.empty()) {
+    leader_ = node.subscribe(options.follow, 100, &Player::onLeaderState, this);
+  }
+}
+
+Player::Action Player::next() {
+  if (!pacer_.isStarted()) pacer_.start(run_.time(), ros::SteadyTime::now());
+  pacer_.note(run_.time(), ros::SteadyTime::now());
+  while (isWanted()) {
+    serveUntilDue();
+    if (!isWanted()) break;
+    const ros::SteadyTime now = ros::SteadyTime::now();
+    if (reset_wanted_) return reset();
+    if (isAhead()) {
+      if (now < next_between_) continue;
+      next_between_ =
+          now + ros::WallDuration(std::min(1.0 / options_.display_rate, kLongestInterval));
+      return Action::kShowBetween;
+    }
+    if (isDue()) {
+      ahead_from_ = isSlow() ? run_.time() : -1.0;
+      stands_since_ = ros::SteadyTime();
+      if (steps_wanted_ > 0) --steps_wanted_;
+      const bool hurry =
+          paused_ || (options_.follow.empty() && pacer_.isLate(run_.nextTime(), now));
+      return hurry ? Action::kAdvanceFrame : Action::kAdvance;
+    }
+    if (isAtExit()) return Action::kQuit;
+    if (!run_.isOver() && !paused_) continue;
+    if (stands_since_.isZero()) {
+      stands_since_ = last_shown_ = now;
+      return Action::kShowAgain;
+    }
+    if (run_.isOver() && options_.at_end == AtEnd::kLoop &&
+        (now - stands_since_).toSec() >= kLoopPause) {
+      return reset();
+    }
+    if ((now - last_shown_).toSec() < kShowAgainInterval) continue;
+    last_shown_ = now;
+    return Action::kShowAgain;
+  }
+  return Action::kQuit;
+}
+
+Player::Action Player::reset() {
+  ahead_from_ = -1.0;
+  reset_wanted_ = false;
+  steps_wanted_ = 0;
+  stands_since_ = ros::SteadyTime();
+  pacer_.start(0.0, ros::SteadyTime::now());
+  return Action::kReset;
+}
+
+bool Player::isDue() const {
+  if (run_.isOver()) return false;
+  if (paused_) return steps_wanted_ > 0;
+  if (!options_.follow.empty()) return run_.nextTime() <= leader_time_;
+  return ros::SteadyTime::now() >= pacer_.dueTime(isSlow() ? run_.time() : run_.nextTime());
+}
+
+bool Player::isSlow() const {
+  if (paused_ || run_.isOver() || !options_.follow.empty() || options_.publish_clock) return false;
+  const double states = (run_.nextTime() - run_.time()) * options_.display_rate;
+  return states > kSlowStates * options_.real_time_factor && options_.real_time_factor > 0.0;
+}
+
+bool Player::isAhead() const {
+  return !paused_ && ahead_from_ >= 0.0 && ahead_from_ < run_.time() &&
+         ros::SteadyTime::now() < pacer_.dueTime(run_.time());
+}
+
+double Player::shownShare() const {
+  if (!isAhead()) return 1.0;
+  const double ahead = (pacer_.dueTime(run_.time()) - ros::SteadyTime::now()).toSec();
+  const double share = 1.0 - ahead * options_.real_time_factor / (run_.time() - ahead_from_);
+  return std::clamp(share, 0.0, 1.0);
+}
+
+void Player::serveUntilDue() {
+  auto* callbacks = ros::getGlobalCallbackQueue();
+  callbacks->callAvailable();
+  if (reset_wanted_ || (!isAhead() && (isDue() || isAtExit()))) return;
+  double wait = kLongestWait;
+  if (isAhead()) {
+    wait = std::min(wait, (next_between_ - ros::SteadyTime::now()).toSec());
+  } else if (!run_.isOver() && !paused_ && options_.follow.empty()) {
+    const double next = isSlow() ? run_.time() : run_.nextTime();
+    wait = std::min(wait, (pacer_.dueTime(next) - ros::SteadyTime::now()).toSec());
+  }
+  if (wait > 0.0) callbacks->callAvailable(ros::WallDuration(wait));
+}
+
+bool Player::isAtExit() const {
+  return run_.isOver() && options_.at_end == AtEnd::kExit;
+}
+
+std::string Player::pace() const {
+  if (paused_) return "paused";
+  return pacer_.speed() > 0.0 ? fmt::format("{:.2f} x real time", pacer_.speed()) : "";
+}
+
+std::string Player::overMessage() const {
+  return fmt::format("the run is over at frame {}{}: ~reset starts it again", run_.frame(),
+                     run_.isShown() ? "" : ", because the motion diverged");
+}
+
+bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  const bool pause = request.data != 0;
+  if (pause && run_.isOver() && options_.at_end != AtEnd::kLoop) {
+    response.success = 0;
+    response.message = overMessage();
+    return true;
+  }
+  response.success = 1;
+  response.message =
+      fmt::format("{}{} at frame {}, t = {:.6g} s", pause == paused_ ? "already " : "",
+                  pause ? "paused" : "running", run_.frame(), run_.time());
+  if (pause == paused_) return true;
+  paused_ = pause;
+  steps_wanted_ = 0;
+  stands_since_ = ros::SteadyTime();
+  pacer_.start(run_.time(), ros::SteadyTime::now());
+  return true;
+}
+
+bool Player::onStep(TriggerRequest&, TriggerResponse& response) {
+  if (run_.isOver()) {
+    answer(response, false, overMessage());
+  } else if (!paused_) {
+    answer(response, false, "the run is not paused: call ~pause first");
+  } else {
+    ++steps_wanted_;
+    answer(response, true, fmt::format("going to frame {}", run_.frame() + steps_wanted_));
+  }
+  return true;
+}
+
+bool Player::onReset(TriggerRequest&, TriggerResponse& response) {
+  reset_wanted_ = true;
+  answer(response, true,
+         fmt::format("back to frame 0 from frame {}{}", run_.frame(), paused_ ? ", paused" : ""));
+  return true;
+}
+
+void Player::onLeaderState(const PendulumState::ConstPtr& state) {
+  if (state->time < leader_time_) reset_wanted_ = true;
+  leader_time_ = state->time;
+}
+
+}  // namespace spring_pendulum

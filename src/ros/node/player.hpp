@@ -1,0 +1,78 @@
+// Decides the next action of a node: paces a run by the wall clock or by the simulated time of
+// another node, and provides the services ~pause, ~step and ~reset.
+#pragma once
+
+#include "ros/node/master_registration.hpp"
+#include "ros/node/pacer.hpp"
+#include "ros/parameters/node_options.hpp"
+#include "ros/pendulum_run.hpp"
+#include <spring_pendulum/PendulumState.h>
+
+#include <ros/node_handle.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <string>
+
+namespace spring_pendulum {
+
+class Player {
+ public:
+  enum class Action {
+    kAdvance,       ///< advance to the next shown state
+    kAdvanceFrame,  ///< advance to the next frame
+    kReset,         ///< return to frame 0
+    kShowBetween,   ///< slow motion: show a state between the last two; see `shownShare`
+    kShowAgain,     ///< show the same state again, for late subscribers
+    kQuit
+  };
+
+  /// \param run must outlive the player
+  Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
+         const NodeOptions& options, MasterRegistration& registration);
+
+  /// Serves callbacks until the next action is due.
+  Action next();
+
+  bool isPaused() const { return paused_; }
+  /// The state to show: 1 for the state of the run, less than 1 for a state between the previous
+  /// one and this. In slow motion the run is one state ahead of the display.
+  double shownShare() const;
+  /// Speed of the run: "1.00 x real time"
+  std::string pace() const;
+
+ private:
+  using TriggerRequest = std_srvs::Trigger::Request;
+  using TriggerResponse = std_srvs::Trigger::Response;
+
+  bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool onStep(TriggerRequest& request, TriggerResponse& response);
+  bool onReset(TriggerRequest& request, TriggerResponse& response);
+  void onLeaderState(const PendulumState::ConstPtr& state);
+
+  std::string overMessage() const;
+  Action reset();
+  bool isDue() const;
+  bool isSlow() const;
+  bool isAhead() const;
+  bool isAtExit() const;
+  void serveUntilDue();
+
+  const PendulumRun& run_;
+  NodeOptions options_;
+  Pacer pacer_;
+  bool paused_ = false;
+  bool reset_wanted_ = false;
+  std::int64_t steps_wanted_ = 0;
+  double ahead_from_ = -1.0;  ///< s, slow motion: time of the previous state; else < 0
+  ros::SteadyTime next_between_;
+  double leader_time_ = -1.0;     ///< s, simulated time of the followed node
+  ros::SteadyTime stands_since_;  ///< zero while the run advances
+  ros::SteadyTime last_shown_;    ///< while the run is paused
+  ros::ServiceServer pause_;
+  ros::ServiceServer step_;
+  ros::ServiceServer reset_;
+  ros::Subscriber leader_;
+};
+
+}  // namespace spring_pendulum

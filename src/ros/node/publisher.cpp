@@ -1,0 +1,162 @@
+#include "ros/node/publisher.hpp"
+
+#include "io/program/interruption.hpp"
+
+#include <fmt/format.h>
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <tf2_msgs/TFMessage.h>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kPollInterval = 0.01;  // s between two checks for subscribers
+constexpr double kLongestWait = 1e9;    // s; ros::Duration has 32 bits for seconds
+
+/// Limit of the queue of states, bytes. A slow subscriber loses messages instead of increasing the
+/// memory of the node.
+constexpr std::int64_t kQueueBytes = 64 << 20;
+constexpr std::int64_t kLongestQueue = 1000;
+
+std::uint32_t queueLength(std::int64_t message_bytes) {
+  return static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(kQueueBytes / message_bytes, 2, kLongestQueue));
+}
+
+}  // namespace
+
+PendulumStatus statusOf(const PendulumRun& run, bool paused) {
+  PendulumStatus status;
+  const Verdict& verdict = run.verdict();
+  setPositionError(run, status);
+  if (!run.isShown()) {
+    status.code = PendulumStatus::DIVERGED;
+    status.text = verdict.text;
+    return status;
+  }
+  if (run.isOver()) {
+    status.code = PendulumStatus::FINISHED;
+    status.text = fmt::format("finished: {} frames, {:.6g} s, {}", run.frame() + 1, run.time(),
+                              run.measurements());
+  } else if (paused) {
+    status.code = PendulumStatus::PAUSED;
+    status.text = fmt::format("paused at frame {}, t = {:.6g} s", run.frame(), run.time());
+  } else {
+    status.code = PendulumStatus::RUNNING;
+    status.text = fmt::format("running, {} frames to t = {:.6g} s", run.scenario().frames,
+                              frameSteps(run.scenario()).timeOfFrame(run.scenario().frames - 1));
+  }
+  status.text += ", verdict: " + verdict.text;
+  return status;
+}
+
+Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
+                     MasterRegistration& registration)
+    : frame_id_(options.frame_id),
+      camera_frame_(options.camera_frame),
+      publishes_clock_(options.publish_clock),
+      stamps_(options.publish_clock),
+      marker_builder_(run, options),
+      state_builder_(options.y_offset) {
+  const std::int64_t particles = run.chain().size();
+  const std::int64_t state_bytes = 1024 + 48 * particles;
+  const std::int64_t marker_bytes = 4096 + 128 * std::min(particles, options.display_limit);
+  markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", queueLength(marker_bytes));
+  state_ = node.advertise<PendulumState>("state", queueLength(state_bytes));
+  status_topic_ = node.advertise<PendulumStatus>("status", 10, true);
+  registration.addTopic("/rosout", "rosgraph_msgs/Log");
+  registration.addTopic(markers_.getTopic(), "visualization_msgs/MarkerArray");
+  registration.addTopic(state_.getTopic(), "spring_pendulum/PendulumState");
+  registration.addTopic(status_topic_.getTopic(), "spring_pendulum/PendulumStatus");
+  if (!camera_frame_.empty()) {
+    tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
+    registration.addTopic(tf_static_.getTopic(), "tf2_msgs/TFMessage");
+  }
+  if (!publishes_clock_) return;
+  clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  registration.addTopic(clock_.getTopic(), "rosgraph_msgs/Clock");
+}
+
+std::uint32_t Publisher::subscribers() const {
+  return markers_.getNumSubscribers() + state_.getNumSubscribers() +
+         status_topic_.getNumSubscribers();
+}
+
+bool Publisher::isWatched() const {
+  return publishes_clock_ || markers_.getNumSubscribers() + state_.getNumSubscribers() > 0;
+}
+
+void Publisher::waitForSubscribers(const NodeOptions& options) {
+  const ros::SteadyTime start = ros::SteadyTime::now();
+  const ros::WallDuration timeout(std::min(options.wait_timeout, kLongestWait));
+  const auto is_ready = [&] { return subscribers() >= options.wait_for_subscribers; };
+  if (is_ready()) return;
+  PendulumStatus waiting;
+  waiting.code = PendulumStatus::WAITING;
+  waiting.text = fmt::format("waiting for {} subscribers", options.wait_for_subscribers);
+  ROS_INFO_STREAM(waiting.text << " of markers, state and status (wait_for_subscribers)");
+  publishStatus(waiting, stamps_.next(0.0));
+  while (ros::ok() && interruption() == 0 && !is_ready()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPollInterval));
+    if (timeout.isZero() || ros::SteadyTime::now() - start < timeout) continue;
+    ROS_WARN("%u of %ld subscribers after %.6g s: starting without the others", subscribers(),
+             static_cast<long>(options.wait_for_subscribers), options.wait_timeout);
+    return;
+  }
+}
+
+void Publisher::publish(const PendulumRun& run, bool paused, const std::string& pace,
+                        double share) {
+  std_msgs::Header header;
+  header.frame_id = frame_id_;
+  header.stamp = stamps_.next(run.time());
+  if (publishes_clock_) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = header.stamp;
+    clock_.publish(clock);
+  }
+  marker_builder_.trackTip(run);
+  if (markers_.getNumSubscribers() > 0) publishMarkers(run, header, pace, share);
+  if (state_.getNumSubscribers() > 0) {
+    state_.publish(state_builder_.build(run, header));
+    ++states_built_;
+  }
+  publishStatus(statusOf(run, paused), header.stamp);
+}
+
+void Publisher::publishBetween(const PendulumRun& run, const std::string& pace, double share) {
+  if (markers_.getNumSubscribers() == 0) return;
+  std_msgs::Header header;
+  header.frame_id = frame_id_;
+  header.stamp = stamps_.next(run.time());
+  publishMarkers(run, header, pace, share);
+}
+
+void Publisher::publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
+                               const std::string& pace, double share) {
+  shown_.follow(run, share);
+  const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, shown_, header, pace);
+  if (!camera_frame_.empty() && marker_builder_.cameraChanges() != camera_changes_sent_) {
+    camera_changes_sent_ = marker_builder_.cameraChanges();
+    tf2_msgs::TFMessage message;
+    message.transforms = {marker_builder_.camera(header)};
+    tf_static_.publish(message);
+  }
+  markers_.publish(markers);
+  ++markers_built_;
+}
+
+void Publisher::publishStatus(PendulumStatus status, const ros::Time& stamp) {
+  if (status_sent_ && status.code == status_.code && status.text == status_.text) return;
+  status.header.frame_id = frame_id_;
+  status.header.stamp = stamp;
+  status_ = status;
+  status_sent_ = true;
+  status_topic_.publish(status_);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,107 @@
+#include "ros/node/run_log.hpp"
+
+#include "simulation/advice/stability_warning.hpp"
+#include "simulation/memory.hpp"
+#include <spring_pendulum/simulation/stability_advice.hpp>
+
+#include <fmt/format.h>
+
+#include <ros/console.h>
+
+#include <filesystem>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr int kMostChoices = 5;  ///< number of logged choices of Auto
+
+/// Logs that the display rate exceeds the number of states that a fixed step gives.
+void logDisplayRate(const PendulumRun& run, const NodeOptions& options) {
+  if (!run.scenario().method.get().hasFixedStep() || options.real_time_factor <= 0.0) return;
+  const double states = options.real_time_factor / run.scenario().time_step;
+  if (options.display_rate <= states * (1.0 + 1e-9)) return;
+  ROS_INFO_STREAM(fmt::format(
+      "display_rate is {:g} Hz, but a time step of {:g} s gives only {:.3g} states per second at "
+      "real_time_factor {:g}: the markers are interpolated between them",
+      options.display_rate, run.scenario().time_step, states, options.real_time_factor));
+}
+
+/// The end of a report, such as "1 switch", which changes with every choice of Auto.
+std::string switchesOf(const std::string& report) {
+  const std::size_t comma = report.rfind(", ");
+  return comma == std::string::npos ? report : report.substr(comma + 2);
+}
+
+}  // namespace
+
+std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
+                        const Publisher& publisher) {
+  const std::string report = run.integrator().report();
+  return fmt::format(
+      "{}{}: {} particles, {} frames, {}{} force evaluations, {:.3f} s integrating, {:.3f} s "
+      "writing {} frames, {} marker and {} state messages built, {}, verdict: {}",
+      run.scenario().method.get().name, report.empty() ? "" : " (" + report + ")",
+      run.chain().size(), totals.frames,
+      run.scenario().method.get().hasFixedStep() ? fmt::format("{} steps, ", totals.steps) : "",
+      run.integrator().forceEvaluations(), totals.seconds, files.secondsWriting(),
+      files.framesWritten(), publisher.markersBuilt(), publisher.statesBuilt(), run.measurements(),
+      run.verdict().text);
+}
+
+void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {
+  holds_ = options.at_end == AtEnd::kHold;
+  const Scenario& scenario = run.scenario();
+  ROS_INFO_STREAM(scenario.method.get().name
+                  << " on "
+                  << std::filesystem::absolute(scenario.particles).lexically_normal().string()
+                  << ", " << files.description());
+  const std::string warning = stabilityWarning(run.chain(), run.start(), scenario);
+  if (!warning.empty()) ROS_WARN_STREAM(warning);
+  const std::string memory = memoryRemark(scenario, run.chain().size());
+  if (!memory.empty()) ROS_INFO_STREAM(memory);
+  logDisplayRate(run, options);
+  if (!options.follow.empty()) {
+    ROS_INFO_STREAM("waiting for states of another node on " << options.follow << " (follow)");
+  }
+}
+
+void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles& files,
+                    const Publisher& publisher) {
+  const Verdict& verdict = run.verdict();
+  if (verdict.kind > said_verdict_) {
+    said_verdict_ = verdict.kind;
+    if (verdict.kind == VerdictKind::kDiverged) {
+      ROS_ERROR_STREAM(verdict.text
+                       << "; " << remedyForDivergence(run.chain(), run.start(), run.scenario()));
+    } else if (verdict.kind != VerdictKind::kNotChecked) {
+      ROS_WARN_STREAM(verdict.text);
+    }
+  }
+  if (!said_tolerance_ && !run.toleranceRemark().empty()) {
+    said_tolerance_ = true;
+    ROS_WARN_STREAM(run.toleranceRemark());
+  }
+  sayChoice(run);
+  if (!run.isOver() || said_frames_ != 0) return;
+  said_frames_ = totals.frames;
+  ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
+  if (holds_) ROS_INFO("the last frame stays shown until Ctrl-C (at_end: hold)");
+}
+
+void RunLog::finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,
+                    const Publisher& publisher) {
+  if (said_frames_ == totals.frames) return;
+  ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
+}
+
+void RunLog::sayChoice(const PendulumRun& run) {
+  if (choices_said_ == kMostChoices || run.frame() == 0) return;
+  const std::string report = run.integrator().report();
+  const std::string choice = switchesOf(report);
+  if (choice.empty() || choice == said_choice_) return;
+  said_choice_ = choice;
+  ++choices_said_;
+  ROS_INFO_STREAM(run.scenario().method.get().name << " chose " << report);
+}
+
+}  // namespace spring_pendulum

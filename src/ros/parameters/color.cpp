@@ -1,0 +1,75 @@
+#include "ros/parameters/color.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+
+namespace spring_pendulum {
+namespace {
+
+std_msgs::ColorRGBA fromHex(std::uint32_t rgb) {
+  std_msgs::ColorRGBA color;
+  color.r = static_cast<float>((rgb >> 16) & 0xff) / 255.0F;
+  color.g = static_cast<float>((rgb >> 8) & 0xff) / 255.0F;
+  color.b = static_cast<float>(rgb & 0xff) / 255.0F;
+  color.a = 1.0F;
+  return color;
+}
+
+std_msgs::ColorRGBA mix(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to,
+                        double share) {
+  const auto part = static_cast<float>(std::clamp(share, 0.0, 1.0));
+  std_msgs::ColorRGBA color;
+  color.r = from.r + part * (to.r - from.r);
+  color.g = from.g + part * (to.g - from.g);
+  color.b = from.b + part * (to.b - from.b);
+  color.a = 1.0F;
+  return color;
+}
+
+}  // namespace
+
+std::optional<std_msgs::ColorRGBA> parseColor(std::string_view text) {
+  if (text.size() != 7 || text.front() != '#') return std::nullopt;
+  std::uint32_t rgb = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), rgb, 16);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return fromHex(rgb);
+}
+
+std_msgs::ColorRGBA strainColor(double strain) {
+  static const std_msgs::ColorRGBA kShort = fromHex(0x2f7bff);
+  static const std_msgs::ColorRGBA kRelaxed = fromHex(0xf2f2f2);
+  static const std_msgs::ColorRGBA kStretched = fromHex(0xff3b20);
+  return mix(kRelaxed, strain < 0.0 ? kShort : kStretched, strain < 0.0 ? -strain : strain);
+}
+
+std_msgs::ColorRGBA massColor(double weight) {
+  static const std_msgs::ColorRGBA kLight = fromHex(0xffe28a);
+  static const std_msgs::ColorRGBA kHeavy = fromHex(0xb04bff);
+  return mix(kLight, kHeavy, weight);
+}
+
+std_msgs::ColorRGBA lighter(const std_msgs::ColorRGBA& color) {
+  return mix(color, fromHex(0xffffff), 0.5);
+}
+
+std_msgs::ColorRGBA anchorColor() {
+  return fromHex(0x9aa4b2);
+}
+std_msgs::ColorRGBA gridColor() {
+  std_msgs::ColorRGBA color = fromHex(0x788291);
+  color.a = 0.25F;
+  return color;
+}
+std_msgs::ColorRGBA textColor() {
+  return fromHex(0xe6e9ee);
+}
+std_msgs::ColorRGBA doubtColor() {
+  return fromHex(0xffb000);
+}
+std_msgs::ColorRGBA divergedColor() {
+  return fromHex(0xff2fd0);
+}
+
+}  // namespace spring_pendulum

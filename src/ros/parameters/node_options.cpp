@@ -1,0 +1,74 @@
+#include "ros/parameters/node_options.hpp"
+
+#include "ros/parameters/color.hpp"
+
+#include <ros/names.h>
+
+namespace spring_pendulum {
+namespace {
+
+bool isFrameName(std::string_view text) {
+  return !text.empty() && text.front() != '/' && text.find(' ') == std::string_view::npos;
+}
+
+bool isCameraFrame(std::string_view text) {
+  return text.empty() || isFrameName(text);
+}
+
+bool isColor(std::string_view text) {
+  return text.empty() || parseColor(std::string(text)).has_value();
+}
+
+}  // namespace
+
+bool isTopicName(std::string_view text) {
+  std::string reason;
+  const bool is_private = !text.empty() && text.front() == '~';
+  return !is_private && ros::names::validate(std::string(text), reason);
+}
+
+std::vector<Option> displayOptions(NodeOptions& o) {
+  return {
+      {"frame_id", Text{&o.frame_id, "NAME", "a name without a leading '/'", isFrameName}, "",
+       "tf frame of all messages; the chain moves in its x-z plane"},
+      {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
+       "states published per second, also between frames; 0: frames only"},
+      {"track_energy", Flag{&o.track_energy}, "",
+       "integrate the dissipated energy, for the energy error"},
+      {"trail", Number{&o.trail, Range::atLeast(0)}, "s", "length of the tip's trail; 0: none"},
+      {"color",
+       Text{&o.color, "#rrggbb", "#rrggbb, or empty for colours by strain and mass", isColor}, "",
+       "one colour for the whole chain"},
+      {"display_limit", Count{&o.display_limit, Range::atLeast(2)}, "",
+       "largest number of particles drawn; a longer chain is thinned, in the markers only"},
+      {"show_reference", Flag{&o.show_reference}, "",
+       "draw the true motion, from the reference run, as a pale second chain"},
+      {"y_offset", Number{&o.y_offset, Range::any()}, "m", "y of the plane of the motion"},
+      {"text_row", Count{&o.text_row, Range::atLeast(0)}, "", "row of the text, counted upwards"},
+      {"text_rows", Count{&o.text_rows, Range::atLeast(1)}, "",
+       "number of chains that share the picture; with several, each has one line of text"},
+      {"camera_frame",
+       Text{&o.camera_frame, "NAME", "a name without a leading '/', or empty for none",
+            isCameraFrame},
+       "", "tf frame of the camera that shows the whole scene"},
+  };
+}
+
+std::vector<Option> playOptions(NodeOptions& o) {
+  return {
+      {"real_time_factor", Number{&o.real_time_factor, Range::atLeast(0)}, "",
+       "simulated seconds per second; 0: as fast as possible"},
+      {"at_end", Choice(&o.at_end, {"hold", "exit", "loop"}), "",
+       "what to do after the last frame"},
+      {"wait_for_subscribers", Count{&o.wait_for_subscribers, Range::atLeast(0)}, "",
+       "start when markers, state and status have this many subscribers in all"},
+      {"wait_timeout", Number{&o.wait_timeout, Range::atLeast(0)}, "s",
+       "start without subscribers after this time; 0: never"},
+      {"publish_clock", Flag{&o.publish_clock}, "",
+       "publish simulated time on /clock and stamp with it"},
+      {"follow", Text{&o.follow, "TOPIC", "the name of a topic", isTopicName}, "",
+       "state topic of another node whose simulated time this one follows"},
+  };
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,33 @@
+// Reads the private parameters of the node into the option tables.
+#pragma once
+
+#include "ros/parameters/node_options.hpp"
+#include <spring_pendulum/simulation/scenario.hpp>
+
+#include <XmlRpcValue.h>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+
+struct NodeConfiguration {
+  Scenario scenario;
+  NodeOptions options;
+  std::vector<std::string> unused;  ///< given keys that the method does not use
+};
+
+/// Returns the raw value as text: 4, "4" and 4.0 are the same, and so are true and "true".
+/// \param where prefix of error messages
+/// \throws InputError for a list, a map or anything else that is not a single value
+std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
+                          const std::string& where);
+
+/// \param parameters a map from key to value
+/// \param where      prefix of error messages: the name of the node
+/// \throws InputError for an unknown key, listing the known ones, or a wrong value
+NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where);
+
+/// Reads the private parameters of this node.
+NodeConfiguration readPrivateParameters();
+
+}  // namespace spring_pendulum

@@ -1,0 +1,240 @@
+#include "model/chain_modes.hpp"
+#include "model/checks.hpp"
+#include "simulation/advice/trial.hpp"
+#include <spring_pendulum/simulation/stability_advice.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// Factor of the linear limit. Measured on 140 random scenes: without it, the limit was up to 3.3
+/// times too large (one scene, Semi-Implicit-Euler).
+constexpr double kLinearMargin = 0.25;
+/// Number of steps in which the growth of an unstable mode becomes visible.
+constexpr double kStepsOfMode = 2000.0;
+
+/// Work of a trial after a divergence: about 0.02 s.
+constexpr double kRemedyWork = 2e6;
+
+bool isStable(const Trial& trial) {
+  return trial.affordable && trial.verdict.kind < VerdictKind::kGainedEnergy;
+}
+
+bool isAccurate(const Trial& trial) {
+  return trial.affordable && !isBad(trial.verdict.kind);
+}
+
+double stableStep(const TrialBench& bench, const Method& method, double first) {
+  return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
+    return isStable(bench.run(method, step, false, VerdictKind::kGainedEnergy));
+  });
+}
+
+double accurateStep(const TrialBench& bench, const Method& method, double first) {
+  return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
+    return isAccurate(bench.run(method, step, true, VerdictKind::kInaccurate));
+  });
+}
+
+/// The stable step size for q'' + damping q' + stiffness q = 0.
+double stepForMode(const Method& method, double stiffness, double damping, double duration) {
+  const double rate = std::max(std::sqrt(stiffness), damping);
+  if (!(rate > 0.0) || !std::isfinite(rate)) return rate > 0.0 ? 0.0 : kUnlimited;
+  const Chain chain(Eigen::Vector2d::Ones(), {stiffness, damping, 1.0}, 0.0);
+  State start(2);
+  start.x()[1] = 1.125;
+  start.vx()[1] = 0.125 * rate;
+  const double tried = std::min(duration, kStepsOfMode / rate);
+  const TrialBench bench(chain, start, tried, tried / 100.0);
+  return stableStep(bench, method, 1.0 / rate);
+}
+
+double durationOf(const Scenario& scenario) {
+  const FrameSteps step = frameSteps(scenario);
+  return std::max(step.timeOfFrame(scenario.frames - 1), step.time_step);
+}
+
+TrialBench benchFor(const Chain& chain, const State& start, const Scenario& scenario,
+                    double most_work = TrialBench::kMostWork) {
+  return {chain, start, durationOf(scenario), frameSteps(scenario).timeOfFrame(1), most_work};
+}
+
+/// To three digits and never up, as the next step size up may fail.
+std::string digits(double step) {
+  const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
+  return fmt::format("{:.3g}", std::floor(step / unit * (1.0 + 1e-9)) * unit);
+}
+
+std::string stepText(double step) {
+  if (step == 0.0) return "none that could be tried";
+  return std::isinf(step) ? "the whole run" : digits(step) + " s";
+}
+
+std::string errorText(const Trial& trial) {
+  const PositionError& error = trial.position_error;
+  const std::string position =
+      std::isnan(error.largest)
+          ? "position error unknown"
+          : fmt::format(
+                "largest position error {:.2g} m at t = {:.4g} s{}", error.largest,
+                error.largest_time,
+                trial.measured ? "" : fmt::format(" (known until {:.4g} s)", error.measured_until));
+  return fmt::format("{}, largest energy error {:.2g} % of the energy scale", position,
+                     100.0 * trial.energy_error);
+}
+
+std::string linearText(const Method& method, const Chain& chain, double duration) {
+  return fmt::format(
+      "{}: too many particles and steps to try; linear stability limit with margin: "
+      "{}\n",
+      method.name, stepText(linearStepLimit(method, chain, duration)));
+}
+
+/// A method with a step size that reaches a given error.
+struct Candidate {
+  const Method* method = nullptr;
+  double step = 0.0;  ///< s, or the tolerance in m
+  std::int64_t evaluations = 0;
+  double work = kUnlimited;
+};
+
+/// The error must be this part of what is wished: a smaller step or tolerance may happen to give a
+/// larger error.
+constexpr double kShareOfWanted = 0.5;
+
+bool reaches(const Trial& trial, double wanted) {
+  return isStable(trial) && trial.measured &&
+         trial.position_error.largest <= kShareOfWanted * wanted;
+}
+
+Candidate cheapestTolerance(const TrialBench& bench, const Method& method, double wanted) {
+  for (double tolerance = wanted; tolerance > 0.005 * wanted; tolerance *= 0.1) {
+    const Trial trial = bench.run(method, tolerance, true, VerdictKind::kGainedEnergy);
+    if (!trial.affordable) break;
+    if (reaches(trial, wanted)) {
+      return {&method, tolerance, trial.evaluations, trial.work};
+    }
+  }
+  return {};
+}
+
+/// \param most_work of interest
+Candidate cheapestStep(const TrialBench& bench, const Method& method, double first, double wanted,
+                       double most_work) {
+  const double least = std::max(bench.leastStep(method), bench.workOf(method, 1.0) / most_work);
+  const double step = largestPassingStep(first, least, bench.duration(), [&](double tried) {
+    return reaches(bench.run(method, tried, true, VerdictKind::kGainedEnergy), wanted);
+  });
+  if (step == 0.0 || std::isinf(step)) return {};
+  const double evaluations = bench.duration() / step * method.stages;
+  return {&method, step, std::llround(evaluations), bench.workOf(method, step)};
+}
+
+std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
+  Candidate best;
+  const double wanted = scenario.wanted_error;
+  for (const StepControl control : {StepControl::kErrorControlled, StepControl::kFixed}) {
+    for (const Method& method : methodTable()) {
+      if (method.control != control) continue;
+      const Candidate candidate =
+          control == StepControl::kFixed
+              ? cheapestStep(bench, method, scenario.time_step, wanted, best.work)
+              : cheapestTolerance(bench, method, wanted);
+      if (candidate.work < best.work) best = candidate;
+    }
+  }
+  if (best.method == nullptr) {
+    return fmt::format("position error of at most {:.3g} m: no method tried reaches it\n", wanted);
+  }
+  const bool fixed = best.method->hasFixedStep();
+  return fmt::format(
+      "position error of at most {:.3g} m: {} with a {} of {} {}, {} force evaluations\n", wanted,
+      best.method->name, fixed ? "step size" : "tolerance",
+      fixed ? digits(best.step) : fmt::format("{:.3g}", best.step), fixed ? "s" : "m",
+      best.evaluations);
+}
+
+}  // namespace
+
+StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
+                          double first, double duration, double frame_interval) {
+  requireSize(chain.size(), start);
+  requireFinitePositive("first", first, "s");
+  requireFinitePositive("duration", duration, "s");
+  requireFinitePositive("frame_interval", frame_interval, "s");
+  const TrialBench bench(chain, start, duration, frame_interval);
+  StepLimits limits;
+  limits.stable = stableStep(bench, method, first);
+  if (limits.stable == 0.0) return limits;
+  limits.accurate = accurateStep(bench, method, std::min(first, limits.stable));
+  return limits;
+}
+
+double linearStepLimit(const Method& method, const Chain& chain, double duration) {
+  requireFinitePositive("duration", duration, "s");
+  const double mode = largestSpringMode(chain);
+  if (!method.hasFixedStep() || mode == 0.0) return kUnlimited;
+  const SpringLaw& spring = chain.spring();
+  const double damped =
+      stepForMode(method, spring.stiffness * mode, spring.damping * mode, duration);
+  if (method.imaginary_stability_limit == 0.0) {
+    const double swing = slowSwing(chain);
+    return kLinearMargin * std::min(damped, stepForMode(method, swing * swing, 0.0, duration));
+  }
+  // Transverse motion is undamped; the tension acts as a stiffness below k_s.
+  return kLinearMargin *
+         std::min(damped, stepForMode(method, spring.stiffness * mode, 0.0, duration));
+}
+
+std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
+  requireSize(chain.size(), start);
+  const Method& method = scenario.method;
+  const bool fixed = method.hasFixedStep();
+  const TrialBench bench = benchFor(chain, start, scenario);
+  const double duration = bench.duration();
+  const Trial trial = bench.run(method, scenario.tolerance, frameSteps(scenario),
+                                std::max<std::int64_t>(scenario.frames - 1, 1), true);
+  if (!trial.affordable) {
+    return fixed ? linearText(method, chain, duration)
+                 : fmt::format("{}: too costly to try\n", method.name);
+  }
+  std::string text = fmt::format("{} with a {} of {} {} over {:.4g} s: {}, {}\n", method.name,
+                                 fixed ? "step size" : "tolerance",
+                                 fixed ? scenario.time_step : scenario.tolerance, fixed ? "s" : "m",
+                                 duration, trial.verdict.text, errorText(trial));
+  if (fixed) {
+    const StepLimits limits = findStepLimits(method, chain, start, scenario.time_step, duration,
+                                             frameSteps(scenario).timeOfFrame(1));
+    text += fmt::format("largest stable step size: {}; largest accurate step size: {}\n",
+                        stepText(limits.stable), stepText(limits.accurate));
+  }
+  if (scenario.wanted_error > 0.0) text += cheapestFor(bench, scenario);
+  return text;
+}
+
+std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario) {
+  const Method& method = scenario.method;
+  const TrialBench bench = benchFor(chain, start, scenario, kRemedyWork);
+  std::string text;
+  if (method.hasFixedStep()) {
+    const double tried = stableStep(bench, method, 0.5 * scenario.time_step);
+    const double step = tried > 0.0 ? tried : linearStepLimit(method, chain, bench.duration());
+    text = fmt::format("largest stable step for {}: {}{}", method.name, stepText(step),
+                       tried > 0.0 ? "" : " (linear estimate)");
+  } else {
+    text = fmt::format("try a tolerance below {} m", scenario.tolerance);
+  }
+  const Method& other = findMethod("Auto");
+  if (&other == &method) return text;
+  const bool works = isStable(bench.run(other, scenario.tolerance, false));
+  return works ? fmt::format("{}; {} would do", text, other.name) : text;
+}
+
+}  // namespace spring_pendulum

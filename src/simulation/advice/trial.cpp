@@ -1,0 +1,192 @@
+#include "simulation/advice/trial.hpp"
+
+#include "integration/error_control/dense_output_integrator.hpp"
+#include "simulation/integrator_settings.hpp"
+#include <spring_pendulum/simulation/reference_run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kRatio = 1.01;  ///< from one step size of the grid to the next
+constexpr int kStride = 32;      ///< of the coarse search, in points of the grid
+/// Points below the result that have to pass as well: nearly undamped chains have narrow windows of
+/// unstable steps. Fewer where trials are costly, which is on stiff and damped chains.
+constexpr int kLeastLookBack = 10;
+constexpr int kMostLookBack = 40;
+
+/// Overhead of a force evaluation, in particles.
+constexpr double kOverhead = 4.0;
+
+double weight(const Chain& chain) {
+  return static_cast<double>(chain.size()) + kOverhead;
+}
+
+/// Advances by one frame, or until as much work is done as `most` force evaluations.
+/// \returns whether the frame was finished
+bool advanceWithin(Integrator& integrator, State& state, const FrameSteps& frame, double most) {
+  if (auto* controlled = dynamic_cast<DenseOutputIntegrator*>(&integrator)) {
+    return controlled->advanceWithin(state, frame.time_step, frame.steps, most);
+  }
+  integrator.advance(state, frame.time_step, frame.steps);
+  return true;
+}
+
+double workDone(const Method& method, const Chain& chain, const Integrator& integrator) {
+  const auto* controlled = dynamic_cast<const DenseOutputIntegrator*>(&integrator);
+  if (controlled != nullptr) return controlled->statistics().work();
+  return workPerEvaluation(method, chain.size()) *
+         static_cast<double>(integrator.forceEvaluations());
+}
+
+/// Whether a step size passes, by its place on a geometric grid. Tries each only once.
+class Grid {
+ public:
+  Grid(double first, double least, double most, const std::function<bool(double)>& passes)
+      : first_(first), least_(least), most_(most), passes_(passes) {}
+
+  double step(int i) const {
+    double step = first_;
+    for (; i > 0; --i) step *= kRatio;
+    for (; i < 0; ++i) step /= kRatio;
+    return step;
+  }
+  bool isTooSmall(int i) const { return step(i) < least_; }
+  bool isTooLarge(int i) const { return step(i) > most_; }
+  bool passes(int i) {
+    const auto known = known_.find(i);
+    if (known != known_.end()) return known->second;
+    return known_[i] = passes_(step(i));
+  }
+
+  /// Returns the first of the points i, i - kStride, ... that passes.
+  std::optional<int> descend(int i) {
+    while (!isTooSmall(i) && !passes(i)) i -= kStride;
+    return isTooSmall(i) ? std::nullopt : std::optional<int>(i);
+  }
+
+  /// Returns a point that passes, whose upper neighbour fails, between `good` and `bad`.
+  int bisect(int good, int bad) {
+    while (bad - good > 1) {
+      const int middle = good + (bad - good) / 2;
+      (passes(middle) ? good : bad) = middle;
+    }
+    return good;
+  }
+
+  /// The highest of the points just below `good` that fails; or a point below a step size with one
+  /// of the usual safety margins, if that fails.
+  std::optional<int> failureBelow(int good) {
+    const double count =
+        std::clamp(kLeastLookBack * step(good) / least_, 1.0 * kLeastLookBack, 1.0 * kMostLookBack);
+    for (int i = good - 1; i >= good - static_cast<int>(count) && !isTooSmall(i); --i) {
+      if (!passes(i)) return i;
+    }
+    for (const double share : {0.95, 0.9}) {
+      const int below = good - static_cast<int>(std::ceil(-std::log(share) / std::log(kRatio)));
+      if (!isTooSmall(below) && !passes_(share * step(good))) return below;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double first_;
+  double least_;
+  double most_;
+  const std::function<bool(double)>& passes_;
+  std::map<int, bool> known_;
+};
+
+}  // namespace
+
+Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
+                      const FrameSteps& frame, std::int64_t frames, bool with_reference,
+                      VerdictKind enough) const {
+  IntegratorOptions integrator_options;
+  integrator_options.tolerance = tolerance.value_or(integrator_options.tolerance);
+  integrator_options.track_dissipation = true;
+  integrator_options.threads = 1;
+  const auto integrator = makeIntegrator(method, chain_, integrator_options);
+  const bool fixed = method.hasFixedStep();
+  Judge judge(
+      chain_, start_,
+      JudgeOptions{true, method.symplectic ? frame.time_step : 0.0, tolerance.value_or(0.0)});
+  ReferenceOptions options;
+  options.run_tolerance = tolerance.value_or(options.run_tolerance);
+  ReferenceRun reference(chain_, start_, options);
+  State state = start_;
+  Trial trial;
+  const double most = most_work_ / weight(chain_);
+  if (fixed) {
+    const double steps = static_cast<double>(frames) * static_cast<double>(frame.steps);
+    trial.affordable = steps * method.stages <= most;
+  }
+  for (std::int64_t n = 1; n <= frames && trial.affordable; ++n) {
+    trial.affordable = advanceWithin(*integrator, state, frame, most);
+    trial.evaluations = integrator->forceEvaluations();
+    trial.work = workDone(method, chain_, *integrator);
+    const double time = frame.timeOfFrame(n);
+    if (with_reference) {
+      reference.advance(frame.time_step, frame.steps, trial.work);
+      judge.judge(time, state, integrator->dissipatedEnergy(), &reference);
+    } else {
+      judge.judge(time, state, integrator->dissipatedEnergy());
+    }
+    trial.energy_error =
+        std::max(trial.energy_error, std::abs(judge.entry().relative_residual.value_or(0.0)));
+    if (judge.latest().kind >= enough) break;
+  }
+  trial.position_error = judge.positionError();
+  trial.measured = with_reference && reference.isMeasuring();
+  trial.verdict = judge.worst();
+  return trial;
+}
+
+Trial TrialBench::run(const Method& method, double step, bool with_reference,
+                      VerdictKind enough) const {
+  if (!method.hasFixedStep()) {
+    const double frames = std::ceil(duration_ / frame_interval_ * (1.0 - 1e-9));
+    return run(method, step, {frame_interval_, 1}, static_cast<std::int64_t>(frames),
+               with_reference, enough);
+  }
+  const FrameSteps frame{step, std::max<std::int64_t>(1, std::llround(frame_interval_ / step))};
+  const double frames = std::ceil(duration_ / frame.timeOfFrame(1) * (1.0 - 1e-9));
+  return run(method, std::nullopt, frame, static_cast<std::int64_t>(frames), with_reference,
+             enough);
+}
+
+double TrialBench::workOf(const Method& method, double step) const {
+  return duration_ / step * method.stages * workPerEvaluation(method, chain_.size());
+}
+
+double TrialBench::leastStep(const Method& method) const {
+  return duration_ * method.stages * weight(chain_) / most_work_;
+}
+
+double largestPassingStep(double first, double least, double most,
+                          const std::function<bool(double)>& passes) {
+  if (least > most) return 0.0;
+  Grid grid(std::clamp(first, least, most), least, most, passes);
+  std::optional<int> good = grid.descend(0);
+  for (const int i : {-kStride, -2 * kStride}) {
+    if (good == 0 && !grid.isTooSmall(i) && !grid.passes(i)) good = grid.descend(i);
+  }
+  if (!good) return 0.0;
+  int bad = *good + kStride;
+  while (!grid.isTooLarge(bad) && grid.passes(bad)) bad += kStride;
+  if (grid.isTooLarge(bad)) return std::numeric_limits<double>::infinity();
+  good = grid.bisect(bad - kStride, bad);
+  while (const std::optional<int> failure = grid.failureBelow(*good)) {
+    const std::optional<int> lower = grid.descend(*failure);
+    if (!lower) return 0.0;
+    good = grid.bisect(*lower, *failure);
+  }
+  return grid.step(*good);
+}
+
+}  // namespace spring_pendulum

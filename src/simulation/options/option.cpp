@@ -1,0 +1,138 @@
+#include "simulation/options/option.hpp"
+
+#include "model/numbers.hpp"
+#include <spring_pendulum/model/errors.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace spring_pendulum {
+namespace {
+
+std::string withRange(std::string_view noun, const Range& range) {
+  const std::string text = range.text();
+  return text.empty() ? fmt::format("a finite {}", noun) : fmt::format("a {} {}", noun, text);
+}
+
+/// Whether the text would be a number with a point instead of the comma.
+bool hasDecimalComma(std::string_view text) {
+  std::string with_point(text);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return with_point != text && parseNumber(with_point).has_value();
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  const bool is_above = value > least_ || (least_allowed_ && value == least_);
+  return std::isfinite(value) && is_above && value <= most_;
+}
+
+std::string Range::text() const {
+  if (std::isfinite(most_)) {
+    return fmt::format(least_allowed_ ? "from {:g} to {:g}" : "above {:g}, at most {:g}", least_,
+                       most_);
+  }
+  if (!std::isfinite(least_)) return "";
+  return fmt::format("{} {:g}", least_allowed_ ? "of at least" : "above", least_);
+}
+
+bool Number::assign(std::string_view text) const {
+  const std::optional<double> number = parseNumber(text);
+  if (!number || !accepted.contains(*number)) return false;
+  *value = *number;
+  return true;
+}
+
+std::string Number::text() const {
+  return fmt::format("{}", *value);
+}
+
+std::string Number::range() const {
+  return withRange("number", accepted);
+}
+
+bool Count::assign(std::string_view text) const {
+  const std::optional<std::int64_t> number = parseInteger(text);
+  if (!number || !accepted.contains(static_cast<double>(*number))) return false;
+  *value = *number;
+  return true;
+}
+
+std::string Count::text() const {
+  return fmt::format("{}", *value);
+}
+
+std::string Count::range() const {
+  return withRange("whole number", accepted);
+}
+
+bool Flag::assign(std::string_view text) const {
+  if (text != "true" && text != "false") return false;
+  *value = text == "true";
+  return true;
+}
+
+bool Text::assign(std::string_view text) const {
+  if (!accepts(text)) return false;
+  *value = text;
+  return true;
+}
+
+bool MethodName::assign(std::string_view text) const {
+  if (text.empty()) return false;
+  *value = findMethod(text);
+  return true;
+}
+
+bool Choice::assign(std::string_view text) const {
+  const auto word = std::find(words_.begin(), words_.end(), text);
+  if (word == words_.end()) return false;
+  store_(static_cast<std::size_t>(word - words_.begin()));
+  return true;
+}
+
+std::string Choice::range() const {
+  std::string text(words_.front());
+  for (std::size_t i = 1; i < words_.size(); ++i) {
+    text += fmt::format("{}{}", i + 1 == words_.size() ? " or " : ", ", words_[i]);
+  }
+  return text;
+}
+
+std::string Choice::placeholder() const {
+  return fmt::format("{}", fmt::join(words_, "|"));
+}
+
+void Option::assign(std::string_view text) const {
+  if (std::visit([&](const auto& kind) { return kind.assign(text); }, value)) return;
+  if (!isText() && hasDecimalComma(text)) {
+    throw InputError(fmt::format("'{}' is not a number; use a decimal point", text));
+  }
+  throw InputError(fmt::format("must be {}, got '{}'", range(), text));
+}
+
+std::string Option::text() const {
+  return std::visit([](const auto& kind) { return kind.text(); }, value);
+}
+
+std::string Option::range() const {
+  const std::string accepted = std::visit([](const auto& kind) { return kind.range(); }, value);
+  return unit.empty() ? accepted : fmt::format("{} {}", accepted, unit);
+}
+
+std::string Option::placeholder() const {
+  if (unit == "s") return "SECONDS";
+  if (unit == "m") return "METRES";
+  return std::visit([](const auto& kind) { return kind.placeholder(); }, value);
+}
+
+bool Option::isText() const {
+  return std::holds_alternative<Text>(value) || std::holds_alternative<MethodName>(value) ||
+         std::holds_alternative<Choice>(value);
+}
+
+}  // namespace spring_pendulum

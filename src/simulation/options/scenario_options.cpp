@@ -1,0 +1,70 @@
+#include "simulation/options/scenario_options.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/errors.hpp>
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace spring_pendulum {
+
+std::vector<Option> scenarioOptions(Scenario& s) {
+  constexpr auto kFixedStep = AppliesTo::kFixedStep;
+  constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
+  return {
+      {"method", MethodName{&s.method}, "", "integration method"},
+      {"particles", Text{&s.particles, "FILE", "a file"}, "",
+       "particle file, one line 'x y m' per particle"},
+      {"output", Text{&s.output, "DIR", "a folder"}, "",
+       "folder for the frame files, created if absent"},
+      {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
+      {"energy", Text{&s.energy, "FILE", "a file", anyText}, "",
+       "CSV file for the energy balance, one row per frame"},
+      {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
+       "after a divergence: stop, or continue as long as every number is finite"},
+      {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",
+       "measure the position error against a reference run: while it is cheap, to the end, or "
+       "never"},
+      {"frames", Count{&s.frames, Range::atLeast(1)}, "", "number of frames, including the start"},
+      {"steps_per_frame", Count{&s.steps_per_frame, Range::atLeast(1)}, "",
+       "integration steps per frame", kFixedStep},
+      {"time_step", Number{&s.time_step, Range::above(0)}, "s", "integration step size",
+       kFixedStep},
+      {"tolerance", Number{&s.tolerance, Range::above(0)}, "m", "position error to aim at",
+       kErrorControlled},
+      {"frame_interval", Number{&s.frame_interval, Range::aboveUpTo(0, 1e6)}, "s",
+       "simulated time between frames", kErrorControlled},
+      {"stiffness", Number{&s.stiffness, Range::atLeast(0)}, "N/m", "spring constant k_s"},
+      {"damping", Number{&s.damping, Range::atLeast(0)}, "N·s/m", "damping constant k_d"},
+      {"rest_length", Number{&s.rest_length, Range::atLeast(0)}, "m",
+       "length L_0 of an unloaded spring"},
+      {"gravity", Number{&s.gravity, Range::any()}, "m/s²", "gravity g, pointing down"},
+      {"wanted_error", Number{&s.wanted_error, Range::atLeast(0)}, "m",
+       "with --check: position error to find the cheapest method for; 0: none"},
+      {"threads", Count{&s.threads, Range::atLeast(0)}, "",
+       "largest number of threads; 0: one per processor core"},
+      {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",
+       "a chain whose particles all stay slower than this is not stepped; 0: always stepped"},
+  };
+}
+
+void checkScenario(const Scenario& scenario) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t steps = scenario.method.get().hasFixedStep() ? scenario.steps_per_frame : 1;
+  if (scenario.frames <= kMost / steps) return;  // frame times are computed from step counts
+  throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
+                               kMost, scenario.frames, steps));
+}
+
+std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options) {
+  const AppliesTo other =
+      scenario.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
+  std::vector<std::string_view> keys;
+  for (const Option& option : options.options()) {
+    if (option.applies_to == other && options.isGiven(option.key)) keys.push_back(option.key);
+  }
+  return keys;
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,25 @@
+// The table of the options of a run, and checks that involve several options.
+#pragma once
+
+#include "simulation/options/option_set.hpp"
+#include <spring_pendulum/simulation/scenario.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// All options of a scenario, bound to `scenario`, in the order of the help text. The help text
+/// shows the current values as defaults.
+std::vector<Option> scenarioOptions(Scenario& scenario);
+
+/// Checks what depends on several options.
+/// \throws InputError if the steps of the run can't be counted in 64 bits
+void checkScenario(const Scenario& scenario);
+
+/// Returns the given options that the method does not use: options for error-controlled methods if
+/// the method has a fixed step, and the reverse.
+std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options);
+
+}  // namespace spring_pendulum
