@@ -117,12 +117,12 @@ std::deque<Method> builtInMethods() {
        "doi:10.2140/camcos.2012.7.247",
        "4 to 10 terms per step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse "
        "tolerances",
-       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 820},
+       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 920},
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
        "8 to 14 terms per step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
-       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 1000},
+       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 1500},
       {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
        "doi:10.1016/S0377-0427(99)00134-X",
@@ -131,7 +131,7 @@ std::deque<Method> builtInMethods() {
       {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
        "chooses among the Taylor methods and Radau-9 as the motion requires", nullptr, makeAuto,
-       false, 2200},
+       false, 2700},
   };
 }
 

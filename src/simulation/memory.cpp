@@ -15,7 +15,7 @@ namespace {
 /// Of every run for each particle, B: mostly for reading the particle file.
 constexpr double kBytesPerParticle = 160.0;
 /// Of two reference runs, if they are asked for.
-constexpr double kBytesOfReference = 2.0 * 2200.0;
+constexpr double kBytesOfReference = 2.0 * 2700.0;
 /// Most that is not worth a word, B.
 constexpr double kMuch = 5e8;
 

@@ -84,10 +84,12 @@ double chainLength(const Chain& chain, const State& start) {
 }
 
 struct ReferenceRun::Trajectory {
-  Trajectory(std::string_view method, const Chain& chain, const State& start, double tolerance)
-      : integrator(makeIntegrator(method, chain, {tolerance, false, 1})), state(start) {}
+  Trajectory(std::string_view method, const Chain& chain, State start, double tolerance)
+      : integrator(makeIntegrator(method, chain, {tolerance, false, 1})), state(std::move(start)) {}
 
-  DenseOutputIntegrator& controlled() { return dynamic_cast<DenseOutputIntegrator&>(*integrator); }
+  DenseOutputIntegrator& controlled() const {
+    return dynamic_cast<DenseOutputIntegrator&>(*integrator);
+  }
 
   std::unique_ptr<Integrator> integrator;
   State state;

@@ -21,8 +21,8 @@ bool isAtRest(const Chain& chain, const State& state, double duration, double to
 class SleepingIntegrator : public Integrator {
  public:
   /// \param tolerance m/s; 0: off
-  SleepingIntegrator(std::unique_ptr<Integrator> integrator, const Chain& chain, double tolerance)
-      : integrator_(std::move(integrator)), chain_(chain), tolerance_(tolerance) {}
+  SleepingIntegrator(std::unique_ptr<Integrator> integrator, Chain chain, double tolerance)
+      : integrator_(std::move(integrator)), chain_(std::move(chain)), tolerance_(tolerance) {}
 
   void advance(State& state, double time_step, std::int64_t steps) override;
   std::int64_t forceEvaluations() const override { return integrator_->forceEvaluations(); }

@@ -73,8 +73,14 @@ std::string digits(double step) {
 }
 
 std::string stepText(double step) {
-  if (step == 0.0) return "none that could be tried";
+  if (step == 0.0) return "none";
   return std::isinf(step) ? "the whole run" : digits(step) + " s";
+}
+
+/// \param step 0 if no step size of at least `least` s passed
+std::string limitText(double step, double least) {
+  if (step > 0.0) return stepText(step);
+  return fmt::format("below {} s, where runs take too long to be tried", digits(least));
 }
 
 std::string errorText(const Trial& trial) {
@@ -213,7 +219,8 @@ std::string describeStability(const Chain& chain, const State& start, const Scen
     const StepLimits limits = findStepLimits(method, chain, start, scenario.time_step, duration,
                                              frameSteps(scenario).timeOfFrame(1));
     text += fmt::format("largest stable step size: {}; largest accurate step size: {}\n",
-                        stepText(limits.stable), stepText(limits.accurate));
+                        limitText(limits.stable, bench.leastStep(method)),
+                        limitText(limits.accurate, bench.leastStep(method)));
   }
   if (scenario.wanted_error > 0.0) text += cheapestFor(bench, scenario);
   return text;

@@ -96,8 +96,8 @@ struct MethodName {
   /// \throws InputError that lists the known names if there is no such method
   bool assign(std::string_view text) const;
   std::string text() const { return value->get().name; }
-  std::string range() const { return "the name of a method"; }
-  std::string placeholder() const { return "METHOD"; }
+  static std::string range() { return "the name of a method"; }
+  static std::string placeholder() { return "METHOD"; }
 };
 
 /// One of several words, which denote the values 0, 1, ... of an enum.
