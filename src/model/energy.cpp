@@ -26,7 +26,7 @@ double dissipatedPower(const Chain& chain, const State& state) {
   requireSize(chain.size(), state);
   double power = 0.0;
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
-    const double rate = elongationRate<double>(
+    const auto rate = elongationRate<double>(
         {state.x()[i] - state.x()[i - 1], state.y()[i] - state.y()[i - 1]},
         {state.vx()[i] - state.vx()[i - 1], state.vy()[i] - state.vy()[i - 1]});
     power = fused(chain.spring().damping, rate * rate, power);

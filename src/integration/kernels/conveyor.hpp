@@ -17,6 +17,7 @@
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace spring_pendulum {
@@ -335,8 +336,7 @@ AdvanceKernel advanceKernelAt(std::size_t tableau, StepNeeds needs,
 }
 
 AdvanceKernel advanceKernel(std::size_t tableau, StepNeeds needs) {
-  return advanceKernelAt(
-      tableau, needs, std::make_index_sequence<sizeof(kFastTableaus) / sizeof(*kFastTableaus)>());
+  return advanceKernelAt(tableau, needs, std::make_index_sequence<std::size(kFastTableaus)>());
 }
 
 }  // namespace
