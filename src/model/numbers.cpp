@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <locale.h>
+#include <locale.h>  // NOLINT(modernize-deprecated-headers): newlocale is of POSIX
 #include <string>
 #include <system_error>
 
