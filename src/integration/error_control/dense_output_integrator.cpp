@@ -58,8 +58,8 @@ double DenseOutputIntegrator::dissipated(double fraction) {
   for (const QuadraturePoint& point : kGaussLegendre) {
     stepper_->interpolate(0.5 * fraction * (1.0 + point.node), d.sample);
     d.padded_sample.values() = d.sample.values();
-    d.kernels.addHeat(d.constants.chain(), d.padded_sample.data(), scale * point.weight,
-                      d.energies.data());
+    d.kernels.addDissipation(d.constants.chain(), d.padded_sample.data(), scale * point.weight,
+                             d.energies.data());
   }
   return d.energies.total();
 }

@@ -95,7 +95,7 @@ void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t st
   for (std::size_t i = 0; i < stages_; ++i) {
     const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
     for (std::size_t j = 0; j <= i; ++j) weights_.after[i][j] = time_step * row[j];
-    weights_.heat[i] = time_step * tableau_.b[i] * constants_.chain().spring.damping;
+    weights_.dissipation[i] = time_step * tableau_.b[i] * constants_.chain().spring.damping;
   }
   const auto stages = static_cast<std::int64_t>(stages_);
   // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has at least one stage

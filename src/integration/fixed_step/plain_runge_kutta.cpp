@@ -45,7 +45,7 @@ void PlainRungeKutta::step(double time_step) {
     ++force_evaluations_;
     if (track_dissipation_ && damping_ != 0.0 && tableau_.b[i] != 0.0) {
       const double weight = time_step * tableau_.b[i] * damping_;
-      kernels_.addHeat(constants_.chain(), stage_.data(), weight, dissipated_.data());
+      kernels_.addDissipation(constants_.chain(), stage_.data(), weight, dissipated_.data());
     }
   }
   kernels_.combine(pitch, state_.data(), sum(time_step, tableau_.b, tableau_.stages),

@@ -32,8 +32,8 @@ void SymplecticMethod::advance(State& state, double time_step, std::int64_t step
 }
 
 void SymplecticMethod::addDissipation(double time) {
-  kernels_.addHeat(constants_.chain(), current_.data(), time * chain_.spring().damping,
-                   dissipated_.data());
+  kernels_.addDissipation(constants_.chain(), current_.data(), time * chain_.spring().damping,
+                          dissipated_.data());
 }
 
 void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {

@@ -1,4 +1,4 @@
-// A block: `kLanes` neighbouring particles, and their accelerations.
+// A block of `kLanes` neighbouring particles, the unit of work of every kernel.
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
@@ -10,12 +10,12 @@
 namespace spring_pendulum {
 namespace {
 
-/// State or slope of a block.
+/// State or slope of the particles of a block.
 struct Block {
   Pack x, y, vx, vy;
 };
 
-/// Where a block is: its x are at `first`, its y, vx and vy `pitch` doubles further each.
+/// Address of a block in memory: x at `first`, then y, vx and vy, each `pitch` doubles further.
 template <typename Number>
 struct BlockPlace {
   Number* first;
@@ -41,19 +41,20 @@ struct BlockPlace {
   return {a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy};
 }
 
-/// state + weight * slope
+/// Returns state + weight * slope.
 [[gnu::always_inline]] inline Block plusWeighted(const Block& state, double weight,
                                                  const Block& slope) {
   return {fused(weight, slope.x, state.x), fused(weight, slope.y, state.y),
           fused(weight, slope.vx, state.vx), fused(weight, slope.vy, state.vy)};
 }
 
+/// Number of blocks of a chain of `size` particles.
 [[gnu::always_inline]] inline std::ptrdiff_t blocksOf(std::ptrdiff_t size) {
   return (size + kLanes - 1) / kLanes;
 }
 
-/// Forces on the particles of a block from the springs to their right neighbours, none on the last
-/// of the chain. Without damping no velocity is read; no bit changes.
+/// Returns the force on each particle of a block from the spring to its right neighbour, 0 for the
+/// last particle of the chain. Without damping no velocity is read, which changes no bit.
 template <bool kDamped>
 [[gnu::always_inline]] inline PlaneVector<Pack> forcesFromRight(const KernelChain& chain,
                                                                 const Block& here,
@@ -74,12 +75,16 @@ template <bool kDamped>
   return force;
 }
 
-/// heat += weight * rate², weight k_d times a time.
-[[gnu::always_inline]] inline void addHeat(double weight, Pack rate, double* heat) {
-  fused(weight, rate * rate, Pack::load(heat)).store(heat);
+/// dissipated += weight * rate², with weight = k_d times a time, kg.
+[[gnu::always_inline]] inline void addDissipation(double weight, Pack rate, double* dissipated) {
+  fused(weight, rate * rate, Pack::load(dissipated)).store(dissipated);
 }
 
-/// The slope of a block from the forces of its springs and those of the block to its left.
+/// Returns the slope of a block.
+/// \param left, right forces of the springs to the right of each particle, in the block to the left
+///   and in this block
+/// \tparam kInner whether the block is neither the first nor the last, so that all its particles
+///   move
 template <bool kGravity, bool kInner = false>
 [[gnu::always_inline]] inline Block slopeOf(const KernelChain& chain, const Block& here,
                                             const PlaneVector<Pack>& left,

@@ -1,15 +1,14 @@
-// The inner loops of the explicit methods, on raw numbers, compiled once for every instruction set
-// and picked when the program runs:
+// The inner loops of the explicit methods. They are compiled once for every instruction set and
+// selected at run time:
 //
 //     slope of a stage     k = F(z + w_1 k_1 + w_2 k_2 + ...)
 //     combination          z + w_1 k_1 + w_2 k_2 + ...
-//     compensated sum      z + (d + w_1 k_1 + w_2 k_2 + ...), and what of it was rounded away
+//     compensated sum      z + (d + w_1 k_1 + w_2 k_2 + ...), and its rounding error
 //     size of an error     max |w_1 k_1 + w_2 k_2 + ...|
 //
-// Every particle sees the operations of the plain code (computeSlope) in its order, with the
-// same fused multiply-adds, so the bits are the same for every instruction set. Eigen's types
-// change their layout with the instruction set; nothing but pointers and numbers crosses this
-// border.
+// The kernels do the operations of the plain code (computeSlope) in the same order, with the same
+// fused multiply-adds, so every instruction set gives the same bits. The interface consists of
+// pointers and plain structs, because the layout of Eigen's types depends on the instruction set.
 #pragma once
 
 #include "integration/kernels/taylor_workspace.hpp"
@@ -22,65 +21,66 @@
 
 namespace spring_pendulum {
 
-/// A chain of N particles as the kernels read it. Column c of a state or a slope of particle i is
-/// number c * pitch + i, aligned and padded as `StateBuffer` does it.
+/// A chain of N particles. States and slopes have the layout of `StateBuffer`: column c of particle
+/// i is element c * pitch + i.
 struct KernelChain {
   SpringLaw spring;
   double gravity = 0.0;  ///< m/s²
-  /// 1/kg, aligned as a column; if `mass_stride` is 0 only eight equal numbers, for all particles
+  /// 1/kg, a column of N numbers, or 8 equal numbers if `mass_stride` is 0
   const double* inverse_masses = nullptr;
-  std::ptrdiff_t mass_stride = 1;
-  std::ptrdiff_t size = 0;   ///< N >= 1; the first particle is fixed
-  std::ptrdiff_t pitch = 0;  ///< distance of two columns, a multiple of 8 and at least N
+  std::ptrdiff_t mass_stride = 1;  ///< 1, or 0 if all moving particles have the same mass
+  std::ptrdiff_t size = 0;         ///< N >= 1; the first particle is fixed
+  std::ptrdiff_t pitch = 0;        ///< length of a column, a multiple of 8, at least N
 };
 
-/// w k: a weight (the step times a coefficient of the tableau) and the N×4 slope it weighs.
+/// The term w k of a sum: weight (step size times a coefficient) and slope (N×4).
 struct WeightedSlope {
   double weight;
   const double* slope;
 };
 
-/// Terms are added in their order, which is part of the arithmetic.
+/// A sum of weighted slopes. Terms are added in the given order, which determines the rounding.
 struct SlopeSum {
   const WeightedSlope* terms = nullptr;
   std::ptrdiff_t count = 0;
 };
 
-/// The coefficients of a tableau with the step multiplied in: `after[i][j]` is the weight of slope
-/// j in the state that follows stage i, of stage i+1 or of the next step.
+/// The coefficients of a tableau times the step size. `after[i][j]` is the weight of slope j in the
+/// state after stage i: the state of stage i+1, or the end of the step.
 struct StepWeights {
   double after[ButcherTableau::kMaxStages][ButcherTableau::kMaxStages] = {};
-  double heat[ButcherTableau::kMaxStages] = {};  ///< h b_i k_d, kg
+  double dissipation[ButcherTableau::kMaxStages] = {};  ///< h b_i k_d, kg
 };
 
-/// How many blocks at most are under way between the first and the last stage while whole steps are
-/// taken along the chain, rounded up to a power of two.
+/// Blocks of a ring buffer in `Conveyor`: a power of two, at least the number of blocks between the
+/// first and the last stage.
 constexpr std::ptrdiff_t ringBlocks(std::size_t stages) {
   std::ptrdiff_t blocks = 8;
   while (blocks < 3 * static_cast<std::ptrdiff_t>(stages)) blocks *= 2;
   return blocks;
 }
 
-/// How many doubles of workspace whole steps need: states, sums, slopes and springs of the stages.
+/// Doubles of workspace for whole steps: states, sums, slopes and springs of every stage.
 constexpr std::ptrdiff_t stepWorkspaceSize(std::size_t stages) {
   return static_cast<std::ptrdiff_t>(stages) * (4 * ringBlocks(stages) * 4 + 2) * 8;
 }
 
-/// What a kernel for whole steps does; damping or gravity of 0 need not be computed.
+/// Terms that a kernel for whole steps computes. A term that is 0 may be left out for speed.
 struct StepNeeds {
   bool damping = true;
   bool gravity = true;
-  bool heat = false;  ///< of the dashpots; none without damping
+  bool dissipation = false;  ///< sum the dissipated energy; requires damping
 };
 
-/// Takes `steps` steps, in place.
-/// \param heat a column: what each dashpot dissipates is added, J; may be null if not needed
-/// \param workspace `stepWorkspaceSize` doubles, aligned as a column, that were zero once
+/// Takes `steps` steps in place.
+/// \param dissipated column to which the energy dissipated by each dashpot is added, J; may be null
+///   without `StepNeeds::dissipation`
+/// \param workspace `stepWorkspaceSize` doubles, aligned like a column, zero before the first call
 using AdvanceKernel = void (*)(const KernelChain& chain, const StepWeights& weights,
-                               std::ptrdiff_t steps, double* state, double* heat,
+                               std::ptrdiff_t steps, double* state, double* dissipated,
                                double* workspace);
 
-/// Largest absolute values in a combination of slopes; NaN if it is not finite.
+/// Largest absolute values in a sum of slopes; NaN if an element is not finite.
 struct LargestChange {
   double position;  ///< of the x and y columns
   double velocity;  ///< of the vx and vy columns
@@ -90,66 +90,68 @@ struct LargestChange {
 struct ChainKernels {
   std::string_view name;  ///< "baseline", "avx2", "avx512"
 
-  /// slope = F(state + sum); with no terms F(state). Row 0 is zero: the first particle is fixed.
+  /// slope = F(state + sum), or F(state) for an empty sum. Row 0, the fixed particle, is zero.
   void (*stageSlope)(const KernelChain& chain, const double* state, SlopeSum sum, double* slope);
 
   /// out = state + sum; `out` may be `state`
   void (*combine)(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out);
 
-  /// to += weight * from, `count` numbers, a multiple of 8.
+  /// to += weight * from, for `count` numbers, a multiple of 8
   void (*addWeighted)(std::ptrdiff_t count, double weight, const double* from, double* to);
 
-  /// out = state + (change + sum), lost = (change + sum) - (out - state): what rounding took from
-  /// the sum, exactly where |change + sum| <= |state|. As a part of the next change it is not lost.
-  /// W. Kahan, Comm. ACM 8 (1965) 40, doi:10.1145/363707.363723.
+  /// out = state + (change + sum), lost = (change + sum) - (out - state). `lost` is the rounding
+  /// error of the addition, exact where |change + sum| <= |state|. The caller passes it as part of
+  /// the next `change`. W. Kahan, Comm. ACM 8 (1965) 40, doi:10.1145/363707.363723.
   void (*compensatedSum)(std::ptrdiff_t pitch, const double* state, const double* change,
                          SlopeSum sum, double* out, double* lost);
 
-  /// Of the sum alone, over the first `size` particles. A maximum, so no order matters.
+  /// Returns the largest absolute values of a sum over the first `size` particles.
   LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);
 
-  /// Whether any spring of the first `size` particles changes, from one state to another, along its
-  /// old direction by 0.9 of its old length or more, or to 1e-12 m or more if it had no length. Yes
-  /// if anything is not a number.
+  /// Whether any spring between the first `size` particles changes much between two states: along
+  /// its old direction by at least 0.9 of its old length or, if its length was 0, to at least
+  /// 1e-12 m. True if a state contains NaN.
   bool (*springsChangeMuch)(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
                             const double* to);
 
-  /// Adds to each spring's heat, J, that of its dashpot in a state: weight * rate². Of N - 1
-  /// springs; what comes behind them is without meaning.
-  void (*addHeat)(const KernelChain& chain, const double* state, double weight, double* heat);
+  /// dissipated += weight * rate² for the N - 1 springs of a chain, with their elongation rates in
+  /// `state` and weight = k_d times a time, kg. Later elements of the column are undefined.
+  void (*addDissipation)(const KernelChain& chain, const double* state, double weight,
+                         double* dissipated);
 
-  /// Whole steps of `kFastTableaus[tableau]`; see findAdvanceKernel.
+  /// Returns the kernel for whole steps of `kFastTableaus[tableau]`; see findAdvanceKernel.
   AdvanceKernel (*advanceKernel)(std::size_t tableau, StepNeeds needs);
 
-  /// All Taylor coefficients of the motion about a state.
+  /// Computes all Taylor coefficients of the motion about `state`.
   void (*taylorSeries)(const TaylorWorkspace& work, const double* state);
 
-  /// out = base + the weighted sum of the series about `state`; `out` may be either.
+  /// out = base + weighted sum of the series about `state`. `out` may be `state` or `base`.
   void (*taylorState)(const TaylorWorkspace& work, const double* state, const double* base,
                       const TaylorWeights& weights, double* out);
 
-  /// Largest absolute values in a weighted sum of the accelerations' coefficients.
+  /// Returns the largest absolute values in a weighted sum of the acceleration coefficients.
   LargestChange (*taylorLargestSum)(const TaylorWorkspace& work, const TaylorWeights& weights);
 
-  /// Largest absolute value of coefficient n of the accelerations; NaN if one is not finite.
+  /// Returns the largest absolute value of acceleration coefficient n; NaN if one is not finite.
   double (*taylorLargest)(const TaylorWorkspace& work, std::ptrdiff_t n);
 };
 
-/// The kernels of every instruction set that this processor has, the fastest first. The last is the
-/// baseline, which all processors of the architecture have. The environment variable
-/// SPRING_PENDULUM_INSTRUCTION_SET, if set to the name of one, leaves out all faster ones.
-/// \throws InputError if it names none of them
+/// Returns the kernels of every instruction set of this processor, the fastest first. The last is
+/// the baseline, which all processors of the architecture have. If the environment variable
+/// SPRING_PENDULUM_INSTRUCTION_SET names an instruction set, faster ones are left out.
+/// \throws InputError if the variable names no instruction set of this processor
 const std::vector<const ChainKernels*>& supportedChainKernels();
 
-/// Those of the processor that are not faster than the named one.
-/// \throws InputError if there is no such one, or not on this processor
+/// Returns the named instruction set's kernels and all slower ones of this processor.
+/// \throws InputError if this processor has no instruction set of that name
 std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name);
 
-/// Whole steps of the tableau, known by its coefficients; null if it is none of `kFastTableaus`.
+/// Returns the kernel for whole steps of a tableau, which is recognised by its coefficients; null
+/// if it is not one of `kFastTableaus`.
 AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTableau& tableau,
                                 StepNeeds needs);
 
-/// The fastest of them for a long chain, and for one of so many particles.
+/// Returns the fastest supported kernels, for long chains or for the given number of particles.
 const ChainKernels& fastestChainKernels();
 const ChainKernels& fastestChainKernels(std::ptrdiff_t particles);
 

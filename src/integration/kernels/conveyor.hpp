@@ -1,14 +1,16 @@
 // Whole steps of an explicit Runge-Kutta method in one pass over the chain, in place.
 //
-// Stage i of a block needs no more than stage i-1 of that block and the next. So the stages follow
-// each other along the chain like machines along a conveyor, and all that passes between them fits
-// the innermost cache. Each stage works in two halves, the first up to the root and the division,
-// the second from there on, a tick later: while the divider works, nothing waits for it.
+// Stage i of a block depends only on stage i-1 of that block and of its two neighbours. So all
+// stages move along the chain together, each some blocks behind the one before it, and the data
+// between them stays in the first-level cache. Each stage is split in two halves. The first ends
+// with the square root and the division; the second uses their result a tick later, so it does not
+// wait for the divider.
 //
 //     tick t:   stage 1 of blocks t and t-1,  stage 2 of t-3 and t-4,  ...  stage 4 of t-9 and t-10
 //
-// The halves of one tick need nothing of each other. Chains of up to four blocks stay in registers
-// as far as these go; somewhat longer ones do stage after stage.
+// The halves of one tick do not depend on each other. Chains of up to four blocks are kept in
+// registers where these suffice. Chains that fit the ring buffers complete each stage before the
+// next.
 #pragma once
 
 #include "integration/kernels/block.hpp"
@@ -23,17 +25,17 @@
 namespace spring_pendulum {
 namespace {
 
-/// Which slopes a stage's result needs is known to the compiler; their weights, which contain the
-/// step, are not.
-template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kHeat>
+/// The tableau is a template parameter, so the compiler knows which coefficients are zero. The
+/// weights, which contain the step size, are known only at run time.
+template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kDissipation>
 class Conveyor {
  public:
-  Conveyor(const KernelChain& chain, const StepWeights& weights, double* state, double* heat,
+  Conveyor(const KernelChain& chain, const StepWeights& weights, double* state, double* dissipated,
            double* workspace)
       : chain_(chain),
         weights_(weights),
         state_(state),
-        heat_(heat),
+        dissipated_(dissipated),
         workspace_(workspace),
         blocks_(blocksOf(chain.size)) {}
 
@@ -52,14 +54,16 @@ class Conveyor {
 
  private:
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
-  /// Halves of a stage are so many ticks apart that some four stages lie between them.
+  /// Ticks between the halves of a stage, so that about four halves of other stages run meanwhile.
   static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
+  /// The same distance, in blocks, where one stage runs alone.
   static constexpr std::ptrdiff_t kLead = 4;
   static constexpr std::ptrdiff_t kBlocksBetweenStages = kLag + 2;
+  /// Ticks until the last stage finishes its first block.
   static constexpr std::ptrdiff_t kFill = kBlocksBetweenStages * (kStages - 1) + kLag;
   static constexpr std::ptrdiff_t kBlockNumbers = 4 * kLanes;
 
-  /// Whether slope j is needed by more than the next stage and the sum.
+  /// Whether a stage later than j + 1 needs slope j.
   static constexpr bool keepsSlope(std::ptrdiff_t j) {
     for (std::ptrdiff_t i = j + 2; i < kStages; ++i) {
       if (kTableau.a[i][j] != 0.0) return true;
@@ -72,7 +76,7 @@ class Conveyor {
     }
     return false;
   }
-  /// What the first half of a stage hands to the second.
+  /// Results of the first half of a stage.
   struct Springs {
     PlaneVector<Pack> separation;
     Pack inverse_length, dot;
@@ -93,7 +97,7 @@ class Conveyor {
     for (; tick < blocks_ + kFill; ++tick) (halves<kStage>(tick), ...);
   }
 
-  /// A block of a chain that is kept in registers as far as they go.
+  /// A block of a short chain, which the compiler keeps in registers where these suffice.
   struct ShortBlock {
     Block state, sum, at, slope;
     Springs springs;
@@ -179,7 +183,7 @@ class Conveyor {
     begin<kStage, true>(block);
   }
 
-  /// First half, up to the inverse length of the springs.
+  /// First half of a stage: separations and inverse lengths of the springs.
   template <std::ptrdiff_t kStage, bool kInner>
   [[gnu::always_inline]] void begin(std::ptrdiff_t block) {
     const Block here = load(stateOf(kStage, block));
@@ -205,7 +209,7 @@ class Conveyor {
     return springs;
   }
 
-  /// Second half: forces, slope, and what is made of it.
+  /// Second half of a stage: forces, slope, and the state of the next stage or the end of the step.
   template <std::ptrdiff_t kStage, bool kInner>
   [[gnu::always_inline]] void finish(std::ptrdiff_t block) {
     const double* const from = springsOf(kStage) + inRing(block);
@@ -247,9 +251,9 @@ class Conveyor {
     PlaneVector<Pack> forces;
     if constexpr (kDamped) {
       forces = springForce(chain_.spring, springs.separation, springs.dot, springs.inverse_length);
-      if constexpr (kHeat && kTableau.b[kStage] != 0.0) {
-        addHeat(weights_.heat[kStage], springs.dot * springs.inverse_length,
-                heat_ + block * kLanes);
+      if constexpr (kDissipation && kTableau.b[kStage] != 0.0) {
+        addDissipation(weights_.dissipation[kStage], springs.dot * springs.inverse_length,
+                       dissipated_ + block * kLanes);
       }
     } else {
       forces = undampedSpringForce(chain_.spring, springs.separation, springs.inverse_length);
@@ -276,7 +280,7 @@ class Conveyor {
     return plusWeighted(result, weights_.after[kStage][kEarlier], slope);
   }
 
-  /// A stage's workspace: rings of blocks, and the forces of the springs of the block before.
+  /// Workspace of a stage: ring buffers of blocks, then the spring forces of the previous block.
   static constexpr std::ptrdiff_t kRingNumbers = kRing * kBlockNumbers;
   double* statesOf(std::ptrdiff_t stage) const {
     return workspace_ + stage * (4 * kRingNumbers + 2 * kLanes);
@@ -295,21 +299,22 @@ class Conveyor {
     return {statesOf(stage) + inRing(block), kLanes};
   }
 
-  const KernelChain chain_;  ///< a copy, which writing a state can not change
+  const KernelChain chain_;  ///< copy: through a reference it would be reloaded after every store
   const StepWeights weights_;
   double* const state_;
-  double* const heat_;
+  double* const dissipated_;
   double* const workspace_;
   const std::ptrdiff_t blocks_;
 };
 
-template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kHeat>
+template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kDissipation>
 void advance(const KernelChain& chain, const StepWeights& weights, std::ptrdiff_t steps,
-             double* state, double* heat, double* workspace) {
-  Conveyor<kTableau, kDamped, kGravity, kHeat> conveyor(chain, weights, state, heat, workspace);
+             double* state, double* dissipated, double* workspace) {
+  Conveyor<kTableau, kDamped, kGravity, kDissipation> conveyor(chain, weights, state, dissipated,
+                                                               workspace);
   if (!conveyor.isShort()) return conveyor.advance(steps);
-  // Adding a gravity of 0 changes no bit and hardly a time; this saves a compiled variant.
-  Conveyor<kTableau, kDamped, true, kHeat>(chain, weights, state, heat, workspace)
+  // Adding a gravity of 0 changes no bit and costs little time; this saves a compiled variant.
+  Conveyor<kTableau, kDamped, true, kDissipation>(chain, weights, state, dissipated, workspace)
       .advanceShort(steps);
 }
 
@@ -319,7 +324,7 @@ AdvanceKernel advanceKernelFor(StepNeeds needs) {
     return needs.gravity ? advance<kTableau, false, true, false>
                          : advance<kTableau, false, false, false>;
   }
-  if (needs.heat) {
+  if (needs.dissipation) {
     return needs.gravity ? advance<kTableau, true, true, true>
                          : advance<kTableau, true, false, true>;
   }

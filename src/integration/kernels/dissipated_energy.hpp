@@ -1,5 +1,5 @@
-// The energy dissipated by each dashpot. One sum over time per spring does not depend on blocks,
-// threads or instruction sets.
+// The energy dissipated by each dashpot. Each spring has its own sum over time, so the result does
+// not depend on blocks, threads or instruction sets.
 #pragma once
 
 #include "integration/kernels/state_buffer.hpp"

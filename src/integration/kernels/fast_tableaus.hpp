@@ -1,5 +1,5 @@
-// The tableaus that are compiled into the kernels. One line here makes a tableau fast; any other
-// runs stage by stage, with the same bits.
+// The tableaus for which kernels for whole steps are compiled. Any other tableau runs stage by
+// stage, more slowly but with the same bits.
 #pragma once
 
 #include <spring_pendulum/integration/butcher_tableau.hpp>

@@ -1,4 +1,4 @@
-// What the kernels need to know of a chain, made once.
+// The constants of a chain in the layout of the kernels.
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
@@ -7,14 +7,14 @@
 
 namespace spring_pendulum {
 
-/// A chain's constants as the kernels read them.
+/// Owns the memory to which a `KernelChain` points.
 class KernelConstants {
  public:
-  /// \param skip_masses whether equal masses are to be read once instead of for every particle
+  /// \param skip_masses whether to store equal masses once instead of for every particle
   explicit KernelConstants(const Chain& chain, bool skip_masses = true);
 
-  /// Of the particles begin <= i < end as a chain of its own, in columns `pitch` apart; `begin` is
-  /// a multiple of 8.
+  /// Returns the particles begin <= i < end as a chain of its own, with columns `pitch` apart.
+  /// \param begin a multiple of 8
   KernelChain piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const;
 
   const KernelChain& chain() const { return chain_; }

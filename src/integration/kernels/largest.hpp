@@ -6,7 +6,8 @@
 namespace spring_pendulum {
 namespace {
 
-/// A maximum that also remembers whether anything was not finite, which a comparison forgets.
+/// A maximum of absolute values that becomes NaN if a value is not finite. A comparison alone would
+/// ignore NaN.
 class Largest {
  public:
   void add(Pack value) {

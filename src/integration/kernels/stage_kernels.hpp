@@ -1,4 +1,4 @@
-// Kernels that do one stage of any tableau over a whole chain.
+// Kernels that work through a whole chain: one stage of any tableau, sums, and error norms.
 #pragma once
 
 #include "integration/kernels/block.hpp"
@@ -10,11 +10,11 @@
 namespace spring_pendulum {
 namespace {
 
-/// Part of a spring's length.
+/// Change of a spring, relative to its length, that counts as much.
 constexpr double kMuch = 0.9;
 
-/// A spring without length exerts no force; in a step that makes it no longer than this, m, that
-/// does not matter.
+/// Length of a spring, m, that counts as much if its length was 0. A spring of length 0 exerts no
+/// force; up to this length that makes no difference.
 constexpr double kNoLength = 1e-12;
 
 [[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
@@ -27,8 +27,7 @@ constexpr double kNoLength = 1e-12;
   return result;
 }
 
-// The chain's constants are copied: of the caller's the compiler must assume that they change with
-// every number that is written.
+// Local copy of the chain: through the reference it would be reloaded after every store.
 template <bool kDamped>
 void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum sum,
                 double* slope) {
@@ -57,7 +56,8 @@ void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* ou
   }
 }
 
-void addHeat(const KernelChain& callers_chain, const double* state, double weight, double* heat) {
+void addDissipation(const KernelChain& callers_chain, const double* state, double weight,
+                    double* dissipated) {
   const KernelChain chain = callers_chain;
   const std::ptrdiff_t blocks = blocksOf(chain.size);
   for (std::ptrdiff_t block = 0; block < blocks; ++block) {
@@ -68,7 +68,7 @@ void addHeat(const KernelChain& callers_chain, const double* state, double weigh
                                        rightNeighbours(here.y, next.y) - here.y};
     const PlaneVector<Pack> approach{rightNeighbours(here.vx, next.vx) - here.vx,
                                      rightNeighbours(here.vy, next.vy) - here.vy};
-    addHeat(weight, elongationRate(separation, approach), heat + block * kLanes);
+    addDissipation(weight, elongationRate(separation, approach), dissipated + block * kLanes);
   }
 }
 
@@ -107,7 +107,7 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
   return {position.result(), velocity.result()};
 }
 
-/// Separations of the particles of a block from their right neighbours.
+/// Returns the separations of the particles of a block from their right neighbours.
 [[gnu::always_inline]] inline PlaneVector<Pack> separations(const double* state,
                                                             std::ptrdiff_t pitch,
                                                             std::ptrdiff_t block,

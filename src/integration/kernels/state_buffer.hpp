@@ -1,4 +1,4 @@
-// Workspace of the integrators: states and slopes laid out for vector instructions.
+// States and slopes in the layout of the vector kernels.
 #pragma once
 
 #include <spring_pendulum/model/aligned_numbers.hpp>
@@ -8,16 +8,16 @@
 
 namespace spring_pendulum {
 
-/// N rows of the columns x, y, vx, vy (or of their derivatives), as `State`, but every column
-/// begins on a cache line and goes on behind row N with zeros up to row `pitch()`, so that whole
-/// vectors may be read and written there. Number c of particle i is `data()[c * pitch() + i]`.
+/// N rows with the columns x, y, vx, vy (or their derivatives), like `State`. Every column begins
+/// on a cache line and is padded with zeros to `pitch()` rows, so that kernels may read and write
+/// whole vectors. Column c of particle i is `data()[c * pitch() + i]`.
 class StateBuffer {
  public:
   StateBuffer() = default;
   explicit StateBuffer(Eigen::Index particles)
       : size_(particles), pitch_(paddedSize(particles)), numbers_(4 * pitch_) {}
 
-  /// The least multiple of the longest vector, 8 doubles, that holds `particles` rows.
+  /// Returns `particles` rounded up to a multiple of the longest vector, 8 doubles.
   static Eigen::Index paddedSize(Eigen::Index particles) { return (particles + 7) / 8 * 8; }
 
   Eigen::Index size() const { return size_; }
@@ -25,7 +25,7 @@ class StateBuffer {
   double* data() { return numbers_.data(); }
   const double* data() const { return numbers_.data(); }
 
-  /// The N×4 numbers without the padding.
+  /// The N×4 matrix without the padding.
   auto values() { return Map(data(), size_, 4, Eigen::OuterStride<>(pitch_)); }
   auto values() const { return ConstMap(data(), size_, 4, Eigen::OuterStride<>(pitch_)); }
 

@@ -14,31 +14,32 @@ namespace spring_pendulum {
 namespace {
 
 using Index = std::ptrdiff_t;
-constexpr Index kGroup = 8;  ///< springs whose coefficients lie together, on all instruction sets
+constexpr Index kGroup = 8;  ///< springs of one group in memory, for every instruction set
 
-// Rows of a spring that hold no coefficients.
+// Pseudo-orders that select the two rows without coefficients.
 constexpr Index kDirection = -2;
 constexpr Index kSums = -1;
 
-/// A coefficient of a spring: of its separation and its length.
+/// One Taylor coefficient of the separation and the length of a spring.
 struct SpringCoefficient {
   PlaneVector<Pack> separation;
   Pack length;
 };
 
-/// What is missing to coefficients of one order: of sum_j a_j b_{n-j} the terms known so far.
+/// Partial sums of the convolutions sum_j a_j b_{n-j} that order n needs.
 struct Convolutions {
-  SpringCoefficient product;  ///< of L_{n+1}, times L_0: three sums, for a shorter latency
-  Pack quotient;              ///< of u L
-  PlaneVector<Pack> force;    ///< of u d
+  SpringCoefficient product;  ///< terms of d·d and L L in L_{n+1}; three sums shorten the latency
+  Pack quotient;              ///< terms of u L
+  PlaneVector<Pack> force;    ///< terms of u d
 
+  /// The sum in L_{n+1}, times L_0.
   [[gnu::always_inline]] Pack length() const {
     return (product.separation.x + product.separation.y) - product.length;
   }
 };
 
-/// The coefficients of the springs of one block. Every row lies at a distance that the compiler
-/// knows, so it need not read again what it has just written.
+/// Reads and writes the coefficients of the springs of one block. The compiler knows the offset of
+/// every row, so it keeps in registers what was just stored.
 class SpringSeries {
  public:
   [[gnu::always_inline]] SpringSeries(const TaylorWorkspace& work, Index block)
@@ -89,7 +90,7 @@ class SpringSeries {
   return {spring.separation(n), spring.length(n)};
 }
 
-/// The terms of two coefficients in the convolutions for the length.
+/// Adds the products of two coefficients to the convolutions d·d and L L.
 [[gnu::always_inline]] inline void addProduct(Convolutions& sums, const SpringCoefficient& a,
                                               const SpringCoefficient& b) {
   SpringCoefficient& sum = sums.product;
@@ -102,6 +103,7 @@ class SpringSeries {
   return {{0.5 * a.separation.x, 0.5 * a.separation.y}, 0.5 * a.length};
 }
 
+/// Adds the products of u_j and another coefficient to the convolutions u L and u d.
 [[gnu::always_inline]] inline void addTerm(Convolutions& sums, Pack quotient,
                                            const SpringCoefficient& other) {
   sums.quotient = fused(quotient, other.length, sums.quotient);
@@ -109,8 +111,9 @@ class SpringSeries {
   sums.force.y = fused(quotient, other.separation.y, sums.force.y);
 }
 
-/// The sums of the even order n and of the next one, as far as the coefficients before n go. Both
-/// share loads. The newest coefficients come last, because everything else need not wait for them.
+/// Adds to the sums of the even order n and of order n + 1 all terms of the coefficients known
+/// before order n. Both orders share loads. The terms of the newest coefficients come last, so that
+/// all others are computed while those are still under way.
 template <Index n>
 [[gnu::always_inline]] inline void addKnownTerms(const SpringSeries& spring, Convolutions& here,
                                                  Convolutions& next) {
@@ -139,7 +142,7 @@ template <Index n>
   }
 }
 
-/// What order n adds to the sums of order n + 1.
+/// Adds to the sums of order n + 1 the terms of the coefficients that order n computed.
 [[gnu::always_inline]] inline void addNewTerms(const SpringSeries& spring, Index n,
                                                Convolutions& next) {
   const SpringCoefficient first = coefficient(spring, 1);
@@ -149,7 +152,8 @@ template <Index n>
   if (n > 0) addTerm(next, spring.quotient(n), first);
 }
 
-/// L_{n+1}, u_n and the force coefficient n of the springs of one block; d_0 to d_{n+1} are known.
+/// Stores L_{n+1} and u_n of the springs of one block and returns their force coefficient n, from
+/// d_0 to d_{n+1} and the finished sums of order n.
 [[gnu::always_inline]] inline PlaneVector<Pack> springCoefficients(const TaylorWorkspace& work,
                                                                    SpringSeries spring, Index n,
                                                                    const Convolutions& sums) {
@@ -169,7 +173,8 @@ template <Index n>
   return {fused(quotient, origin.x, sums.force.x), fused(quotient, origin.y, sums.force.y)};
 }
 
-/// The same, with the sums of even orders made here, those of odd orders on the way.
+/// Computes the sums of order n, then L_{n+1}, u_n and the force coefficient n. An even order n
+/// computes and stores the sums of the odd order n + 1 as well.
 template <Index n>
 [[gnu::always_inline]] inline PlaneVector<Pack> springCoefficients(const TaylorWorkspace& work,
                                                                    SpringSeries spring) {
@@ -186,7 +191,7 @@ template <Index n>
   }
 }
 
-/// From the state: d_0, d_1 = w, L_0 and what is divided by it.
+/// Stores d_0, d_1 = w, L_0, 1/L_0 and d_0/L_0 of all springs, from the state.
 inline void beginSeries(const TaylorWorkspace& work, const double* state) {
   const Index blocks = blocksOf(work.size);
   Block here = load({state, work.pitch});
@@ -195,7 +200,7 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
     const PlaneVector<Pack> separation{rightNeighbours(here.x, next.x) - here.x,
                                        rightNeighbours(here.y, next.y) - here.y};
     const Pack square = squaredLength(separation);
-    // Behind the chain's end 1/L_0 = 0, so nothing comes of the other numbers there.
+    // 1/L_0 = 0 makes all forces of the springs in the padding 0.
     const Index springs = work.size - 1 - block * kLanes;
     const Pack inverse = only(inverseSquareRoot(square), 0, springs);
     SpringSeries spring(work, block);
@@ -209,8 +214,8 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
   }
 }
 
-/// Coefficient n + 2 of the separations of a block from the forces of the springs, which saves the
-/// way over the accelerations: each order waits for this one.
+/// Returns coefficient n + 2 of the separations of a block. It is computed from the spring forces
+/// directly, not from the accelerations, because the next order waits for it.
 template <Index n>
 [[gnu::always_inline]] inline PlaneVector<Pack> separationCoefficient(
     const TaylorWorkspace& work, Index block, const PlaneVector<Pack>& left,
@@ -227,15 +232,16 @@ template <Index n>
   return result;
 }
 
-/// Coefficient n of all accelerations, and n + 2 of all separations.
-/// \tparam kBlocks how many, or 0 if the compiler does not know
+/// Computes coefficient n of all accelerations and, if a later order needs it, n + 2 of all
+/// separations.
+/// \tparam kBlocks number of blocks of the chain, or 0 if known only at run time
 template <Index n, Index kBlocks>
 [[gnu::always_inline]] inline void addOrder(const TaylorWorkspace& work) {
-  const bool wanted = n + 1 < work.order;  // nothing is made of the last separations
+  const bool wanted = n + 1 < work.order;  // whether another order needs the separations
   const Index blocks = kBlocks > 0 ? kBlocks : blocksOf(work.size);
   double* accelerations = work.accelerations + n * 2 * work.pitch;
-  PlaneVector<Pack> previous{};       // forces of the block before
-  PlaneVector<Pack> previous_left{};  // their left neighbours
+  PlaneVector<Pack> previous{};       // forces in the previous block
+  PlaneVector<Pack> previous_left{};  // forces of their left neighbours
   for (Index block = 0; block < blocks; ++block) {
     const Index first = block * kLanes;
     const PlaneVector<Pack> here = springCoefficients<n>(work, SpringSeries(work, block));
@@ -262,20 +268,10 @@ template <Index n, Index kBlocks>
   }
 }
 
-template <Index n, Index kBlocks>
-void addOrderOfLongChain(const TaylorWorkspace& work) {
-  addOrder<n, kBlocks>(work);
-}
-
 template <Index kBlocks, Index... n>
 [[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work,
                                              std::integer_sequence<Index, n...> /*orders*/) {
-  // The smallest order is 2.
-  if constexpr (kBlocks > 0) {
-    (void)((n < work.order && (addOrder<n, kBlocks>(work), true)) && ...);
-  } else {
-    (void)((n < work.order && (addOrderOfLongChain<n, kBlocks>(work), true)) && ...);
-  }
+  (void)((n < work.order && (addOrder<n, kBlocks>(work), true)) && ...);
 }
 
 template <Index kBlocks>
@@ -284,15 +280,15 @@ void seriesOf(const TaylorWorkspace& work, const double* state) {
   addOrders<kBlocks>(work, std::make_integer_sequence<Index, kLargestTaylorOrder>());
 }
 
-// The workspace is copied: of the caller's the compiler must assume that it changes with every
-// number that is written.
+// Local copy of the workspace: through the reference it would be reloaded after every store. A
+// chain of one block keeps its coefficients in registers.
 void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
   const TaylorWorkspace work = callers_work;
   if (blocksOf(work.size) == 1) return seriesOf<1>(work, state);
   seriesOf<0>(work, state);
 }
 
-/// The weighted sum of the accelerations' coefficients of one block.
+/// Returns the weighted sum of the acceleration coefficients of one block.
 [[gnu::always_inline]] inline Block weightedSum(const TaylorWorkspace& work,
                                                 const TaylorWeights& weights, Index block) {
   Block change{};
@@ -315,9 +311,9 @@ void taylorState(const TaylorWorkspace& callers_work, const double* state, const
   const double time = weights.start_velocity;
   for (Index block = 0; block < blocksOf(work.size); ++block) {
     const Block change = weightedSum(work, weights, block);
-    const Block speed = load({state + block * kLanes, work.pitch});
+    const Block start = load({state + block * kLanes, work.pitch});
     const Block from = load({base + block * kLanes, work.pitch});
-    store({from.x + fused(time, speed.vx, change.x), from.y + fused(time, speed.vy, change.y),
+    store({from.x + fused(time, start.vx, change.x), from.y + fused(time, start.vy, change.y),
            from.vx + change.vx, from.vy + change.vy},
           {out + block * kLanes, work.pitch});
   }

@@ -102,20 +102,20 @@ TEST(ChainKernels, CombinationHasTheBitsOfThePlainCode) {
   }
 }
 
-TEST(ChainKernels, AddHeatHasTheBitsOfThePlainCode) {
+TEST(ChainKernels, DissipationHasTheBitsOfThePlainCode) {
   for (const ChainKernels* kernels : supportedChainKernels()) {
     for (const Eigen::Index size : kSizes) {
       const Chain chain = randomChain(size, SpringLaw{}, true, 9.81);
       const State state = randomState(size, 1);
-      StateBuffer z(size), heat(size);
+      StateBuffer z(size), dissipated(size);
       z.values() = state.values();
-      heat.values().setConstant(0.1);
-      kernels->addHeat(KernelConstants(chain).chain(), z.data(), 0.3, heat.data());
+      dissipated.values().setConstant(0.1);
+      kernels->addDissipation(KernelConstants(chain).chain(), z.data(), 0.3, dissipated.data());
       for (Eigen::Index i = 0; i + 1 < size; ++i) {
         const State::Matrix& s = state.values();
         const double rate = elongationRate<double>({s(i + 1, 0) - s(i, 0), s(i + 1, 1) - s(i, 1)},
                                                    {s(i + 1, 2) - s(i, 2), s(i + 1, 3) - s(i, 3)});
-        EXPECT_EQ(heat.values()(i, 0), std::fma(0.3, rate * rate, 0.1))
+        EXPECT_EQ(dissipated.values()(i, 0), std::fma(0.3, rate * rate, 0.1))
             << kernels->name << ", " << size;
       }
     }

@@ -1,4 +1,4 @@
-// The table of the kernels of the instruction set that the including file is compiled for.
+// The table of kernels for the instruction set for which the including file is compiled.
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
@@ -12,8 +12,8 @@ namespace spring_pendulum {
 namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
-  return {name,          stageSlope,        combine,      addWeighted,   compensatedSum,
-          largestChange, springsChangeMuch, addHeat,      advanceKernel, taylorSeries,
+  return {name,          stageSlope,        combine,        addWeighted,   compensatedSum,
+          largestChange, springsChangeMuch, addDissipation, advanceKernel, taylorSeries,
           taylorState,   taylorLargestSum,  taylorLargest};
 }
 

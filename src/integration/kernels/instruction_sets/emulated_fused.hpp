@@ -1,9 +1,9 @@
 // Fused multiply-add for x86 processors that lack the instruction: the correctly rounded a b + c of
-// two lanes by some 60 additions and multiplications.
+// two lanes, with about 60 additions and multiplications.
 //
-// The product and the sums are split exactly into a rounded value and its error; the last but one
-// sum is rounded to odd, so that the last rounding is that of the exact value. Reference: S. Boldo,
-// G. Melquiond, IEEE Trans. Comput. 57 (2008) 462-471, doi:10.1109/TC.2007.70819.
+// The product and the sums are split exactly into a rounded value and its error. The last sum but
+// one is rounded to odd; then the last sum is rounded as the exact value would be. Reference:
+// S. Boldo, G. Melquiond, IEEE Trans. Comput. 57 (2008) 462-471, doi:10.1109/TC.2007.70819.
 #pragma once
 
 #include <cmath>
@@ -40,7 +40,7 @@ struct ExactPair {
   return {product, ((high_a * high_b - product) + high_a * low_b + low_a * high_b) + low_a * low_b};
 }
 
-/// a + b; if that is inexact, the neighbouring number whose last bit is 1.
+/// Returns a + b if that is exact, otherwise the adjacent double whose last bit is 1.
 [[gnu::always_inline]] inline TwoLanes sumRoundedToOdd(TwoLanes a, TwoLanes b) {
   const ExactPair sum = exactSum(a, b);
   TwoWords bits;
@@ -57,7 +57,7 @@ struct ExactPair {
   return a < 0.0 ? -a : a;
 }
 
-/// Where nothing overflows and no error of a product underflows.
+/// Whether no operation overflows and the error of the product does not underflow.
 [[gnu::always_inline]] inline bool isOrdinary(TwoLanes a, TwoLanes b, TwoLanes c) {
   const TwoWords bounded =
       (magnitude(a) < 0x1p500) & (magnitude(b) < 0x1p500) & (magnitude(c) < 0x1p1000);
@@ -72,7 +72,7 @@ struct ExactPair {
   const ExactPair low = exactSum(c, product.error);
   const ExactPair high = exactSum(product.value, low.value);
   const TwoLanes result = high.value + sumRoundedToOdd(low.error, high.error);
-  return product.value == 0.0 ? product.value + c : result;  // with the sign of a zero
+  return product.value == 0.0 ? product.value + c : result;  // keeps the sign of zero
 }
 
 }  // namespace

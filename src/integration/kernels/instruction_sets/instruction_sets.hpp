@@ -1,5 +1,5 @@
-// Where each instruction set's kernels are. A file of this folder named after an instruction set is
-// compiled for it, and none of its code may run before the processor was asked whether it has it.
+// The kernels of each instruction set. Every file in this folder that is named after an instruction
+// set is compiled for it. None of its code may run on a processor without that instruction set.
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"

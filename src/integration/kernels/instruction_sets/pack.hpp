@@ -1,11 +1,11 @@
 // Several doubles in one vector register, with the arithmetic of a double.
 //
-// Multiplications and additions are fused by `fused` alone, never by the compiler, so results do
-// not depend on the instruction set. Where there is no fused multiply-add, it is emulated exactly.
+// Only `fused` fuses multiplications and additions, never the compiler, so results do not depend on
+// the instruction set. Processors without a fused multiply-add emulate it exactly.
 //
-// Every file that includes this is compiled for another instruction set. All names have internal
-// linkage, so that the linker can never take a function compiled for AVX-512 for one of the same
-// name that an older processor is to run.
+// Every file that includes this header is compiled for a different instruction set. All names have
+// internal linkage. Otherwise the linker could merge functions of the same name, and an older
+// processor would run one compiled for AVX-512.
 #pragma once
 
 #include <spring_pendulum/model/spring_law.hpp>
@@ -33,8 +33,8 @@ constexpr int kLanes = 4;
 constexpr int kLanes = 2;
 #endif
 
-/// `kLanes` doubles. GCC and Clang know this type on every processor; an operation on it is the
-/// operation on each double, rounded alike.
+/// `kLanes` doubles, as a vector type that GCC and Clang support on every processor. An operation
+/// acts on each double and is rounded as for a single double.
 struct Pack {
   using Native [[gnu::vector_size(kLanes * sizeof(double))]] = double;
 
@@ -72,7 +72,7 @@ struct Pack {
   return {-a.lanes};
 }
 
-/// a b + c, rounded once.
+/// Returns a b + c, rounded once.
 [[gnu::always_inline]] inline Pack fused(Pack a, Pack b, Pack c) {
 #if defined(__AVX512F__)
   return {_mm512_fmadd_pd(a.lanes, b.lanes, c.lanes)};
@@ -95,7 +95,7 @@ struct Pack {
   return fused(a, Pack::all(b), Pack::all(c));
 }
 
-/// As the function of a double of the same name.
+/// Applies `inverseSquareRoot(double)` to each lane.
 [[gnu::always_inline]] inline Pack inverseSquareRoot(Pack square) {
   Pack root;
   for (int lane = 0; lane < kLanes; ++lane) root.lanes[lane] = std::sqrt(square.lanes[lane]);
@@ -106,12 +106,12 @@ struct Pack {
   return {a.lanes < 0.0 ? -a.lanes : a.lanes};
 }
 
-/// The larger of both; `a` where one of them is NaN.
+/// Returns the larger lanes; those of `a` where either is NaN.
 [[gnu::always_inline]] inline Pack larger(Pack a, Pack b) {
   return {b.lanes > a.lanes ? b.lanes : a.lanes};
 }
 
-/// The lanes of a followed by those of b, from lane `kFirst` on.
+/// Returns `kLanes` lanes of the concatenation of a and b, from lane `kFirst` on.
 template <int kFirst, int... kLane>
 [[gnu::always_inline]] inline Pack lanesFrom(Pack a, Pack b, std::integer_sequence<int, kLane...>) {
 #if defined(__clang__)
@@ -122,24 +122,24 @@ template <int kFirst, int... kLane>
 #endif
 }
 
-/// Each lane's right neighbour, where `right` follows `here` in the chain.
+/// Returns the right neighbour of each lane, where `right` follows `here` in the chain.
 [[gnu::always_inline]] inline Pack rightNeighbours(Pack here, Pack right) {
   return lanesFrom<1>(here, right, std::make_integer_sequence<int, kLanes>());
 }
 
-/// Each lane's left neighbour, where `left` precedes `here` in the chain.
+/// Returns the left neighbour of each lane, where `left` precedes `here` in the chain.
 [[gnu::always_inline]] inline Pack leftNeighbours(Pack left, Pack here) {
   return lanesFrom<kLanes - 1>(left, here, std::make_integer_sequence<int, kLanes>());
 }
 
-/// 0, 1, 2, ...
+/// Returns 0, 1, 2, ..., kLanes - 1.
 [[gnu::always_inline]] inline Pack laneNumbers() {
   Pack numbers;
   for (int lane = 0; lane < kLanes; ++lane) numbers.lanes[lane] = lane;
   return numbers;
 }
 
-/// `pack` where begin <= lane < end, else 0.
+/// Returns the lanes begin <= lane < end of `pack`, and 0 in all others.
 [[gnu::always_inline]] inline Pack only(Pack pack, std::ptrdiff_t begin, std::ptrdiff_t end) {
   const Pack lane = laneNumbers();
   const Pack above = {lane.lanes < static_cast<double>(end) ? pack.lanes : Pack::Native{}};
