@@ -105,7 +105,7 @@ set yrange [middle_y - half_y : middle_y + half_y]
 set grid linecolor "#ececec" linewidth 1
 set border linecolor "#a0a0a0"
 set tics scale 0.4 nomirror
-set xlabel "x in m" offset 0, 0.7
+set xlabel "x in m" offset 0, 0.3
 set ylabel "y in m" offset 1.5, 0
 unset key
 shown = 0

@@ -12,7 +12,7 @@ import result_csv
 
 TARGET = 1e-6  # m; "best" means cheapest to this error
 COLORS = {"Euler": "#c1440e", "Runge-Kutta-2": "#b8860b", "Runge-Kutta-4": "#1f5fa8",
-          "plain": "#8a8a8a", "package": "#3f8f5a", "dop853": "#8f5fc4", "best": "#111111"}
+          "plain": "#8a8a8a", "package": "#56b4e9", "dop853": "#8f5fc4", "best": "#111111"}
 
 
 def front(rows):

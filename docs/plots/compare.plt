@@ -22,7 +22,7 @@ do for [n = 0 : pictures - 1] {
   set grid linecolor "#ececec" linewidth 1
   set xtics 4
   set ytics 4
-  set xlabel "x in m" offset 0, 0.7
+  set xlabel "x in m" offset 0, 0.3
   do for [k = 1 : 3] {
     method = word(methods, k)
     set lmargin at screen 0.07 + 0.315 * (k - 1)
@@ -54,7 +54,7 @@ do for [n = 0 : pictures - 1] {
   set yrange [-20 : 180]
   set xtics 1
   set ytics 60
-  set xlabel sprintf("t = %.2f s", n * time_step) offset 0, 0.7
+  set xlabel sprintf("t = %.2f s", n * time_step) offset 0, 0.3
   set ylabel "total energy in J" offset 0.5, 0
   set datafile separator ","
   plot for [k = 1 : 3] word(methods, k) . ".csv" every ::0::n using "time [s]":"total [J]" \
