@@ -19,8 +19,8 @@ constexpr double kTolerance = 1e-10;
 constexpr double kRelativeTolerance = 1e-9;
 /// Tolerance of the reference, relative to the tolerance of the run.
 constexpr double kToleranceShare = 1e-3;
-/// Tolerance of the other runs, and the change of the third one's start, in tolerances of the
-/// first.
+/// Tolerance of the other trajectories, and the change of the perturbed ones, in tolerances of the
+/// reference.
 constexpr double kOtherTolerance = 100.0;
 constexpr double kChange = 1000.0;
 /// Smallest distance that can be resolved, relative to the largest coordinate.
@@ -59,14 +59,22 @@ std::pair<std::string_view, std::string_view> referenceMethods(const Chain& chai
   return {"Auto", "Radau-9"};
 }
 
-/// Returns the state with all distances from the first particle scaled by the same factor, such
-/// that the largest change is `change` m.
-State stretched(const State& state, double change) {
-  State changed = state;
-  const auto anchor = state.positions().row(0);
-  const double reach = (state.positions().rowwise() - anchor).rowwise().norm().maxCoeff();
-  changed.positions() += (change / reach) * (state.positions().rowwise() - anchor);
-  return changed;
+/// Returns the state with every particle but the first moved by `change` m, each in another
+/// direction. A chain on a vertical line stays on it: no error of a method leaves the line, so the
+/// growth of a change that does would say nothing.
+State perturbed(const State& state, double change) {
+  const bool vertical =
+      (state.x().array() == state.x()[0]).all() && (state.vx().array() == 0.0).all();
+  State moved = state;
+  double cosine = 1.0, sine = 0.0;  // of a direction that turns by 53 degrees per particle
+  for (Eigen::Index i = 1; i < state.size(); ++i) {
+    const double turned = 0.6 * cosine - 0.8 * sine;
+    sine = 0.8 * cosine + 0.6 * sine;
+    cosine = turned;
+    if (!vertical) moved.x()[i] += change * cosine;
+    moved.y()[i] += change * sine;
+  }
+  return moved;
 }
 
 }  // namespace
@@ -90,6 +98,7 @@ struct ReferenceRun::Trajectory {
   DenseOutputIntegrator& controlled() const {
     return dynamic_cast<DenseOutputIntegrator&>(*integrator);
   }
+  double work() const { return controlled().statistics().work(); }
 
   std::unique_ptr<Integrator> integrator;
   State state;
@@ -123,6 +132,7 @@ void ReferenceRun::restart() {
   if (start_.size() == 0) return;  // too long to be measured
   state_ = start_;
   uncertainty_ = rounding_;
+  outputs_ = 0;
   growth_ = measures_growth_ ? 1.0 : std::numeric_limits<double>::quiet_NaN();
   status_ = Status::kMeasuring;
 }
@@ -133,8 +143,10 @@ void ReferenceRun::makeTrajectories() {
   trajectories_.emplace_back(first, chain_, start_, tolerance_);
   trajectories_.emplace_back(second, chain_, start_, other_tolerance);
   if (!measures_growth_) return;
-  trajectories_.emplace_back(second, chain_, stretched(start_, kChange * tolerance_),
-                             other_tolerance);
+  for (int i = 0; i < 2; ++i) {
+    trajectories_.emplace_back(first, chain_, perturbed(start_, kChange * tolerance_),
+                               other_tolerance);
+  }
 }
 
 void ReferenceRun::advance(double time_step, std::int64_t steps, double run_work) {
@@ -142,12 +154,15 @@ void ReferenceRun::advance(double time_step, std::int64_t steps, double run_work
   requireAtLeastZero("steps", steps);
   if (!isMeasuring() || start_.size() < 2) return;
   if (trajectories_.empty()) makeTrajectories();
-  // Equal shares, so that the step at which one is used up does not depend on the output times.
-  const double share = allowedWork(run_work) / static_cast<double>(trajectories_.size());
+  double left = allowedWork(run_work);
+  for (const Trajectory& trajectory : trajectories_) left -= trajectory.work();
   for (Trajectory& trajectory : trajectories_) {
-    if (trajectory.controlled().advanceWithin(trajectory.state, time_step, steps, share)) continue;
-    stop(Status::kCostTooMuch);
-    return;
+    left += trajectory.work();
+    if (!trajectory.controlled().advanceWithin(trajectory.state, time_step, steps, left)) {
+      stop(Status::kCostTooMuch);
+      return;
+    }
+    left -= trajectory.work();
   }
   compare();
 }
@@ -155,15 +170,24 @@ void ReferenceRun::advance(double time_step, std::int64_t steps, double run_work
 void ReferenceRun::compare() {
   const State& reference = trajectories_.front().state;
   uncertainty_ = largestDistance(reference, trajectories_[1].state) + rounding_;
-  if (measures_growth_) {
-    const double change = largestDistance(reference, trajectories_[2].state);
-    growth_ = std::max(growth_, change / (kChange * tolerance_));
-  }
+  if (measures_growth_) measureGrowth();
   if (uncertainty_ <= believed_) {
     state_ = reference;
   } else {
     stop(std::isfinite(uncertainty_) ? Status::kSensitive : Status::kFailed);
   }
+}
+
+void ReferenceRun::measureGrowth() {
+  const State& reference = trajectories_.front().state;
+  const double change = kChange * tolerance_;
+  Trajectory& late = trajectories_[3];
+  growth_ = std::max(growth_, largestDistance(reference, trajectories_[2].state) / change);
+  growth_ = std::max(growth_, largestDistance(reference, late.state) / change);
+  ++outputs_;
+  if ((outputs_ & (outputs_ - 1)) != 0) return;  // not a power of two
+  late.state = perturbed(reference, change);
+  late.integrator->restart();
 }
 
 double ReferenceRun::errorOf(const State& state) const {

@@ -146,7 +146,7 @@ std::string RunMonitor::toleranceRemark() const {
     return fmt::format("position error above ten tolerances from t = {:.6g} s", exceeded_time_);
   }
   return fmt::format(
-      "sensitive from t = {:.6g} s: small changes of the start have grown {:.2g} times by then, no "
+      "sensitive from t = {:.6g} s: small changes have grown {:.2g} times by then, no "
       "method can keep a tolerance of {:.3g} m beyond",
       exceeded_time_, exceeded_growth_, tolerance_);
 }

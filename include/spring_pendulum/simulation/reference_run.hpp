@@ -5,10 +5,11 @@
 // two is a bound on the error of the reference, also where small perturbations grow. When they have
 // separated, the motion is too sensitive to be known, and the measurement ends.
 //
-// For an error-controlled run, a third trajectory starts with slightly longer springs. Its distance
-// from the reference measures the growth of perturbations, and thus which tolerance can be met.
-// (Scaling the start keeps a straight chain straight. Any other perturbation would make its motion
-// count as sensitive, although no error leaves the line.)
+// For an error-controlled run, two more trajectories start with slightly moved particles. Their
+// distances from the reference measure the growth of perturbations, and thus which tolerance can be
+// met. The first of them starts at the start of the run. The other starts again from the reference
+// after 1, 2, 4, 8, ... output times, because a perturbation may decay before the motion becomes
+// sensitive.
 //
 // The cost is bounded by a count of work, not by a clock, so how long a run is
 // measured does not depend on the machine. The run itself is never touched.
@@ -77,8 +78,8 @@ class ReferenceRun {
   /// \throws InputError if the size of the state is not that of the chain
   double errorOf(const State& state) const;
 
-  /// Largest growth factor of a small perturbation of the start so far; NaN for a fixed-step
-  /// method.
+  /// Largest growth factor of a small perturbation so far, of the start or of a later state; a
+  /// lower bound, as few perturbations are tried. NaN for a fixed-step method.
   double growth() const { return growth_; }
 
  private:
@@ -86,6 +87,7 @@ class ReferenceRun {
 
   void makeTrajectories();
   void compare();
+  void measureGrowth();
   void stop(Status status);
   double allowedWork(double run_work) const;
 
@@ -97,10 +99,12 @@ class ReferenceRun {
   double believed_;   ///< m
   double rounding_;   ///< m
   double growth_;
+  std::int64_t outputs_ = 0;  ///< calls of advance
   Status status_ = Status::kMeasuring;
   State state_;
   double uncertainty_ = 0.0;
-  std::vector<Trajectory> trajectories_;  ///< reference, second, and third if growth is measured
+  /// Reference, second, and for the growth two perturbed ones.
+  std::vector<Trajectory> trajectories_;
 };
 
 }  // namespace spring_pendulum
