@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Runs scripts/run.sh and scripts/test.sh on other Debian releases, each in a chroot made by
-# debootstrap. Needs root, 5 GB and half an hour per release. The folders are kept for the next run;
-# remove them by hand.
-# Usage: scripts/test_releases.sh [RELEASE ...]     (default: bullseye bookworm trixie)
+# Runs scripts/run.sh and scripts/test.sh on other Debian and Ubuntu releases, each in a chroot made by
+# debootstrap. Needs root, 5 GB and half an hour per release.
+# Usage: scripts/test_releases.sh [RELEASE ...]     (default: bullseye bookworm trixie; also: focal)
+# Environment:
+#   SPRING_PENDULUM_RELEASES  folder of the chroots, kept for the next run
+#                             (default: ~/.cache/spring_pendulum_releases)
+#   RELEASE_MIRROR            where packages come from (default: the one debootstrap knows)
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
-releases=${SPRING_PENDULUM_RELEASES:-/var/tmp/spring_pendulum_releases}
+releases=${SPRING_PENDULUM_RELEASES:-${XDG_CACHE_HOME:-$HOME/.cache}/spring_pendulum_releases}
 [ "$(id -u)" = 0 ] || die "must run as root, for chroot"
 [ $# -gt 0 ] || set -- bullseye bookworm trixie
 "$project/scripts/setup.sh" releases
@@ -39,7 +41,10 @@ for release in "$@"; do
   say "$release in $root"
   if [ ! -e "$root/etc/debian_version" ]; then
     mkdir -p "$root"
-    debootstrap --variant=minbase "$release" "$root" "$mirror" > "$root.log" 2>&1 ||
+    components=main
+    if [ "$release" = focal ]; then components=main,universe; fi
+    debootstrap --variant=minbase --components="$components" "$release" "$root" \
+      ${RELEASE_MIRROR:+"$RELEASE_MIRROR"} > "$root.log" 2>&1 ||
       { tail -n 20 "$root.log"; die "debootstrap failed"; }
   fi
   rm -rf "$root/srv/spring_pendulum"
