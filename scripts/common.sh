@@ -1,5 +1,6 @@
 # Sourced by every script: project folder, PATH, and build functions.
 
+unset CDPATH  # with it, cd may go elsewhere and print where
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${SPRING_PENDULUM_BUILD:-$project/build}
 

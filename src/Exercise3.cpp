@@ -1,4 +1,5 @@
 // The exercise: integrates the motion of a chain of particles and writes one file per frame.
+#include "io/files/text_file.hpp"
 #include "io/formats/run_files.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
@@ -66,17 +67,19 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
   const std::int64_t steps =
       std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
   const std::string report = integrator.report();
-  printOutput(fmt::format(
-      "{}{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, {:.3f} s reference run, "
-      "{}, verdict: {}\n",
-      scenario.method.get().name, report.empty() ? "" : " (" + report + ")",
-      counted(chain.size(), "particle"), counted(summary.frames, "frame"),
-      slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
-      scenario.method.get().hasFixedStep() ? counted(steps, "step") + ", " : "",
-      counted(integrator.forceEvaluations(), "force evaluation"),
-      std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0),
-      files.secondsWriting(), files.destination(), monitor.seconds(), monitor.measurements(),
-      toString(monitor.verdict().kind)));
+  printOutput(
+      onOneLine(fmt::format(
+          "{}{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, {:.3f} s reference run, "
+          "{}, verdict: {}",
+          scenario.method.get().name, report.empty() ? "" : " (" + report + ")",
+          counted(chain.size(), "particle"), counted(summary.frames, "frame"),
+          slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
+          scenario.method.get().hasFixedStep() ? counted(steps, "step") + ", " : "",
+          counted(integrator.forceEvaluations(), "force evaluation"),
+          std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0),
+          files.secondsWriting(), files.destination(), monitor.seconds(), monitor.measurements(),
+          toString(monitor.verdict().kind))) +
+      "\n");
 }
 
 void warn(const std::string& text) {

@@ -1,5 +1,6 @@
 // Writes the messages of a run directly to a bag: without a master, as fast as possible, stamped
 // with simulated time, and with the same bytes in every run.
+#include "io/files/text_file.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
@@ -61,11 +62,13 @@ int record(int argc, const char* const* argv) {
   bag.config = switches.config;
   catchInterruptions();
   const BagSummary summary = recordBag(scenario, display, bag);
-  printOutput(fmt::format(
-      "{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}\n",
-      scenario.method.get().name, summary.frames, summary.messages, summary.bytes, summary.path,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-      summary.measurements, summary.verdict.text));
+  printOutput(
+      onOneLine(fmt::format(
+          "{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}",
+          scenario.method.get().name, summary.frames, summary.messages, summary.bytes, summary.path,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          summary.measurements, summary.verdict.text)) +
+      "\n");
   if (summary.verdict.kind == VerdictKind::kDiverged) return kDiverged;
   return interruption() == 0 ? kDone : kSignalled + interruption();
 }

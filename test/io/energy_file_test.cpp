@@ -84,12 +84,12 @@ TEST_F(EnergyFileTest, RefusesWhatIsNoFile) {
   EXPECT_THROW(EnergyFile file("/dev/null"), FileError);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   try {
-    EnergyFile file(path("absent/e.csv"));
+    EnergyFile file(path("absent/"));
     FAIL() << "no error";
   } catch (const FileError& error) {
-    EXPECT_EQ(error.what(),
-              path("absent/e.csv") + ": could not be written: No such file or directory");
+    EXPECT_EQ(error.what(), path("absent") + ": is a folder; give a file");
   }
+  EXPECT_FALSE(std::filesystem::exists(path("absent")));
 }
 
 }  // namespace

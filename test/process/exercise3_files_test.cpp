@@ -305,6 +305,31 @@ TEST_F(Exercise3Endless, AVanishedTerminalDoesNotEndIt) {
   EXPECT_THAT(result.output, HasSubstr(", verdict: "));
 }
 
+TEST_F(Exercise3Files, TheEnergyFileMayLieInTheNewFolderOfTheFrames) {
+  const Result result = run(command({"--output", "new/frames", "--energy", "new/frames/e.csv"}));
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(listFolder(folder_.path("new/frames")),
+              ElementsAre("e.csv", "frame_0000.txt", "frame_0001.txt", "frame_0002.txt"));
+  folder_.write("file", "");
+  expectRefused({"--energy", "file/e.csv"}, 1,
+                folder_.path("file/e.csv") + ": could not be written: Not a directory");
+}
+
+TEST_F(Exercise3Files, ALinkToNoFolderIsToldAsSuch) {
+  std::filesystem::create_symlink("nowhere", folder_.path("link"));
+  expectRefused({"--output", "link"}, 1,
+                folder_.path("link") +
+                    ": could not be created: it is a link to a folder that does not exist");
+}
+
+// Otherwise a folder name could forge lines, or control the terminal.
+TEST_F(Exercise3Files, TheClosingLineIsOneLineWhateverTheNameOfTheFolder) {
+  const Result result = run(command({"--output", "a\nb\x1b[31m"}));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.output, HasSubstr(folder_.path("a?b?[31m")));
+  EXPECT_EQ(result.output.find('\n'), result.output.size() - 1);
+}
+
 TEST_F(Exercise3Files, AFileLargerThanAllowedIsAnError) {
   Command limited = command({"--no-frames", "--frames", "1000", "--energy", "e.csv"});
   limited.prepare = [] {

@@ -8,7 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 check() { "$@" || { echo "failed: $*"; exit 1; }; }
 
 cd "$folder"
-env -i PATH="$PATH" HOME="$folder" SPRING_PENDULUM_BUILD="$1" "$project/scripts/run.sh" \
+env -i PATH="$PATH" HOME="$folder" CDPATH=.:/ SPRING_PENDULUM_BUILD="$1" "$project/scripts/run.sh" \
   Runge-Kutta-2 --frames 5 --damping=0 --output frames --gravity -9 > run.log 2>&1 || { cat run.log; exit 1; }
 check test -s frames/pendulum.gif
 check test -s frames/pendulum.bag

@@ -85,6 +85,9 @@ void FrameFolder::open() {
   if (error == std::errc::not_a_directory) {
     throw FileError(path_ + ": could not be created: it is a file or lies in one; give a folder");
   }
+  if (error == std::errc::file_exists) {
+    throw FileError(path_ + ": could not be created: it is a link to a folder that does not exist");
+  }
   if (error) throw FileError(fmt::format("{}: could not be created: {}", path_, error.message()));
   descriptor_ = FileDescriptor(::open(given_path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor_.isOpen()) {

@@ -64,6 +64,7 @@ OutputFile::OutputFile(const std::string& path, const std::vector<std::string>& 
   const std::filesystem::path target = followLinks(path);
   name_ = target.filename().string();
   folder_path_ = target.has_parent_path() ? target.parent_path().string() : ".";
+  if (name_.empty()) throw FileError(fmt::format("{}: is a folder; give a file", path_));
   if (isFrameName(name_)) {
     throw InputError(fmt::format("{}: is the name of a frame file; give another name", path_));
   }
@@ -76,6 +77,8 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::openFolder() {
+  std::error_code ignored;  // open() reports the folder that is missing
+  std::filesystem::create_directories(folder_path_, ignored);
   folder_ = FileDescriptor(::open(folder_path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder_.isOpen()) refuseForErrno();
 }

@@ -108,7 +108,9 @@ std::vector<po::option> split(const std::vector<std::string>& arguments,
     throw InputError(
         fmt::format("unknown option '{}': known are {}", error.get_option_name(), known));
   } catch (const po::invalid_command_line_syntax& error) {
-    if (error.kind() != po::invalid_syntax::missing_parameter) throw InputError(error.what());
+    const bool lacks_value = error.kind() == po::invalid_syntax::missing_parameter ||
+                             error.kind() == po::invalid_syntax::empty_adjacent_parameter;
+    if (!lacks_value) throw InputError(error.what());
     throw InputError(fmt::format("{}: needs a value, see --help", error.get_option_name()));
   } catch (const po::error& error) {
     throw InputError(fmt::format("{}, see --help", error.what()));

@@ -20,7 +20,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
        "folder for the frame files, created if absent"},
       {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
       {"energy", Text{&s.energy, "FILE", "a file", anyText}, "",
-       "CSV file for the energy balance, one row per frame"},
+       "CSV file for the energy balance, one row per frame; its folder is created if absent"},
       {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
        "after a divergence: stop, or continue as long as every number is finite"},
       {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",
