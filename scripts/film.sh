@@ -11,6 +11,7 @@
 #   --window          the whole window of rviz instead of the scene alone
 set -euo pipefail
 here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd)
+export LC_ALL=C.UTF-8  # a decimal point, no comma, in the numbers of awk and stat
 export PATH=/usr/bin:$PATH  # the Python modules of ROS belong to the python3 of the system
 say() { printf '%s\n' "-- $*"; }
 die() { printf '%s\n' "film.sh: $*" >&2; exit 1; }
@@ -34,6 +35,7 @@ case $out in *.gif | *.mp4 | *.png) ;; *) die "OUT must end in .gif, .mp4 or .pn
 [[ $size =~ ^[0-9]+x[0-9]+$ ]] || die "--size is '$size': must be WIDTHxHEIGHT, for example 800x600"
 for option in start duration fps slow; do
   [[ ${!option} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--$option is '${!option}': must be a number"
+  [[ $option = start || ${!option} = *[1-9]* ]] || die "--$option is '${!option}': must be above 0"
 done
 
 # In the repository, missing packages are installed; an installed script only lists them.

@@ -101,6 +101,20 @@ int runNode() {
   return run.verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 
+/// Starts ROS, which takes the arguments with ":=" away.
+/// \throws InputError if the name of the node is invalid, or if another argument is given
+void initRos(int argc, char** argv) {
+  try {
+    // The handler of roscpp would end ROS before the files are closed and the closing line is logged.
+    ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
+  } catch (const ros::InvalidNameException& error) {
+    throw InputError(error.what());
+  }
+  if (argc <= 1) return;
+  throw InputError(fmt::format(
+      "unexpected argument '{}': the node takes parameters, for example _frames:=100", argv[1]));
+}
+
 }  // namespace
 }  // namespace spring_pendulum
 
@@ -108,8 +122,13 @@ int main(int argc, char** argv) {
   using namespace spring_pendulum;
   prepareProcess();
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffered, also in a file
-  // The handler of roscpp would end ROS before the files are closed and the closing line is logged.
-  ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
+  try {
+    initRos(argc, argv);
+  } catch (const InputError& error) {
+    const Failure failure = failureOf(error);
+    printError(failure.message + "\n");
+    return failure.status;
+  }
   // Without a master, ROS waits until it is shut down.
   catchInterruptions(ros::requestShutdown);
   ros::NodeHandle keeps_ros_started;

@@ -119,6 +119,34 @@ class Launch(unittest.TestCase):
         self.assertIn("unknown method 'Oiler'", output)
         self.assertNotIn('Traceback', output)
 
+    def test_record_sh_replaces_an_earlier_bag_only_by_a_new_one(self):
+        with Folder() as folder:
+            bag, rosrun = folder + '/one.bag', folder + '/rosrun'
+            for recorder, text, message in (
+                    ('exit 1', 'earlier', 'no bag was written to ' + bag),
+                    ('echo new > "$4.active" && mv "$4.active" "$4"', 'new', '')):
+                with open(bag, 'w') as file:
+                    file.write('earlier\n')
+                with open(rosrun, 'w') as file:
+                    file.write('#!/bin/sh\n' + recorder + '\n')
+                os.chmod(rosrun, 0o755)
+                done = subprocess.run([project('scripts/record.sh'), bag, '/state'], capture_output=True,
+                                      text=True, env=dict(os.environ, PATH=folder + ':/usr/bin:/bin'))
+                self.assertEqual(done.returncode, 1 if message else 0)
+                self.assertIn(message, done.stderr)
+                with open(bag) as file:
+                    self.assertEqual(file.read(), text + '\n')
+
+    def test_film_sh_refuses_numbers_that_make_no_film(self):
+        with Folder() as folder:
+            with open(folder + '/one.bag', 'w'):
+                pass
+            for option in ('--fps', '--slow', '--duration'):
+                done = subprocess.run([project('scripts/film.sh'), folder + '/one.bag', folder + '/one.gif',
+                                       option, '0.0'], capture_output=True, text=True)
+                self.assertEqual(done.stderr, "film.sh: %s is '0.0': must be above 0\n" % option)
+                self.assertEqual(done.returncode, 1)
+
     def test_rviz_without_a_display_says_so(self):
         environment = dict(os.environ)
         for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM'):

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Valid and invalid parameters."""
+import subprocess
 import time
 import unittest
 
@@ -9,8 +10,8 @@ import rostest
 import yaml
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
-                              wait_until)
+from pendulum_process import (Folder, Listener, PendulumNode, program, project, read_frames,
+                              run_exercise, wait_until)
 
 
 class Parameters(unittest.TestCase):
@@ -114,6 +115,15 @@ class Parameters(unittest.TestCase):
                 self.assertEqual(node.wait(), 0, node.output())
                 self.assertIn(folder + '/sub/frames', node.output())
             self.assertEqual(len(read_frames(folder + '/sub/frames')), 2)
+
+    def test_other_arguments_and_invalid_names_are_refused_in_one_line(self):
+        for arguments, message in (
+                (['--frames', '3'], "unexpected argument '--frames': the node takes parameters, for example "
+                                    '_frames:=100\n'),
+                (['__name:=7th'], 'Character [7] is not valid as the first character in Graph Resource Name')):
+            done = subprocess.run([program('pendulum_node'), *arguments], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr[:len(message)]), (2, message))
+            self.assertEqual(done.stderr.count('\n'), 1, done.stderr)
 
     def test_by_default_frames_go_to_the_working_directory(self):
         with Folder() as folder:

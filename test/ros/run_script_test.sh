@@ -7,8 +7,12 @@ folder=$(mktemp -d "${TMPDIR:-/tmp}/run script.XXXX")
 trap 'rm -rf "$folder"' EXIT
 check() { "$@" || { echo "failed: $*"; exit 1; }; }
 
+# The scripts find their project also where cd searches other folders and prints the one it found.
+cd "$project"
+check test "$(CDPATH=.:/ bash -c 'source scripts/common.sh; echo "$project"')" = "$project"
+
 cd "$folder"
-env -i PATH="$PATH" HOME="$folder" CDPATH=.:/ SPRING_PENDULUM_BUILD="$1" "$project/scripts/run.sh" \
+env -i PATH="$PATH" HOME="$folder" SPRING_PENDULUM_BUILD="$1" "$project/scripts/run.sh" \
   Runge-Kutta-2 --frames 5 --damping=0 --output frames --gravity -9 > run.log 2>&1 || { cat run.log; exit 1; }
 check test -s frames/pendulum.gif
 check test -s frames/pendulum.bag
