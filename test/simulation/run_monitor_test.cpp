@@ -163,7 +163,8 @@ TEST(RunMonitor, SensitiveMotionIsNotBlamedOnTheRun) {
 // grown 52 times, those of a later state 125 times.
 TEST(RunMonitor, MotionThatBecomesSensitiveLaterIsNotBlamedOnTheRun) {
   const Eigen::Vector4d masses{1.0, 1.0, 1e-4, 1.0};
-  const test::Scene scene{"", Chain(masses, {50.0, 1.0, 1.0}, 9.81), test::straightLine(4, 1.0, 0.0)};
+  const test::Scene scene{"", Chain(masses, {50.0, 1.0, 1.0}, 9.81),
+                          test::straightLine(4, 1.0, 0.0)};
   Scenario scenario = scenarioOf("Auto");
   scenario.tolerance = 1e-3;
   const RunMonitor monitor = monitorAfter(scenario, scene, 10.0);

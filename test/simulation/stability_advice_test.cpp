@@ -176,6 +176,17 @@ TEST(StabilityAdvice, CheckSaysWhatIsTooLargeToTry) {
                          "limit with margin: 0."));
 }
 
+// The reference run reaches 14 s.
+TEST(StabilityAdvice, CheckSaysThatAccuracyWouldTakeTooLongToJudge) {
+  const Eigen::Vector4d masses{1.0, 1.0, 1e-4, 1.0};
+  const Chain chain(masses, {50.0, 1.0, 1.0}, 9.81);
+  Scenario scenario;
+  scenario.frames = 201;
+  EXPECT_THAT(describeStability(chain, test::straightLine(4, 1.0, 0.0), scenario),
+              ContainsRegex("stable step size: 0.0001.* s; largest accurate step size: unknown, as "
+                            "a reference run would take too long"));
+}
+
 TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
   const Scene light = test::horizontalChain("", 11, 0.001);
   const std::string text = remedyForDivergence(light.chain, light.start, Scenario{});

@@ -22,7 +22,8 @@ namespace SPRING_PENDULUM_API spring_pendulum {
 /// Step sizes in s; 0 if the smallest affordable one fails, infinite if all pass.
 struct StepLimits {
   double stable = 0.0;    ///< largest without divergence or energy gain
-  double accurate = 0.0;  ///< largest without a bad verdict (isBad)
+  double accurate = 0.0;  ///< largest without a bad verdict (isBad); NaN if a reference run, which
+                          ///< this takes, would take too long
 };
 
 /// Finds the limits of a fixed-step method within 2 % by trial runs. Every smaller step size tried

@@ -27,20 +27,23 @@ bool isStable(const Trial& trial) {
   return trial.affordable && trial.verdict.kind < VerdictKind::kGainedEnergy;
 }
 
-bool isAccurate(const Trial& trial) {
-  return trial.affordable && !isBad(trial.verdict.kind);
-}
-
 double stableStep(const TrialBench& bench, const Method& method, double first) {
   return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
     return isStable(bench.run(method, step, false, VerdictKind::kGainedEnergy));
   });
 }
 
+/// \returns NaN if a reference run would take too long
 double accurateStep(const TrialBench& bench, const Method& method, double first) {
-  return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
-    return isAccurate(bench.run(method, step, true, VerdictKind::kInaccurate));
-  });
+  bool measurable = true;
+  const double step =
+      largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double tried) {
+        if (!measurable) return false;
+        const Trial trial = bench.run(method, tried, true, VerdictKind::kInaccurate);
+        measurable = !trial.reference_too_costly;
+        return trial.affordable && !isBad(trial.verdict.kind);
+      });
+  return measurable ? step : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The stable step size for q'' + damping q' + stiffness q = 0.
@@ -77,8 +80,9 @@ std::string stepText(double step) {
   return std::isinf(step) ? "the whole run" : digits(step) + " s";
 }
 
-/// \param step 0 if no step size of at least `least` s passed
+/// \param step 0 if no step size of at least `least` s passed, NaN if none could be judged
 std::string limitText(double step, double least) {
+  if (std::isnan(step)) return "unknown, as a reference run would take too long";
   if (step > 0.0) return stepText(step);
   return fmt::format("below {} s, where runs take too long to be tried", digits(least));
 }

@@ -143,6 +143,7 @@ Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
   }
   trial.position_error = judge.positionError();
   trial.measured = with_reference && reference.isMeasuring();
+  trial.reference_too_costly = reference.status() == ReferenceRun::Status::kCostTooMuch;
   trial.verdict = judge.worst();
   return trial;
 }

@@ -17,7 +17,8 @@ struct Trial {
   Verdict verdict;
   double energy_error = 0.0;  ///< largest relative residual of the energy balance
   PositionError position_error;
-  bool measured = false;         ///< whether the reference could follow to the end
+  bool measured = false;  ///< whether the reference could follow to the end
+  bool reference_too_costly = false;
   std::int64_t evaluations = 0;  ///< of the force, without those of the reference
   double work = 0.0;             ///< the same in force evaluations of Taylor-8
 };
