@@ -182,9 +182,11 @@ TEST(StabilityAdvice, CheckSaysThatAccuracyWouldTakeTooLongToJudge) {
   const Chain chain(masses, {50.0, 1.0, 1.0}, 9.81);
   Scenario scenario;
   scenario.frames = 201;
+  scenario.wanted_error = 1e-3;
   EXPECT_THAT(describeStability(chain, test::straightLine(4, 1.0, 0.0), scenario),
               ContainsRegex("stable step size: 0.0001.* s; largest accurate step size: unknown, as "
-                            "a reference run would take too long"));
+                            "a reference run would take too long\nposition error of at most 0.001 "
+                            "m: unknown, as a reference run would take too long\n"));
 }
 
 TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
 
 namespace spring_pendulum {
 namespace {
@@ -32,6 +34,9 @@ double stableStep(const TrialBench& bench, const Method& method, double first) {
     return isStable(bench.run(method, step, false, VerdictKind::kGainedEnergy));
   });
 }
+
+/// Said of what cannot be judged.
+constexpr std::string_view kNotJudged = "unknown, as a reference run would take too long";
 
 /// \returns NaN if a reference run would take too long
 double accurateStep(const TrialBench& bench, const Method& method, double first) {
@@ -82,7 +87,7 @@ std::string stepText(double step) {
 
 /// \param step 0 if no step size of at least `least` s passed, NaN if none could be judged
 std::string limitText(double step, double least) {
-  if (std::isnan(step)) return "unknown, as a reference run would take too long";
+  if (std::isnan(step)) return std::string(kNotJudged);
   if (step > 0.0) return stepText(step);
   return fmt::format("below {} s, where runs take too long to be tried", digits(least));
 }
@@ -150,6 +155,9 @@ Candidate cheapestStep(const TrialBench& bench, const Method& method, double fir
 std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
   Candidate best;
   const double wanted = scenario.wanted_error;
+  if (bench.run(findMethod("Auto"), wanted, true).reference_too_costly) {
+    return fmt::format("position error of at most {:.3g} m: {}\n", wanted, kNotJudged);
+  }
   for (const StepControl control : {StepControl::kErrorControlled, StepControl::kFixed}) {
     for (const Method& method : methodTable()) {
       if (method.control != control) continue;
