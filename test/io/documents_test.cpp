@@ -6,8 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -103,6 +106,49 @@ TEST(Documents, ReadmeIsShort) {
   for (std::string line; std::getline(file, line);) ++lines;
   EXPECT_GT(lines, 50);
   EXPECT_LE(lines, 150);  // 103 when written
+}
+
+/// Calls `visit` with every match of `pattern` in `text`.
+template <typename Visitor>
+void forEachMatch(const std::string& text, const std::string& pattern, const Visitor& visit) {
+  const std::regex regex(pattern);
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) {
+    visit(*match);
+  }
+}
+
+/// "Suite.Test", "ros.bag" and, for whole programs, "io_documents_test".
+std::set<std::string> testNames() {
+  const std::string folder = "test/";
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(PROJECT_DIR "/test")) {
+    const std::filesystem::path path = entry.path().lexically_relative(PROJECT_DIR "/test");
+    if (path.extension() == ".test") names.insert("ros." + path.stem().string());
+    if (path.extension() != ".cpp") continue;
+    names.insert(replaced(path.parent_path() / path.stem(), '/', "_"));
+    forEachMatch(
+        textOf(folder + path.string()), R"(TEST(?:_F|_P)?\((\w+),\s*(\w+)\))",
+        [&](const std::smatch& match) { names.insert(match.str(1) + '.' + match.str(2)); });
+  }
+  forEachMatch(textOf("test/ros/CMakeLists.txt"), R"(NAME (ros\.\w+))",
+               [&](const std::smatch& match) { names.insert(match.str(1)); });
+  return names;
+}
+
+TEST(Documents, NameTestsThatExist) {
+  const std::set<std::string> names = testNames();
+  int found = 0;
+  forEachMatch(
+      textOf("docs/reliability.md"), R"(`([A-Z][a-z]\w+\.|ros\.[a-z_]+|[a-z]\w+_test)(\w*)(\*?)`)",
+      [&](const std::smatch& match) {
+        const std::string name = match.str(1) + match.str(2);
+        const auto least = names.lower_bound(name);
+        const bool exists = least != names.end() &&
+                            (match.length(3) == 0 ? *least == name : least->rfind(name, 0) == 0);
+        EXPECT_TRUE(exists) << match.str();
+        ++found;
+      });
+  EXPECT_GT(found, 50);
 }
 
 }  // namespace
