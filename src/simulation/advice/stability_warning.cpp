@@ -12,14 +12,15 @@
 namespace spring_pendulum {
 namespace {
 
-/// An oscillation that grows by kClearGrowth within kSteps steps is clearly unstable.
+/// A method is clearly unstable if an oscillation grows by kClearGrowth within kSteps steps.
 constexpr double kClearGrowth = 1e8;
 constexpr std::int64_t kSteps = 500;
 
-/// Work of a trial as in TrialBench: about 0.02 s.
+/// Allowed work of a trial, see `TrialBench`: about 0.02 s.
 constexpr double kTrialWork = 2e6;
 
-/// Whether the method is clearly unstable for a single spring with the rate of the stiffest spring.
+/// Whether the method is clearly unstable for a single spring with the rate of the stiffest spring
+/// of the chain.
 bool isClearlyUnstable(const Method& method, const Chain& chain, const Scenario& scenario) {
   const double mode = stiffestSpring(chain);
   const SpringLaw spring{scenario.stiffness * mode, scenario.damping * mode, 1.0};
@@ -60,12 +61,9 @@ std::string stabilityWarning(const Chain& chain, const State& start, const Scena
   const FrameSteps step = frameSteps(scenario);
   const TrialBench bench(chain, start, step.timeOfFrame(scenario.frames), step.timeOfFrame(1),
                          kTrialWork);
-  const double evaluations = static_cast<double>(chain.size() + 5) * method.stages *
-                             static_cast<double>(scenario.steps_per_frame);
-  const double frames =
-      std::min(static_cast<double>(scenario.frames - 1), kTrialWork / evaluations);
-  const Trial trial = bench.run(method, scenario.tolerance, step, static_cast<std::int64_t>(frames),
-                                false, VerdictKind::kGainedEnergy);
+  const std::int64_t frames = std::min(scenario.frames - 1, bench.affordableFrames(method, step));
+  const Trial trial =
+      bench.run(method, scenario.tolerance, step, frames, false, VerdictKind::kGainedEnergy);
   if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
   return fmt::format("{} is unstable with a time step of {} s ({}); {}", method.name,
                      scenario.time_step, trial.verdict.text,

@@ -9,11 +9,11 @@
 
 namespace spring_pendulum {
 
-/// Returns one line if the time step is clearly above the stability limit of the method for every
-/// shape of the chain; else empty. O(N), negligible compared with a run.
+/// Returns a line of text if the time step is clearly above the stability limit of the method,
+/// whatever the positions of the particles; else empty. O(N), negligible compared with a run.
 std::string stabilityWarning(const Chain& chain, const Scenario& scenario);
 
-/// Also tries the first steps of the run, for at most about 0.02 s.
+/// The same, but also tries the first steps of the run, for at most about 0.02 s.
 std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario);
 
 }  // namespace spring_pendulum

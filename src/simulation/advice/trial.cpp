@@ -13,21 +13,23 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kRatio = 1.01;  ///< from one step size of the grid to the next
-constexpr int kStride = 32;      ///< of the coarse search, in points of the grid
-/// Points below the result that have to pass as well: nearly undamped chains have narrow windows of
-/// unstable steps. Fewer where trials are costly, which is on stiff and damped chains.
+constexpr double kRatio = 1.01;  ///< ratio of neighbouring step sizes on the grid
+constexpr int kStride = 32;      ///< stride of the coarse search, in grid points
+/// Number of grid points below the result that must pass as well, because nearly undamped chains
+/// have narrow intervals of unstable step sizes. Stiff and damped chains, whose trials are costly,
+/// need fewer.
 constexpr int kLeastLookBack = 10;
 constexpr int kMostLookBack = 40;
 
 /// Overhead of a force evaluation, in particles.
 constexpr double kOverhead = 4.0;
 
+/// Work of one force evaluation, in particles.
 double weight(const Chain& chain) {
   return static_cast<double>(chain.size()) + kOverhead;
 }
 
-/// Advances by one frame, or until as much work is done as `most` force evaluations.
+/// Advances by one frame, or until the work equals `most` force evaluations.
 /// \returns whether the frame was finished
 bool advanceWithin(Integrator& integrator, State& state, const FrameSteps& frame, double most) {
   if (auto* controlled = dynamic_cast<DenseOutputIntegrator*>(&integrator)) {
@@ -44,7 +46,7 @@ double workDone(const Method& method, const Chain& chain, const Integrator& inte
          static_cast<double>(integrator.forceEvaluations());
 }
 
-/// Whether a step size passes, by its place on a geometric grid. Tries each only once.
+/// A geometric grid of step sizes. Remembers which ones pass, so that each is tried only once.
 class Grid {
  public:
   Grid(double first, double least, double most, const std::function<bool(double)>& passes)
@@ -70,7 +72,7 @@ class Grid {
     return isTooSmall(i) ? std::nullopt : std::optional<int>(i);
   }
 
-  /// Returns a point that passes, whose upper neighbour fails, between `good` and `bad`.
+  /// Returns a point between `good` and `bad` that passes and whose upper neighbour fails.
   int bisect(int good, int bad) {
     while (bad - good > 1) {
       const int middle = good + (bad - good) / 2;
@@ -79,8 +81,8 @@ class Grid {
     return good;
   }
 
-  /// The highest of the points just below `good` that fails; or a point below a step size with one
-  /// of the usual safety margins, if that fails.
+  /// Returns a failing point below `good`, if there is one: the highest of those just below it, or
+  /// a point below a failing step size of 0.95 or 0.9 times `good`, the usual safety margins.
   std::optional<int> failureBelow(int good) {
     const double count =
         std::clamp(kLeastLookBack * step(good) / least_, 1.0 * kLeastLookBack, 1.0 * kMostLookBack);
@@ -122,10 +124,7 @@ Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
   State state = start_;
   Trial trial;
   const double most = most_work_ / weight(chain_);
-  if (fixed) {
-    const double steps = static_cast<double>(frames) * static_cast<double>(frame.steps);
-    trial.affordable = steps * method.stages <= most;
-  }
+  if (fixed) trial.affordable = frames <= affordableFrames(method, frame);
   for (std::int64_t n = 1; n <= frames && trial.affordable; ++n) {
     trial.affordable = advanceWithin(*integrator, state, frame, most);
     trial.evaluations = integrator->forceEvaluations();
@@ -159,6 +158,11 @@ Trial TrialBench::run(const Method& method, double step, bool with_reference,
   const double frames = std::ceil(duration_ / frame.timeOfFrame(1) * (1.0 - 1e-9));
   return run(method, std::nullopt, frame, static_cast<std::int64_t>(frames), with_reference,
              enough);
+}
+
+std::int64_t TrialBench::affordableFrames(const Method& method, const FrameSteps& frame) const {
+  const double evaluations = static_cast<double>(frame.steps) * method.stages;
+  return static_cast<std::int64_t>(most_work_ / weight(chain_) / evaluations);
 }
 
 double TrialBench::workOf(const Method& method, double step) const {

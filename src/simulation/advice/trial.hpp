@@ -12,21 +12,24 @@
 
 namespace spring_pendulum {
 
+/// The result of a trial run.
 struct Trial {
-  bool affordable = true;  ///< whether it ended within the allowed work
+  bool affordable = true;  ///< whether the trial ended within the allowed work
   Verdict verdict;
   double energy_error = 0.0;  ///< largest relative residual of the energy balance
   PositionError position_error;
-  bool measured = false;  ///< whether the reference could follow to the end
+  bool measured = false;  ///< whether the reference run covers the whole trial
   bool reference_too_costly = false;
-  std::int64_t evaluations = 0;  ///< of the force, without those of the reference
-  double work = 0.0;             ///< the same in force evaluations of Taylor-8
+  std::int64_t evaluations = 0;  ///< force evaluations, without those of the reference run
+  double work = 0.0;             ///< their cost, in force evaluations of Taylor-8
 };
 
-/// Makes trial runs of a chain from a start, with any method and step size.
+/// Makes trial runs of a chain from a start, with any method and step size. Refers to the chain and
+/// the start, which must outlive the bench.
 class TrialBench {
  public:
-  /// Work of a trial without its reference run: force evaluations times particles; about 0.2 s.
+  /// Allowed work of a trial without its reference run, in force evaluations times particles: about
+  /// 0.2 s.
   static constexpr double kMostWork = 2e7;
 
   /// \param duration       duration of the run, s
@@ -40,6 +43,7 @@ class TrialBench {
         most_work_(most_work) {}
 
   /// Runs frame by frame to the end, or until the verdict is `enough` or worse.
+  /// \param tolerance m; nothing for a fixed-step method
   Trial run(const Method& method, std::optional<double> tolerance, const FrameSteps& frame,
             std::int64_t frames, bool with_reference,
             VerdictKind enough = VerdictKind::kDiverged) const;
@@ -48,6 +52,9 @@ class TrialBench {
   /// \param step step size in s; for an error-controlled method the tolerance in m
   Trial run(const Method& method, double step, bool with_reference,
             VerdictKind enough = VerdictKind::kDiverged) const;
+
+  /// Number of frames of a fixed-step method that an affordable trial can have.
+  std::int64_t affordableFrames(const Method& method, const FrameSteps& frame) const;
 
   /// Smallest step size of an affordable trial, s.
   double leastStep(const Method& method) const;
@@ -65,10 +72,10 @@ class TrialBench {
   double most_work_;
 };
 
-/// The largest step size that passes, within 1 %. Every smaller one that was tried passes too:
-/// those of 1, 2, ..., 33 % less (down to 10 % less if the result is near `least`), of 5 and 10 %
-/// less exactly, and of 27 and 47 % less than `first`.
-/// \returns 0 if none of at least `least` s passes; infinity if all up to `most` s do
+/// Returns the largest step size in s that passes, within 1 %. Smaller step sizes are tried as well
+/// and pass: 1, 2, ..., 33 % below the result (only down to 10 % if it is near `least`), exactly 5
+/// and 10 % below the result, and 27 and 47 % below `first`.
+/// \returns 0 if no step size of at least `least` s passes; infinity if all up to `most` s pass
 double largestPassingStep(double first, double least, double most,
                           const std::function<bool(double)>& passes);
 
