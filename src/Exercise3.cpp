@@ -6,6 +6,7 @@
 #include "io/program/interruption.hpp"
 #include "io/program/progress.hpp"
 #include "io/program/standard_streams.hpp"
+#include "model/numbers.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/integrator_settings.hpp"
 #include "simulation/interruptible.hpp"
@@ -56,10 +57,6 @@ Summary simulate(const Scenario& scenario, State& state, Integrator& integrator,
   return summary;
 }
 
-std::string counted(std::int64_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 void printSummary(const Scenario& scenario, const Summary& summary, const Chain& chain,
                   const SleepingIntegrator& integrator, const RunFiles& files,
                   const RunMonitor& monitor) {
@@ -99,12 +96,6 @@ int conclude(const Scenario& scenario, const Chain& chain, const State& start,
   return interruption() == 0 ? kDone : kSignalled + interruption();
 }
 
-void reportSkips(const Scenario& scenario, const Integrator& integrator, bool tracks_dissipation) {
-  for (const std::string& skipped : skippedWork(scenario, integrator, tracks_dissipation)) {
-    printOutput(fmt::format("skipped: {}\n", skipped));
-  }
-}
-
 int run(const Scenario& scenario, const Switches& switches) {
   const Particles particles = readParticleFile(scenario.particles);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
@@ -116,7 +107,7 @@ int run(const Scenario& scenario, const Switches& switches) {
       makeInterruptible(scenario, chain, particles.state, tracks_dissipation,
                         [] { return interruption() != 0; }),
       chain, scenario.sleep);
-  if (switches.report_skips) reportSkips(scenario, integrator, tracks_dissipation);
+  if (switches.report_skips) printOutput(skippedWork(scenario, integrator, tracks_dissipation));
   if (switches.check) {
     printOutput(describeStability(chain, particles.state, scenario));
     return kDone;

@@ -5,6 +5,7 @@
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
+#include "model/numbers.hpp"
 #include "ros/bag_recorder.hpp"
 #include "simulation/integrator_settings.hpp"
 #include "simulation/options/scenario_options.hpp"
@@ -30,11 +31,7 @@ void report(const Scenario& scenario, bool track_energy, const Switches& switche
   checkTolerance(scenario, chain, particles.state);
   const auto integrator =
       makeIntegrator(scenario.method, chain, integratorOptions(scenario, track_energy));
-  if (switches.report_skips) {
-    for (const std::string& skipped : skippedWork(scenario, *integrator, track_energy)) {
-      printOutput(fmt::format("skipped: {}\n", skipped));
-    }
-  }
+  if (switches.report_skips) printOutput(skippedWork(scenario, *integrator, track_energy));
   if (switches.check) printOutput(describeStability(chain, particles.state, scenario));
 }
 
@@ -62,13 +59,13 @@ int record(int argc, const char* const* argv) {
   bag.config = switches.config;
   catchInterruptions();
   const BagSummary summary = recordBag(scenario, display, bag);
-  printOutput(
-      onOneLine(fmt::format(
-          "{}: {} frames, {} messages, {} bytes in {}, {:.3f} s, {}, verdict: {}",
-          scenario.method.get().name, summary.frames, summary.messages, summary.bytes, summary.path,
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-          summary.measurements, summary.verdict.text)) +
-      "\n");
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string line = fmt::format(
+      "{}: {}, {}, {} bytes in {}, {:.3f} s, {}, verdict: {}", scenario.method.get().name,
+      counted(summary.frames, "frame"), counted(summary.messages, "message"), summary.bytes,
+      summary.path, seconds, summary.measurements, summary.verdict.text);
+  printOutput(onOneLine(line) + "\n");
   if (summary.verdict.kind == VerdictKind::kDiverged) return kDiverged;
   return interruption() == 0 ? kDone : kSignalled + interruption();
 }
@@ -87,8 +84,8 @@ int main(int argc, char** argv) {
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");
     std::fflush(stdout);
-    // A bag that could not be written cannot be closed either (see recordBag): at a regular exit, the
-    // plugin loader of Debian 13's rosbag warns of the objects that are left.
+    // A bag that could not be written can't be closed either (see recordBag). At a regular exit,
+    // the plugin loader of rosbag in Debian 13 would warn about objects that still exist.
     std::_Exit(failure.status);
   }
 }

@@ -64,7 +64,7 @@ std::optional<double> parseNumber(std::string_view text) {
   const auto [rest, error] = std::from_chars(number.data(), end, value);
   if (rest != end || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc()) return finite(value);
-    // The error "out of range" means either too large or rounded to 0: strtod tells which.
+    // "Out of range" means either too large or rounded to 0; strtod distinguishes the two.
 #endif
   return parseNumberPortably(text);
 }
@@ -76,6 +76,10 @@ std::optional<std::int64_t> parseInteger(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end) return std::nullopt;
   return value;
+}
+
+std::string counted(std::int64_t count, std::string_view noun, std::string_view ending) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : ending);
 }
 
 char* writeNumber(double value, char* text) {

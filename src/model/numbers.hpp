@@ -4,19 +4,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace spring_pendulum {
 
-/// Returns the double nearest to a decimal text ("1", "-2.5e-3", "+4"), which is ±0 for "1e-400".
+/// Returns the double nearest to a decimal text ("1", "-2.5e-3", "+4"); 0 or -0 if it underflows.
 /// Returns nothing if the text is not entirely a number or the value is not finite.
 std::optional<double> parseNumber(std::string_view text);
 
-/// The same without std::from_chars, slower: for standard libraries that lack it.
+/// The same, but slower: for standard libraries without std::from_chars for double.
 std::optional<double> parseNumberPortably(std::string_view text);
 
 /// Returns a decimal integer; nothing if the text is not entirely an integer of 64 bits.
 std::optional<std::int64_t> parseInteger(std::string_view text);
+
+/// Returns a count with its noun: "1 frame", "500 frames", "2 switches".
+/// \param ending what the plural of the noun adds
+std::string counted(std::int64_t count, std::string_view noun, std::string_view ending = "s");
 
 /// The longest text of a double is -2.2250738585072014e-308.
 constexpr std::size_t kLongestNumber = 24;

@@ -18,20 +18,20 @@ double workPerEvaluation(const Method& method, Eigen::Index particles) {
   return 0.35 + 0.007 * static_cast<double>(particles);
 }
 
-std::vector<std::string> skippedWork(const Scenario& scenario, const Integrator& integrator,
-                                     bool tracks_dissipation) {
+std::string skippedWork(const Scenario& scenario, const Integrator& integrator,
+                        bool tracks_dissipation) {
   const Skips skips = integrator.skips();
-  std::vector<std::string> skipped;
-  if (skips.damping) skipped.emplace_back("velocity differences: damping is 0");
-  if (skips.gravity) skipped.emplace_back("gravity: it is 0");
-  if (skips.masses) skipped.emplace_back("reading masses: all moving particles have the same");
+  std::string text;
+  if (skips.damping) text += "skipped: velocity differences: damping is 0\n";
+  if (skips.gravity) text += "skipped: gravity: it is 0\n";
+  if (skips.masses) text += "skipped: reading masses: all moving particles have the same\n";
   if (scenario.damping == 0.0) {
-    skipped.emplace_back("dissipated energy: damping is 0");
+    text += "skipped: dissipated energy: damping is 0\n";
   } else if (!tracks_dissipation) {
-    skipped.emplace_back("dissipated energy: costly here, and no energy file is asked for");
+    text += "skipped: dissipated energy: costly here, and no energy file is asked for\n";
   }
-  if (scenario.no_frames) skipped.emplace_back("frame files: not written");
-  return skipped;
+  if (scenario.no_frames) text += "skipped: frame files: not written\n";
+  return text;
 }
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-// Numbers from text: both parsers give the same bits, and refuse the same texts. Numbers to text: the
+// Numbers from text: both parsers give the same bits and refuse the same texts. Numbers to text: the
 // same characters with every release of {fmt}.
 #include "model/numbers.hpp"
 
@@ -89,6 +89,14 @@ TEST(Numbers, AreWrittenWithTheFewestCharacters) {
       {5e-324, "5e-324"}, {-1.7976931348623157e308, "-1.7976931348623157e+308"},
       {infinity, "inf"},  {std::nan(""), "nan"}};
   for (const auto& [value, text] : rows) EXPECT_EQ(written(value), text);
+}
+
+TEST(Numbers, AreCountedInSingularAndPlural) {
+  EXPECT_EQ(counted(0, "frame"), "0 frames");
+  EXPECT_EQ(counted(1, "frame"), "1 frame");
+  EXPECT_EQ(counted(2, "frame"), "2 frames");
+  EXPECT_EQ(counted(1, "switch", "es"), "1 switch");
+  EXPECT_EQ(counted(2, "switch", "es"), "2 switches");
 }
 
 TEST(Numbers, AreWrittenTheSameEverywhere) {

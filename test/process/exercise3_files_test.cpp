@@ -153,7 +153,7 @@ TEST_F(Exercise3Files, EarlierFramesAreCounted) {
   folder_.write("frame_9999.txt", "of somebody");
   folder_.write("frame_0000.txt", "of somebody");
   EXPECT_THAT(run(command({})).output,
-              HasSubstr(" to " + folder_.path() + " (after removing 2 earlier frames), "));
+              HasSubstr(" to " + folder_.path() + " (2 earlier frames removed), "));
   EXPECT_THAT(run(command({"--output", "new"})).output,
               HasSubstr(" to " + folder_.path("new") + ", "));
 }

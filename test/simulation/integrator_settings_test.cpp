@@ -1,15 +1,11 @@
 #include "simulation/integrator_settings.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-using testing::UnorderedElementsAre;
-
-std::vector<std::string> skippedIn(const Scenario& scenario, const Eigen::VectorXd& masses) {
+std::string skippedIn(const Scenario& scenario, const Eigen::VectorXd& masses) {
   const Chain chain(masses, scenario.spring(), scenario.gravity);
   return skippedWork(scenario, *makeIntegrator(scenario.method, chain), !scenario.energy.empty());
 }
@@ -19,16 +15,18 @@ TEST(SkippedWork, NamesWhatTheSceneDoesNotNeed) {
   scenario.damping = 0.0;
   scenario.gravity = 0.0;
   scenario.no_frames = true;
-  EXPECT_THAT(skippedIn(scenario, Eigen::VectorXd::Ones(4)),
-              UnorderedElementsAre(HasSubstr("velocity differences"), HasSubstr("gravity"),
-                                   HasSubstr("masses"), HasSubstr("dissipated energy"),
-                                   HasSubstr("frame files")));
+  EXPECT_EQ(skippedIn(scenario, Eigen::VectorXd::Ones(4)),
+            "skipped: velocity differences: damping is 0\n"
+            "skipped: gravity: it is 0\n"
+            "skipped: reading masses: all moving particles have the same\n"
+            "skipped: dissipated energy: damping is 0\n"
+            "skipped: frame files: not written\n");
 }
 
 TEST(SkippedWork, IsNothingWhereAllIsNeeded) {
   Scenario scenario;
   scenario.energy = "energy.csv";
-  EXPECT_THAT(skippedIn(scenario, Eigen::VectorXd::LinSpaced(4, 1.0, 2.0)), testing::IsEmpty());
+  EXPECT_EQ(skippedIn(scenario, Eigen::VectorXd::LinSpaced(4, 1.0, 2.0)), "");
 }
 
 TEST(IntegratorOptions, AreThoseOfTheScenario) {

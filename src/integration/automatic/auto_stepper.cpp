@@ -4,6 +4,7 @@
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 #include "model/chain_modes.hpp"
+#include "model/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -22,10 +23,10 @@ constexpr double kRateForImplicit = 1e3;
 /// Share of the stability limit above which the motion counts as stiff for an explicit method.
 constexpr double kStiffFrom = 0.25;
 
-/// Least number of steps of the active method before a switch, to measure its pace.
+/// Least number of steps of the active method before a switch, so that its pace is known.
 constexpr int kLeastSteps = 16;
 
-/// Steps of a candidate in a race: to find its step size, and to measure its pace.
+/// Steps of a candidate in a race: first to find its step size, then to measure its pace.
 constexpr int kWarmingUp = 6;
 constexpr int kCounted = 6;
 
@@ -38,8 +39,9 @@ constexpr double kWorkBeforeFirstRace = 500.0;
 /// Least ratio of the paces for a switch.
 constexpr double kHysteresis = 1.2;
 
-/// Work of an evaluation, in those of Taylor-8: measured for chains of 2 to 50 particles. Steps of
-/// order 4 have fewer terms to share what is done once per step.
+/// Cost of a force evaluation, in force evaluations of Taylor-8, measured for chains of 2 to 50
+/// particles. It is higher with order 4, whose steps have fewer terms to share the work that is
+/// done once per step.
 constexpr double kTaylorWork = 1.0;
 constexpr double kStabilizedTaylor4Work = 1.4;
 constexpr double kStabilizedTaylor8Work = 1.15;
@@ -115,8 +117,8 @@ void AutoStepper::start(const State& state) {
   startedAt(candidates_[0], state);
 }
 
-// The product of the difference, not the difference of products: it does not depend on earlier
-// work, so a restarted run gives the same bits.
+// The difference is taken before the product. Its rounding then does not depend on earlier work, so
+// a restarted run gives the same bits.
 double AutoStepper::workSince(const Candidate& candidate, std::int64_t evaluations) {
   return candidate.work_per_evaluation *
          static_cast<double>(evaluationsOf(candidate) - evaluations);
@@ -218,7 +220,7 @@ std::string AutoStepper::report() const {
     if (candidate.covered == 0.0) continue;
     text += fmt::format("{} for {:.4g} s, ", candidate.name, candidate.covered);
   }
-  return text + fmt::format("{} switch{}", switches_, switches_ == 1 ? "" : "es");
+  return text + counted(switches_, "switch", "es");
 }
 
 }  // namespace spring_pendulum

@@ -34,8 +34,8 @@ class ParticleParser {
     }
     if (columns == 0) return;
     if (columns != kColumns) {
-      refuse(fmt::format("{} number{} in this line; a particle needs 3: x y m", columns,
-                         columns == 1 ? "" : "s"));
+      refuse(counted(static_cast<std::int64_t>(columns), "number") +
+             " in this line; a particle needs 3: x y m");
     }
     if (!rows_.empty()) checkMovingParticle(row);
     rows_.push_back(row);

@@ -1,5 +1,7 @@
 #include "io/formats/run_files.hpp"
 
+#include "model/numbers.hpp"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -32,23 +34,19 @@ void RunFiles::finish() {
 
 std::string RunFiles::description() const {
   std::string text = "no frame files";
-  if (frames_) {
-    text = "frames go to " + frames_->folder();
-    const std::int64_t earlier = frames_->earlierFrames();
-    if (earlier > 0)
-      text += fmt::format(" ({} earlier frame{} removed)", earlier, earlier == 1 ? "" : "s");
-  }
+  if (frames_) text = "frames go to " + frameFolder();
   if (energy_) text += ", energies go to " + energy_->path();
   return text;
 }
 
 std::string RunFiles::destination() const {
-  if (!frames_) return "";
+  return frames_ ? " to " + frameFolder() : "";
+}
+
+std::string RunFiles::frameFolder() const {
   const std::int64_t earlier = frames_->earlierFrames();
-  return " to " + frames_->folder() +
-         (earlier == 0 ? ""
-                       : fmt::format(" (after removing {} earlier frame{})", earlier,
-                                     earlier == 1 ? "" : "s"));
+  if (earlier == 0) return frames_->folder();
+  return fmt::format("{} ({} removed)", frames_->folder(), counted(earlier, "earlier frame"));
 }
 
 }  // namespace spring_pendulum

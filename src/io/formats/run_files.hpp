@@ -12,7 +12,8 @@
 
 namespace spring_pendulum {
 
-/// Writes every frame once: after a reset, the run repeats its frames bit for bit.
+/// Writes every frame once. A run that is reset repeats its frames bit for bit, so they are not
+/// written again.
 class RunFiles {
  public:
   /// Writes no frames with `no_frames` or an empty `output`, no energy balance with an empty
@@ -32,7 +33,7 @@ class RunFiles {
 
   /// "frames go to /home/me/frames (500 earlier frames removed), energies go to ..."
   std::string description() const;
-  /// " to /home/me/frames (after removing 500 earlier frames)", empty without frames
+  /// " to /home/me/frames (500 earlier frames removed)", empty without frames
   std::string destination() const;
   std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
   /// Wall-clock time spent writing frames, s. Valid after `finish`.
@@ -41,6 +42,9 @@ class RunFiles {
   double secondsWaited() const { return frames_ ? frames_->secondsWaited() : 0.0; }
 
  private:
+  /// "/home/me/frames (500 earlier frames removed)"
+  std::string frameFolder() const;
+
   std::optional<EnergyFile> energy_;
   std::optional<BackgroundFrameWriter> frames_;
   std::int64_t next_frame_ = 0;

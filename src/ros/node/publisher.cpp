@@ -1,6 +1,7 @@
 #include "ros/node/publisher.hpp"
 
 #include "io/program/interruption.hpp"
+#include "model/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -40,15 +41,16 @@ PendulumStatus statusOf(const PendulumRun& run, bool paused) {
   }
   if (run.isOver()) {
     status.code = PendulumStatus::FINISHED;
-    status.text = fmt::format("finished: {} frames, {:.6g} s, {}", run.frame() + 1, run.time(),
-                              run.measurements());
+    status.text = fmt::format("finished: {}, {:.6g} s, {}", counted(run.frame() + 1, "frame"),
+                              run.time(), run.measurements());
   } else if (paused) {
     status.code = PendulumStatus::PAUSED;
     status.text = fmt::format("paused at frame {}, t = {:.6g} s", run.frame(), run.time());
   } else {
     status.code = PendulumStatus::RUNNING;
-    status.text = fmt::format("running, {} frames to t = {:.6g} s", run.scenario().frames,
-                              frameSteps(run.scenario()).timeOfFrame(run.scenario().frames - 1));
+    status.text =
+        fmt::format("running, {} to t = {:.6g} s", counted(run.scenario().frames, "frame"),
+                    frameSteps(run.scenario()).timeOfFrame(run.scenario().frames - 1));
   }
   status.text += ", verdict: " + verdict.text;
   return status;
@@ -97,7 +99,7 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   if (is_ready()) return;
   PendulumStatus waiting;
   waiting.code = PendulumStatus::WAITING;
-  waiting.text = fmt::format("waiting for {} subscribers", options.wait_for_subscribers);
+  waiting.text = "waiting for " + counted(options.wait_for_subscribers, "subscriber");
   ROS_INFO_STREAM(waiting.text << " of markers, state and status (wait_for_subscribers)");
   publishStatus(waiting, stamps_.next(0.0));
   while (ros::ok() && interruption() == 0 && !is_ready()) {

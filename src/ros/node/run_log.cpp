@@ -1,5 +1,6 @@
 #include "ros/node/run_log.hpp"
 
+#include "model/numbers.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int kMostChoices = 5;  ///< number of logged choices of Auto
 
-/// Logs that the display rate exceeds the number of states that a fixed step gives.
+/// Logs if the display rate exceeds the number of states per second that a fixed step gives.
 void logDisplayRate(const PendulumRun& run, const NodeOptions& options) {
   if (!run.scenario().method.get().hasFixedStep() || options.real_time_factor <= 0.0) return;
   const double states = options.real_time_factor / run.scenario().time_step;
@@ -26,7 +27,7 @@ void logDisplayRate(const PendulumRun& run, const NodeOptions& options) {
       options.display_rate, run.scenario().time_step, states, options.real_time_factor));
 }
 
-/// The end of a report, such as "1 switch", which changes with every choice of Auto.
+/// Returns the end of a report of Auto, such as "1 switch", which changes with every choice.
 std::string switchesOf(const std::string& report) {
   const std::size_t comma = report.rfind(", ");
   return comma == std::string::npos ? report : report.substr(comma + 2);
@@ -38,14 +39,14 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
                         const Publisher& publisher) {
   const std::string report = run.integrator().report();
   return fmt::format(
-      "{}{}: {} particles, {} frames, {}{} force evaluations, {:.3f} s integrating, {:.3f} s "
-      "writing {} frames, {} marker and {} state messages built, {}, verdict: {}",
+      "{}{}: {}, {}, {}{}, {:.3f} s integrating, {:.3f} s writing {}, {} marker and {} state "
+      "messages built, {}, verdict: {}",
       run.scenario().method.get().name, report.empty() ? "" : " (" + report + ")",
-      run.chain().size(), totals.frames,
-      run.scenario().method.get().hasFixedStep() ? fmt::format("{} steps, ", totals.steps) : "",
-      run.integrator().forceEvaluations(), totals.seconds, files.secondsWriting(),
-      files.framesWritten(), publisher.markersBuilt(), publisher.statesBuilt(), run.measurements(),
-      run.verdict().text);
+      counted(run.chain().size(), "particle"), counted(totals.frames, "frame"),
+      run.scenario().method.get().hasFixedStep() ? counted(totals.steps, "step") + ", " : "",
+      counted(run.integrator().forceEvaluations(), "force evaluation"), totals.seconds,
+      files.secondsWriting(), counted(files.framesWritten(), "frame"), publisher.markersBuilt(),
+      publisher.statesBuilt(), run.measurements(), run.verdict().text);
 }
 
 void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {
