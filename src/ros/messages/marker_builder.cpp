@@ -1,5 +1,6 @@
 #include "ros/messages/marker_builder.hpp"
 
+#include "ros/messages/state_builder.hpp"
 #include "ros/parameters/color.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
@@ -13,7 +14,7 @@ namespace {
 
 enum MarkerIndex : std::size_t { kSprings, kParticles, kAnchor, kTrail, kText, kGrid, kReference };
 
-/// rviz crashed with a LINE_STRIP of more than 16384 points.
+/// Largest number of points of the trail. rviz crashed with more than 16384 points in a LINE_STRIP.
 constexpr std::size_t kMostTrailPoints = 4096;
 
 // Sizes relative to the picture, so that scenes of any size look alike.
@@ -28,12 +29,7 @@ constexpr double kReferenceDepth = 0.004;
 constexpr double kGridDepth = 0.02;  ///< distance behind the plane of the motion
 constexpr double kGridReach = 1.5;   ///< in widths of the scene, for wide windows
 
-/// Strain: length over rest length minus 1; length in m if the rest length is 0.
-double strainOf(double length, double rest_length) {
-  return rest_length > 0.0 ? length / rest_length - 1.0 : length;
-}
-
-/// The strain shown in full colour: twice the strain of the first spring under the weight of the
+/// Returns the strain shown in full colour: twice the strain of the first spring of the hanging
 /// chain.
 double fullColorStrain(const Chain& chain) {
   const SpringLaw& spring = chain.spring();

@@ -5,6 +5,10 @@
 
 namespace spring_pendulum {
 
+double strainOf(double length, double rest_length) {
+  return rest_length > 0.0 ? length / rest_length - 1.0 : length;
+}
+
 double largestStretch(const Chain& chain, const State& state) {
   if (state.size() < 2) return 0.0;
   const Eigen::Index springs = state.size() - 1;
@@ -13,8 +17,7 @@ double largestStretch(const Chain& chain, const State& state) {
           .rowwise()
           .norm()
           .maxCoeff();
-  const double rest_length = chain.spring().rest_length;
-  return rest_length > 0.0 ? longest / rest_length - 1.0 : longest;
+  return strainOf(longest, chain.spring().rest_length);
 }
 
 const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs::Header& header) {

@@ -33,8 +33,11 @@ class StateBuilder {
   PendulumState message_;  ///< kept, so that its arrays are allocated once
 };
 
-/// Largest strain of a spring: length over rest length minus 1; length in m if the rest length is
+/// Returns the strain of a spring, length/rest length - 1, or its length in m if the rest length is
 /// 0.
+double strainOf(double length, double rest_length);
+
+/// Returns the largest strain of all springs; 0 without springs.
 double largestStretch(const Chain& chain, const State& state);
 
 }  // namespace spring_pendulum
