@@ -1,5 +1,5 @@
-// Runs a piece of work in a separate process, so that a peer that crashes, exits or never ends
-// costs one point of a benchmark instead of all.
+// Runs a piece of work in a separate process. If a peer crashes, exits or never ends, the benchmark
+// loses one point instead of all.
 #pragma once
 
 #include <functional>

@@ -29,10 +29,10 @@ struct Problem {
 /// The work of one call of `Peer::advance`.
 struct Run {
   double time_step = 0.01;  ///< s
-  std::int64_t steps = 10;  ///< the call moves the state on by steps * time_step
-  double tolerance = 0.0;   ///< error-controlled methods; they take steps of their own
-  int threads = 1;          ///< ours; no peer has threads. 0: all
-  bool energy = false;      ///< ours; whether the dissipated energy is tracked
+  std::int64_t steps = 10;  ///< a call advances the state by steps * time_step
+  double tolerance = 0.0;   ///< m, only for error-controlled methods, which choose their own steps
+  int threads = 1;          ///< only for this package; 0: one per processor core
+  bool energy = false;      ///< only for this package: whether to track the dissipated energy
 };
 
 /// Thrown by a peer that does not support a run, with the reason.
@@ -49,9 +49,9 @@ class Peer {
 
   /// Returns to the start of the problem. Not timed.
   virtual void reset() = 0;
-  /// Does the work of `Run`. Timed.
+  /// Takes the steps of `Run`. Timed.
   virtual void advance() = 0;
-  /// 4N numbers, as `Problem::start`.
+  /// 4N numbers, like `Problem::start`.
   virtual std::vector<double> state() const = 0;
   /// Evaluations of all spring forces since construction.
   virtual std::int64_t forceEvaluations() const = 0;
@@ -75,7 +75,7 @@ struct PeerRow {
 /// All peers of this build: this package, the baselines, then the libraries.
 const std::vector<PeerRow>& allPeers();
 
-/// Missing libraries, for the head of a result.
+/// Names of libraries that this build lacks, for the head of a result file.
 std::vector<std::string> missingPeers();
 
 }  // namespace spring_pendulum::benchmark

@@ -12,9 +12,9 @@ class Stopwatch {
   /// Wall-clock time, s.
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Time in s without waiting for a processor; for work that neither starts threads nor waits for
-  /// a file. Below 1 ms wall-clock time: so short a run hardly ever waits, and on a virtual machine
-  /// the processor clock can be wrong by some microseconds.
+  /// Time in s without waiting for a processor, for work that neither starts threads nor waits for
+  /// a file. Below 1 ms it is the wall-clock time: a short run rarely waits, and on a virtual
+  /// machine the processor clock can be wrong by some microseconds.
   double alone() const {
     const double wall = elapsed();
     return wall < 1e-3 ? wall : std::min(wall, processorTime() - processor_start_);

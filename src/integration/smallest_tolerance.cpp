@@ -7,14 +7,14 @@
 namespace spring_pendulum {
 namespace {
 
-/// The forces and the motion amplify the rounding errors of the steps.
+/// Factor by which the forces and the motion amplify the rounding errors of the steps.
 constexpr double kRoundingErrors = 100.0;
 
 }  // namespace
 
 double smallestTolerance(const Chain& chain, const State& start) {
   const double length = chain.spring().rest_length * static_cast<double>(chain.size() - 1);
-  double largest = std::abs(chain.gravity());  // m within a second
+  double largest = std::abs(chain.gravity());  // times (1 s)²: a length in m
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     largest = std::max({largest, std::abs(start.x()[i]), std::abs(start.y()[i]),
                         std::abs(start.vx()[i]), std::abs(start.vy()[i])});

@@ -6,8 +6,8 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kPrecision = 1e-4;
-constexpr Eigen::Index kSwingingSprings = 10;
+constexpr double kPrecision = 1e-4;            ///< relative precision of the largest eigenvalue
+constexpr Eigen::Index kSwingingSprings = 10;  ///< number of springs that swing as a rigid body
 
 /// The tridiagonal matrix B M^-1 B^T.
 class SpringMatrix {
@@ -33,8 +33,8 @@ class SpringMatrix {
     return largest;
   }
 
-  /// Bisection between the largest diagonal entry and twice that, as A is diagonally dominant after
-  /// scaling by M.
+  /// Bisects between the largest diagonal entry and twice this value, which bounds the eigenvalues
+  /// because A is diagonally dominant after scaling by M.
   double largestEigenvalue() const {
     double least = largestDiagonal();
     double most = 2.0 * least;

@@ -13,8 +13,8 @@ namespace spring_pendulum {
 void requireSize(std::ptrdiff_t particles, const State& state);
 
 /// Checks the arguments of Integrator::advance.
-/// \throws InputError as requireSize, and unless `time_step` is finite and positive and `steps` >=
-/// 0
+/// \throws InputError like requireSize, and unless `time_step` is finite and positive and `steps`
+///   is at least 0
 void requireAdvance(std::ptrdiff_t particles, const State& state, double time_step,
                     std::int64_t steps);
 

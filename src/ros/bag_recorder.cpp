@@ -24,7 +24,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// The connection header of a latched topic.
+/// Returns the connection header of a topic.
 template <typename Message>
 boost::shared_ptr<ros::M_string> connectionHeader(const std::string& topic, bool latching) {
   auto header = boost::make_shared<ros::M_string>();
@@ -103,7 +103,7 @@ class BagRecorder {
   std::int64_t messages_ = 0;
 };
 
-/// "/euler/" from "euler" or "/euler/", "/" from nothing
+/// Returns the prefix of topics: "/euler/" for "euler" or "/euler/", "/" for empty text.
 std::string topicPrefix(const std::string& name_space) {
   std::string prefix = "/" + name_space + "/";
   for (std::size_t twice = prefix.find("//"); twice != std::string::npos;

@@ -18,9 +18,10 @@ struct BagOptions {
   std::string config;      ///< configuration file of the run, which must not be overwritten
 };
 
-/// Bound to `options`.
+/// Returns the options of record_bag, bound to `options`.
 std::vector<Option> bagOptions(BagOptions& options);
 
+/// Numbers and texts for the closing line.
 struct BagSummary {
   std::int64_t frames = 0;
   std::int64_t messages = 0;
@@ -30,10 +31,10 @@ struct BagSummary {
   std::string measurements;  ///< position and energy error in words
 };
 
-/// Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same scenario and options
-/// give the same bytes. The bag is complete or absent, like every OutputFile; when appending, a
-/// longer copy replaces the bag at the end. After a signal, the bag ends with the last message
-/// before it.
+/// Records a run. Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same
+/// scenario and options give the same bytes. The bag is complete or absent, like every OutputFile;
+/// when appending, a longer copy replaces the bag at the end. After a signal, the bag ends with the
+/// last message before it.
 /// \throws InputError for a bad scenario, FileError naming the bag
 BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to);
 

@@ -10,7 +10,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// More than any display needs, and small enough that no integer overflows.
+/// Largest number of parts of a frame: more than any display needs, few enough to avoid overflow.
 constexpr double kMostParts = 1024.0;
 
 /// Number of states shown per frame.
@@ -18,7 +18,7 @@ std::int64_t partsPerFrame(const FrameSteps& frame, bool fixed_step, double disp
   if (display_interval <= 0.0) return 1;
   const double wanted = std::clamp(frame.timeOfFrame(1) / display_interval, 1.0, kMostParts);
   if (fixed_step) {
-    // Slightly less, so that a frame of exactly 3 intervals has 3 parts and not 4.
+    // The subtrahend ensures that rounding does not give a frame of exactly 3 intervals 4 parts.
     return std::min(static_cast<std::int64_t>(std::ceil(wanted - 1e-9)), frame.steps);
   }
   std::int64_t parts = 1;

@@ -9,6 +9,7 @@
 namespace spring_pendulum {
 namespace {
 
+/// Stretch of all springs, relative to their length, whose energy is the least energy scale.
 constexpr double kLeastStretch = 1e-6;
 
 double springLength(const State& state, Eigen::Index i) {

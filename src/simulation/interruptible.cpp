@@ -16,8 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Small enough that the number of parts of 1e9 frames is exact as a double.
 constexpr std::int64_t kPartsOfAStep = std::int64_t{1} << 20U;
-// Size of the first piece, whose computing time is not known: particles times steps, and particles
-// times simulated seconds.
+// Size of the first piece, whose computing time is still unknown: particles times steps for a fixed
+// step, particles times simulated seconds for an error-controlled method.
 constexpr double kFirstSteps = 1e6;
 constexpr double kFirstTime = 1e4;
 constexpr std::chrono::milliseconds kShort{50};

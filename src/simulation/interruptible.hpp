@@ -16,11 +16,11 @@ namespace spring_pendulum {
 struct Interrupted {};
 
 /// Calls another integrator in pieces of about 0.1 s of computing time and checks between them
-/// whether to continue. Results are the same bits: a + b steps equal a steps and then b steps, and
-/// for an error-controlled method n steps of h equal m n steps of h/m if m is a power of 2.
+/// whether to continue. This changes no bit: taking a + b steps equals taking a and then b steps,
+/// and for an error-controlled method, n steps of h equal m n steps of h/m if m is a power of 2.
 class InterruptibleIntegrator : public Integrator {
  public:
-  /// \param error_controlled whether a step is only an output interval, which can be divided
+  /// \param error_controlled whether steps are output intervals, which can be divided
   /// \param particles        number of particles of the chain
   /// \param is_interrupted   called between two pieces
   InterruptibleIntegrator(std::unique_ptr<Integrator> integrator, bool error_controlled,
@@ -45,7 +45,7 @@ class InterruptibleIntegrator : public Integrator {
 };
 
 /// Makes the integrator of a run.
-/// \throws InputError as makeIntegrator and checkTolerance
+/// \throws InputError like makeIntegrator and checkTolerance
 std::unique_ptr<Integrator> makeInterruptible(const Scenario& scenario, const Chain& chain,
                                               const State& start, bool track_dissipation,
                                               std::function<bool()> is_interrupted);

@@ -12,11 +12,11 @@
 namespace spring_pendulum {
 namespace {
 
-/// Of every run for each particle, B: mostly for reading the particle file.
+/// Memory of every run per particle, B. Most of it is used while reading the particle file.
 constexpr double kBytesPerParticle = 160.0;
-/// Of two reference runs, if they are asked for.
+/// Memory per particle of the two trajectories of a reference run, B.
 constexpr double kBytesOfReference = 2.0 * 2700.0;
-/// Most that is not worth a word, B.
+/// Expected memory from which on a run reports it, B.
 constexpr double kMuch = 5e8;
 
 std::string needOf(const Scenario& scenario, Eigen::Index particles) {

@@ -1,4 +1,4 @@
-// The memory that a run takes, known before it starts.
+// Estimates the memory of a run before it starts.
 #pragma once
 
 #include <spring_pendulum/simulation/scenario.hpp>
@@ -9,16 +9,20 @@
 
 namespace spring_pendulum {
 
-/// Memory that a run may take, B. Measured with Exercise3; a bag or a node's messages come on top.
+/// Returns an upper estimate of the memory of a run, B. Measured with Exercise3; the messages of
+/// the node and a bag need more.
 double expectedMemory(const Scenario& scenario, Eigen::Index particles);
 
-/// Memory that this process may use, B: that of the machine, or less if a limit is set (ulimit -v).
+/// Returns the memory that this process may use, B: that of the machine, or less if a limit is set
+/// (ulimit -v).
 double usableMemory();
 
-/// "Radau-9 takes up to 1.35 GB of memory for 1000000 particles" if it is much, else nothing.
+/// Returns a remark if a run is expected to need 0.5 GB or more, else empty text:
+/// "Radau-9 takes up to 1.35 GB of memory for 1000000 particles".
 std::string memoryRemark(const Scenario& scenario, Eigen::Index particles);
 
-/// \throws std::runtime_error if a run may take more than `usable`
+/// Checks that a run is not expected to need more than `usable` bytes.
+/// \throws std::runtime_error if it is
 void checkMemory(const Scenario& scenario, Eigen::Index particles, double usable = usableMemory());
 
 }  // namespace spring_pendulum

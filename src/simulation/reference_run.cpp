@@ -14,23 +14,24 @@
 namespace spring_pendulum {
 namespace {
 
-/// Largest tolerances of the reference: in m, and relative to the length of the chain.
+/// Upper limits of the tolerance of the reference: in m, and relative to the length of the chain.
 constexpr double kTolerance = 1e-10;
 constexpr double kRelativeTolerance = 1e-9;
 /// Tolerance of the reference, relative to the tolerance of the run.
 constexpr double kToleranceShare = 1e-3;
-/// Tolerance of the other trajectories, and the change of the perturbed ones, in tolerances of the
-/// reference.
+/// Tolerance of the other trajectories, and perturbation of the perturbed ones, both in tolerances
+/// of the reference.
 constexpr double kOtherTolerance = 100.0;
 constexpr double kChange = 1000.0;
 /// Smallest distance that can be resolved, relative to the largest coordinate.
 constexpr double kRounding = 1e-14;
 
-/// Work in force evaluations of Taylor-8 per particle that is always allowed: up to 0.2 s, measured
-/// as 2 to 5 ns each. A chain costs as if it had `kOverhead` more particles.
+/// Work that is always allowed, in particles times force evaluations of Taylor-8: up to 0.2 s, as 2
+/// to 5 ns were measured for each. An evaluation costs as if the chain had `kOverhead` more
+/// particles.
 constexpr double kFreeWork = 4e7;
 constexpr double kOverhead = 8.0;
-/// Longer chains would take too much memory to be measured unasked.
+/// Longer chains are measured only on request, because a reference run would need much memory.
 constexpr Eigen::Index kMostParticles = 100'000;
 
 /// Damping rates in 1/s above which stability can limit the steps of an explicit method, and above
@@ -50,8 +51,8 @@ double largestDistance(const State& a, const State& b) {
   return std::sqrt(largest);
 }
 
-/// The methods of reference and second trajectory. They differ where stability limits the step
-/// size: there, one method would take the same steps with both tolerances.
+/// Returns the methods of the reference and the second trajectory. They differ if stability limits
+/// the step size, because one method would then take the same steps with both tolerances.
 std::pair<std::string_view, std::string_view> referenceMethods(const Chain& chain) {
   const double rate = chain.spring().damping * largestSpringMode(chain);
   if (rate < kFastRate) return {"Auto", "Auto"};

@@ -17,6 +17,7 @@ namespace spring_pendulum {
 /// 10 % of the run.
 bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain);
 
+/// Runs the reference and judges every frame of a run.
 class RunMonitor {
  public:
   /// \param wants_energy compute the energy balance, whatever the cost
@@ -52,7 +53,8 @@ class RunMonitor {
   /// The reference run; null if there is none or it has stopped.
   const ReferenceRun* reference() const;
 
-  /// "largest position error 0.0039 m at t = 49.3 s, largest energy error 1.2e-07 of the energy scale"
+  /// Returns a text such as "largest position error 0.0039 m at t = 49.3 s, largest energy error
+  /// 1.2e-07 of the energy scale".
   std::string measurements() const;
   /// A sentence on a tolerance that was not met, and the reason; else empty.
   std::string toleranceRemark() const;
@@ -68,10 +70,10 @@ class RunMonitor {
   Judge judge_;
   std::optional<ReferenceRun> reference_;
   double work_per_evaluation_;
-  double run_work_ = 0.0;        ///< until the frame judged last
-  double worst_residual_ = 0.0;  ///< of the energy balance, relative
-  double exceeded_time_ = 0.0;   ///< s, when the error exceeded ten tolerances; 0: it did not
-  double exceeded_growth_ = 0.0;
+  double run_work_ = 0.0;         ///< work until the last judged frame
+  double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
+  double exceeded_time_ = 0.0;    ///< s, when the error first exceeded ten tolerances; 0: never
+  double exceeded_growth_ = 0.0;  ///< growth of perturbations until then
   double seconds_ = 0.0;
 };
 

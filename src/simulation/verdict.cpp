@@ -8,7 +8,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// Counted from 1; 0 if every number is finite.
+/// Returns the first particle that is not finite, counted from 1; 0 if all are finite.
 Eigen::Index firstNotFinite(const State& state) {
   for (Eigen::Index i = 0; i < state.size(); ++i) {
     if (!state.values().row(i).allFinite()) return i + 1;
@@ -16,7 +16,8 @@ Eigen::Index firstNotFinite(const State& state) {
   return 0;
 }
 
-/// The fastest by kinetic energy, where a divergence shows first; counted from 1.
+/// Returns the particle with the most kinetic energy, where a divergence shows first; counted
+/// from 1.
 Eigen::Index mostEnergetic(const Chain& chain, const State& state) {
   Eigen::Index most = 0;
   double most_energy = -1.0;
@@ -147,7 +148,7 @@ void Judge::measure(double time, const State& state, const ReferenceRun* referen
 }
 
 Verdict Judge::judgeEnergy(const State& state) {
-  // A state with a number that is not finite has no finite energy, so one test covers both.
+  // The negated comparison is also true for NaN, the energy of a state that is not finite.
   double allowance =
       tolerance_energy_ > 0.0 ? tolerance_energy_ / balance_.scale(entry_.time) : 0.0;
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
@@ -156,8 +157,8 @@ Verdict Judge::judgeEnergy(const State& state) {
   double gain = entry_.relative_gain;
   double residual = entry_.relative_residual.value_or(0.0);
   if (symplectic_step_ > 0.0) {
-    // To first order the energy is off by h/2 dU/dt, with the potential energy U. The mean of
-    // dU/dt over a time t is at most the energy scale / t.
+    // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
+    // over a time t is at most (energy scale)/t.
     gain_sum_ += gain;
     residual_sum_ += residual;
     frames_ += 1.0;
@@ -172,7 +173,7 @@ Verdict Judge::judgeEnergy(const State& state) {
   return ok;
 }
 
-// In a stiff transient the dissipated energy may be wrong while the state is right.
+// In a stiff transient, the dissipated energy can be wrong although the state is right.
 bool Judge::hasEnergyOf(const ReferenceRun* reference) const {
   if (reference == nullptr || !reference->isMeasuring()) return false;
   const double error = entry_.energy.total() - computeEnergy(chain_, reference->state()).total();

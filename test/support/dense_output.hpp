@@ -10,8 +10,8 @@
 
 namespace spring_pendulum::test {
 
-/// Local position error of the dense output at 0.4 of the first step that ends after 0.5 s, and the
-/// size of this step.
+/// Returns the local position error of the dense output at 0.4 of the first step that ends after
+/// 0.5 s, and the size of this step.
 struct InsideOfStep {
   double error;
   double step;
@@ -29,8 +29,8 @@ inline InsideOfStep insideOfStep(DenseOutputStepper& stepper, const Scene& scene
   return {positionError(inside, exact), step};
 }
 
-/// Order of the dense output: its local error is one power higher.
-/// \param make_stepper makes one from a tolerance in m
+/// Returns the order p of the dense output, whose local error is O(h^(p+1)).
+/// \param make_stepper makes a stepper from a tolerance in m
 template <typename MakeStepper>
 double denseOutputOrder(const Scene& scene, double coarse, double fine,
                         const MakeStepper& make_stepper) {

@@ -15,9 +15,9 @@ using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using Pair = Eigen::Matrix<Real, 2, 1>;
 
-constexpr Real kVelocityWeight = 0.05L;  // s, of velocities in an error
+constexpr Real kVelocityWeight = 0.05L;  // s, converts a velocity error to a position error
 constexpr double kWorkPerSecond = 2e7;   // particles x evaluations
-constexpr double kFlopsPerSecond = 1e9;  // (unknowns)^3 of a factorisation
+constexpr double kFlopsPerSecond = 1e9;  // a factorisation counts as (unknowns)^3
 constexpr double kPerturbation = 1e-9;   // m
 
 /// Positions x_1, y_1, x_2, ... and velocities, of the moving particles only.
@@ -41,7 +41,7 @@ struct Model {
         masses(chain.masses().tail(size).cast<Real>()),
         anchor_place(anchor) {}
 
-  /// Spring i joins moving particles i - 1 and i; that of i = 0 starts at the anchor.
+  /// Spring i joins the moving particles i - 1 and i; spring 0 joins the anchor and particle 0.
   Spring spring(const Motion& z, Eigen::Index i) const {
     const Pair before = i == 0 ? anchor_place : Pair(z.p.segment<2>(2 * i - 2));
     const Pair separation = z.p.segment<2>(2 * i) - before;
@@ -79,8 +79,8 @@ Real difference(const Motion& a, const Motion& b) {
 
 class Extrapolation {
  public:
-  static constexpr Real kTolerance = 1e-13L;  // rounding allows no less
-  static constexpr int kOrder = 19;           // of the error estimate
+  static constexpr Real kTolerance = 1e-13L;  // the least that rounding errors allow
+  static constexpr int kOrder = 19;           // order of the error estimate
 
   explicit Extrapolation(const Model& model) : model_(model), a_(2 * model.size) {}
 
@@ -221,7 +221,7 @@ class Radau {
         const auto velocities = correction.segment(i * unknowns_, 2 * model_.size);
         size = std::max(size, velocities.lpNorm<Eigen::Infinity>());
       }
-      // Good, or as good as rounding lets it become.
+      // The residual is small enough, or rounding errors prevent a smaller one.
       if (size < 1e-17L || (size < 1e-12L && size > 0.1L * last)) {
         z = {stage(z, h, x, kStages - 1).p, stage(z, h, x, kStages - 1).v};
         return true;
@@ -239,7 +239,7 @@ class Radau {
     return result;
   }
 
-  /// J^-1 times the residual, with the Jacobian here or that of an iterate before.
+  /// J^-1 times the residual, with the Jacobian of this or an earlier iterate.
   Vector newton(const Motion& z, Real h, const Vector& x, bool renew) {
     Matrix jacobian = Matrix::Zero(x.size(), x.size());
     Vector residual = Vector::Zero(x.size());
@@ -330,7 +330,7 @@ std::optional<std::vector<State>> run(Method method, Motion z, const State& star
                                       int outputs, double budget) {
   std::vector<State> states;
   Real h = 1e-9L;
-  Real left = interval;  // to the next output
+  Real left = interval;  // time left until the next output
   while (static_cast<int>(states.size()) < outputs) {
     budget -= method.secondsPerStep();
     if (budget < 0.0 || h < 1e-16L) return std::nullopt;
@@ -362,7 +362,7 @@ OracleMethod oracleMethodFor(const Scene& scene) {
   for (Eigen::Index i = 1; i < scene.chain.size(); ++i) {
     mobility = std::max(mobility, 4.0 * scene.chain.inverseMasses()[i]);
   }
-  // Measured work for one second: the first takes steps of 5 / rate, the second about 100.
+  // Measured work for one second: the first method takes steps of 5/rate, the second about 100.
   const double rate = scene.chain.spring().damping * mobility;
   const Model model(scene.chain, Pair(0, 0));
   const double extrapolation = 0.2 * rate * Extrapolation(model).secondsPerStep();

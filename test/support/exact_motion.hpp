@@ -19,18 +19,18 @@ namespace spring_pendulum::test {
 enum class OracleMethod { kExtrapolation, kRadau };
 
 struct ExactMotion {
-  std::vector<State> states;  ///< at the multiples of the interval, from the first on
-  /// Largest factor by which small random changes of the start positions grew.
+  std::vector<State> states;  ///< at the times interval, 2 interval, ...
+  /// Largest factor by which small random perturbations of the start positions grew.
   double growth = 0.0;
 };
 
 /// Returns the method that suits the scene.
 OracleMethod oracleMethodFor(const Scene& scene);
 
-/// States at `interval`, ..., `outputs` x `interval` s, each position within about 1e-12 m times
-/// the growth.
-/// \param budget roughly the processor time in s it may take
-/// \param perturbation m, by which every coordinate but those of P_1 is moved at random
+/// Returns the states at `interval`, ..., `outputs` x `interval` s. The error of each position is
+/// about 1e-12 m times the growth.
+/// \param budget approximate limit of the processor time, s
+/// \param perturbation largest random change of the start coordinates, except those of P_1, m
 /// \returns nothing if the budget does not suffice
 std::optional<std::vector<State>> solveExactly(const Scene& scene, double interval, int outputs,
                                                double budget, OracleMethod method,

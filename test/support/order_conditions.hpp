@@ -31,8 +31,8 @@ struct Tree {
   }
 };
 
-/// Appends to `trees` every tree of `order` nodes whose branches are taken, in the list's own
-/// order, from `smaller` from index `first` on; `partial` holds the branches chosen so far.
+/// Appends every tree with `order` nodes to `trees`. Branches are chosen from `smaller`, in its
+/// order, starting at index `first`; `partial` has the branches chosen so far.
 inline void growTrees(const std::vector<Tree>& smaller, std::size_t first, int missing,
                       const Tree& partial, std::vector<Tree>& trees) {
   if (missing == 0) {
@@ -48,7 +48,8 @@ inline void growTrees(const std::vector<Tree>& smaller, std::size_t first, int m
   }
 }
 
-/// All rooted trees of up to `order` nodes, by rising size: 1, 1, 2, 4, 9, 20, 48, 115, ...
+/// Returns all rooted trees with up to `order` nodes, smallest first. There are 1, 1, 2, 4, 9, 20,
+/// 48, 115, ... trees with 1, 2, 3, ... nodes.
 inline std::vector<Tree> rootedTrees(int order) {
   std::vector<Tree> trees{Tree{}};
   for (int nodes = 2; nodes <= order; ++nodes) {
@@ -59,7 +60,7 @@ inline std::vector<Tree> rootedTrees(int order) {
   return trees;
 }
 
-/// Phi_i(t) of every stage i.
+/// Returns Phi_i(t) of every stage i.
 inline std::vector<double> elementaryWeights(const ButcherTableau& tableau, const Tree& tree) {
   std::vector<double> weights(tableau.stages, 1.0);
   for (const Tree& branch : tree.branches) {
@@ -73,7 +74,7 @@ inline std::vector<double> elementaryWeights(const ButcherTableau& tableau, cons
   return weights;
 }
 
-/// The largest violation of a condition up to `order`, with `b` as the weights.
+/// Returns the largest violation of a condition up to `order`, with the weights `b`.
 template <typename Weights>
 double orderConditionResidual(const ButcherTableau& tableau, const Weights& b, int order) {
   double largest = 0.0;

@@ -80,8 +80,8 @@ Result run(const Command& command) {
   return Process(command).wait();
 }
 
-// Without these two capabilities in its bounding set, root does not get them back when the program
-// starts.
+// The capabilities are removed from the bounding set, so that root does not regain them when the
+// program starts.
 void respectPermissions() {
   if (geteuid() != 0) return;
   if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0) _exit(kCouldNotStart);

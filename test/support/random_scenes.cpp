@@ -80,7 +80,7 @@ std::function<Draft(Random&)> with(const std::function<void(Random&, Draft&)>& c
   };
 }
 
-/// Redraws the start with springs of about one common length, `least` to `most` m.
+/// Redraws the start with springs of nearly equal length, which is `least` to `most` m.
 std::function<Draft(Random&)> withLengths(double least, double most) {
   return with([=](Random& r, Draft& d) {
     const double length = r.uniform(least, most);

@@ -25,7 +25,7 @@ inline std::vector<std::vector<double>> readTable(const std::string& path, std::
   return rows;
 }
 
-/// Let go at rest.
+/// A scene whose particles start at rest.
 inline Scene referenceScene(const std::string& name, const SpringLaw& spring = {},
                             double gravity = 9.81) {
   const auto rows = readTable(TEST_DATA_DIR "/reference/" + name + ".txt", 3);

@@ -38,7 +38,8 @@ class Integrator {
 
   /// Advances `state` in place by `steps` >= 0 steps of `time_step` s. Taking a + b steps in one
   /// call or in two gives the same bits. The first particle does not move.
-  /// A diverging motion does not throw: the state holds numbers that are very large or not finite.
+  /// A diverging motion does not throw: the state then has elements that are very large or not
+  /// finite.
   /// \throws InputError if the size of the state is not that of the chain, `time_step` is not
   ///         finite and positive, or `steps` is negative
   virtual void advance(State& state, double time_step, std::int64_t steps) = 0;
@@ -57,8 +58,8 @@ class Integrator {
   /// methods.
   virtual std::string report() const { return {}; }
 
-  /// Must be called before `advance` gets a state that the last `advance` did not return. Discards
-  /// what the method keeps between calls and sets the dissipated energy to 0.
+  /// Discards what the method keeps between calls and sets the dissipated energy to 0. Call it
+  /// before passing `advance` a state other than the one that the last `advance` returned.
   virtual void restart() {}
 
  protected:

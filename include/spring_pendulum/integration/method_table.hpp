@@ -53,12 +53,14 @@ const std::deque<Method>& methodTable();
 ///         with `stages` stages, there is neither tableau nor factory, or a number is out of range
 void registerMethod(const Method& method);
 
+/// Returns the method with this name.
 /// \throws InputError that lists the known names if there is no such method
 const Method& findMethod(std::string_view name);
 
-/// "Euler, Runge-Kutta-2, ..."
+/// Returns the names of all methods: "Euler, Runge-Kutta-2, ...".
 std::string knownMethodNames();
 
+/// Makes an integrator.
 /// \throws InputError for a chain without particles, an error-controlled method with a tolerance
 ///         that is not finite and above 0, or a negative number of threads
 std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& chain,

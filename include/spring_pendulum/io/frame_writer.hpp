@@ -1,7 +1,8 @@
 // Frame files: the positions of the particles at the times t = 0, T, 2T, ...
 //
-// `frame_0000.txt`, `frame_0001.txt`, ...: a line `x y` (m) for each particle, every number as the
-// shortest text that reads back as the same double. Above 9999 the index grows wider.
+// The files `frame_0000.txt`, `frame_0001.txt`, ... have a line `x y` (m) for each particle. Every
+// number is the shortest text that reads back as the same double. Indices above 9999 have more
+// digits.
 #pragma once
 
 #include <spring_pendulum/model/export.hpp>
@@ -37,8 +38,8 @@ class FrameWriter {
   /// \throws FileError naming the file
   void write(std::int64_t index, const State& state);
 
-  /// Ends the run and releases the folder. `write` must not be called after this. A second call does
-  /// nothing.
+  /// Ends the run and releases the folder. `write` must not be called after this. A second call
+  /// does nothing.
   /// \throws FileError if the folder was moved away during the run
   void finish();
 
@@ -55,7 +56,7 @@ class FrameWriter {
   double seconds_ = 0.0;
   std::int64_t frames_;
   std::unique_ptr<FrameFolder> folder_;
-  std::vector<char> text_;  ///< buffer for some lines
+  std::vector<char> text_;  ///< buffer for the lines of a frame
 };
 
 }  // namespace spring_pendulum

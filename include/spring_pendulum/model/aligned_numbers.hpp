@@ -1,9 +1,8 @@
 // Memory for numbers that a program and the library pass to each other.
 //
-// How Eigen aligns and frees memory depends on the compiler's vector options, so an Eigen matrix
-// that one side allocates and the other frees crashes if the two were compiled differently. The
-// library therefore allocates and frees all shared memory itself; Eigen accesses it through
-// Eigen::Map.
+// The way Eigen aligns and frees memory depends on the compiler's vector options. A program that
+// frees an Eigen matrix allocated by a library with other options crashes. This library therefore
+// allocates and frees all shared memory itself; Eigen accesses it through Eigen::Map.
 #pragma once
 
 #include <spring_pendulum/model/export.hpp>
@@ -23,7 +22,7 @@ class AlignedNumbers {
   using ConstView = Eigen::Map<const Eigen::VectorXd>;
 
   AlignedNumbers() noexcept;
-  /// `size` zeros.
+  /// Allocates `size` zeros.
   /// \throws InputError if `size` is negative
   explicit AlignedNumbers(std::ptrdiff_t size);
   /// Copies an Eigen vector or vector expression.

@@ -10,7 +10,7 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// Force in N of spring i (between particles i and i+1, counted from 0) on particle i.
+/// Returns the force in N of spring i (between particles i and i+1, counted from 0) on particle i.
 /// \throws InputError if the chain has no such spring or the size of the state is not that of the
 /// chain
 PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::ptrdiff_t i);

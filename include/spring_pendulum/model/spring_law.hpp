@@ -22,37 +22,37 @@ struct PlaneVector {
   Value y;
 };
 
-/// a b + c, rounded once. With -ffp-contract=off the compiler fuses nothing else.
+/// Returns a b + c, rounded once. With -ffp-contract=off, the compiler fuses nothing else.
 [[gnu::always_inline]] inline double fused(double a, double b, double c) {
   return std::fma(a, b, c);
 }
 
-/// 1/sqrt(q); 0 for q = 0, as a spring of length 0 has no direction and hence no force.
+/// Returns 1/sqrt(q), or 0 for q = 0: a spring of length 0 has no direction and exerts no force.
 [[gnu::always_inline]] inline double inverseSquareRoot(double q) {
   return q > 0.0 ? 1.0 / std::sqrt(q) : 0.0;
 }
 
-/// d·d, m²
+/// Returns d·d, m².
 template <typename Value>
 [[gnu::always_inline]] inline Value squaredLength(const PlaneVector<Value>& separation) {
   return fused(separation.x, separation.x, separation.y * separation.y);
 }
 
-/// a·b
+/// Returns a·b.
 template <typename Value>
 [[gnu::always_inline]] inline Value dotProduct(const PlaneVector<Value>& a,
                                                const PlaneVector<Value>& b) {
   return fused(a.x, b.x, a.y * b.y);
 }
 
-/// Rate of elongation w·r, m/s; 0 for a spring of length 0.
+/// Returns the elongation rate w·r, m/s; 0 for a spring of length 0.
 template <typename Value>
 [[gnu::always_inline]] inline Value elongationRate(const PlaneVector<Value>& separation,
                                                    const PlaneVector<Value>& approach) {
   return dotProduct(approach, separation) * inverseSquareRoot(squaredLength(separation));
 }
 
-/// The force of a spring from given w·d (m²/s) and 1/L (1/m); see below.
+/// Returns the force of a spring from given w·d (m²/s) and 1/L (1/m); see below.
 template <typename Value>
 [[gnu::always_inline]] inline PlaneVector<Value> springForce(const SpringLaw& law,
                                                              const PlaneVector<Value>& separation,

@@ -21,7 +21,7 @@ class State {
   using PlaneMatrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
   State();
-  /// N particles at the origin, at rest.
+  /// Places N particles at the origin, at rest.
   /// \throws InputError if `particles` is negative
   explicit State(std::ptrdiff_t particles);
   State(const State& other);

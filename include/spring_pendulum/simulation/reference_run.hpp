@@ -55,10 +55,10 @@ class ReferenceRun {
   ReferenceRun(ReferenceRun&&) noexcept;
   ReferenceRun& operator=(ReferenceRun&&) noexcept;
 
-  /// Follows the run on by `steps` steps of `time_step` s; see Integrator::advance for the times
-  /// that this means. Does nothing once the measurement has stopped.
-  /// \param run_work cost of the run so far, in force evaluations of Taylor-8; the reference may
-  ///   cost as much, or some 0.2 s if that is more
+  /// Advances the reference by `steps` steps of `time_step` s, like Integrator::advance. Does
+  /// nothing once the measurement has stopped.
+  /// \param run_work cost of the run so far, in force evaluations of Taylor-8. The reference may
+  ///   cost as much or about 0.2 s, whichever is more.
   void advance(double time_step, std::int64_t steps, double run_work);
 
   /// Returns to the start.

@@ -1,10 +1,10 @@
 // The verdict on a run: can its result be trusted?
 //
-// Two things are judged after every frame, before it is written. A chain that nothing drives never
-// gains energy, whatever its damping, so energy above the start proves an unstable or inaccurate
-// integration even while every number stays finite. And a reference run, where there is one, tells
-// the position error itself, and whether it is the energy or only the dissipated energy that is off
-// when the two do not add up.
+// Energy and positions are judged after every frame, before it is written. A chain that nothing
+// drives never gains energy, whatever its damping. So an energy above that of the start proves an
+// unstable or inaccurate integration, even if every number is finite. A reference run, if there is
+// one, gives the position error. If the energy balance is off, it also shows whether the energy or
+// only the dissipated energy is wrong.
 #pragma once
 
 #include <spring_pendulum/model/export.hpp>
@@ -38,7 +38,7 @@ inline bool isBad(VerdictKind kind) {
 
 struct Verdict {
   VerdictKind kind = VerdictKind::kOk;
-  double time = 0.0;          ///< of the judged frame, s
+  double time = 0.0;          ///< time of the judged frame, s
   Eigen::Index particle = 0;  ///< first particle to diverge, counted from 1; else 0
   std::string text = "ok";    ///< one line: what is wrong, when and where
 };
@@ -58,9 +58,9 @@ struct JudgeOptions {
   /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
   /// oscillates about its true value, so its mean error over the run so far is judged.
   double symplectic_step = 0.0;
-  /// Tolerance in m of an error-controlled method; 0 for fixed steps. Position errors up to the
-  /// promised ten tolerances change the length of a spring by up to 20 tolerances. The energy of
-  /// this change is allowed: for particles of 1e-9 kg it exceeds their potential energy.
+  /// Tolerance in m of an error-controlled method; 0 for fixed steps. Position errors of ten
+  /// tolerances, which are promised, change the length of a spring by up to 20 tolerances. The
+  /// energy of this change is allowed, as it exceeds the potential energy of particles of 1e-9 kg.
   double tolerance = 0.0;
 };
 
@@ -102,7 +102,7 @@ class Judge {
  private:
   void measure(double time, const State& state, const ReferenceRun* reference);
   Verdict judgeEnergy(const State& state);
-  /// Whether the energy of the state judged last is right.
+  /// Whether the last judged state has the energy of the reference.
   bool hasEnergyOf(const ReferenceRun* reference) const;
   Verdict judgePositions(double time, const ReferenceRun* reference) const;
   const Verdict& remember(Verdict verdict);
@@ -113,7 +113,7 @@ class Judge {
   double symplectic_step_;
   double tolerance_energy_;    ///< J
   double gain_sum_ = 0.0;      ///< sum of the relative gains of the judged frames
-  double residual_sum_ = 0.0;  ///< sum of their relative residuals
+  double residual_sum_ = 0.0;  ///< sum of the relative residuals of the judged frames
   double frames_ = 0.0;
   EnergyEntry entry_;
   PositionError position_error_;

@@ -14,11 +14,10 @@
 // equally good methods do not alternate. Races continue while a stiff method is active, so Auto
 // returns to the plain series when the motion is no longer stiff.
 //
-// A method for a million particles takes about a gigabyte. For long chains, only the active method and
-// one candidate exist at a time.
+// A stepper for a million particles needs about a gigabyte of memory. For long chains, only the
+// active method and one candidate exist at a time.
 //
-// Idea: L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148,
-// doi:10.1137/0904010.
+// Idea: L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010.
 #pragma once
 
 #include "integration/error_control/dense_output_stepper.hpp"
@@ -35,8 +34,8 @@ namespace spring_pendulum {
 
 class AutoStepper final : public DenseOutputStepper {
  public:
-  /// The longest chain for which methods that are not at work are kept; making one anew costs less
-  /// than its first step, but asks for memory.
+  /// Longest chain for which inactive methods are kept. In longer chains they would take too much
+  /// memory, and making one again costs less than one of its steps.
   static constexpr Eigen::Index kKeepsUpTo = 10'000;
 
   AutoStepper(const Chain& chain, double tolerance, Eigen::Index keeps_up_to = kKeepsUpTo);
@@ -61,13 +60,13 @@ class AutoStepper final : public DenseOutputStepper {
     std::unique_ptr<DenseOutputStepper> (*make)(const Chain& chain, double tolerance);
     std::unique_ptr<DenseOutputStepper> stepper{};  ///< constructed when used
     double covered = 0.0;                           ///< time integrated with it, s
-    std::int64_t earlier_evaluations = 0;           ///< of steppers that were given up
-    std::int64_t earlier_rejected = 0;
+    std::int64_t earlier_evaluations = 0;           ///< force evaluations of released steppers
+    std::int64_t earlier_rejected = 0;              ///< rejected steps of released steppers
   };
-  /// Time covered, and the work spent on it.
+  /// Simulated time and the work spent on it.
   struct Pace {
-    double time = 0.0;
-    double work = 0.0;
+    double time = 0.0;  ///< s
+    double work = 0.0;  ///< in force evaluations of Taylor-8
     bool isFasterThan(const Pace& other) const;
   };
 
@@ -96,7 +95,7 @@ class AutoStepper final : public DenseOutputStepper {
   double explicit_limit_ = 0.0;       ///< stability limit h|λ| of candidate 0
   std::vector<Candidate> candidates_;
   std::size_t active_ = 0;
-  Pace recent_;  ///< of the active method since its start or the last race
+  Pace recent_;  ///< pace of the active method since its start or the last race
   std::int64_t recent_steps_ = 0;
   double work_before_race_ = 0.0;
   std::int64_t steps_ = 0;

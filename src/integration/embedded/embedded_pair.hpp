@@ -28,9 +28,9 @@ struct EmbeddedPair {
   ButcherTableau tableau;
   /// The estimated error of a step is O(h^error_order).
   int error_order = 0;
-  /// Largest estimated error of a step, in tolerances. Chosen so that the position error on the
-  /// reference scenes is at most 7 tolerances: after 50 s of the weakly chaotic `horizontal_11`; on
-  /// the other scenes it is far below one tolerance.
+  /// Largest estimated error of a step, in tolerances. With this value, the position error is at
+  /// most 7 tolerances after 50 s of the weakly chaotic reference scene `horizontal_11` and far
+  /// below one tolerance on all other reference scenes.
   double share_of_tolerance = 0.0;
   /// e_i
   Weights error{};

@@ -7,7 +7,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// Below this error, its square could underflow to 0, m.
+/// Error whose square could underflow to 0, m.
 constexpr double kNoError = 1e-150;
 
 /// Converts a velocity error to a position error, s.

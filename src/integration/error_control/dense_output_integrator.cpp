@@ -10,8 +10,8 @@
 namespace spring_pendulum {
 namespace {
 
-/// A collision takes a few steps of the shortest length. So many of them in a row will not reach
-/// the next output time.
+/// A collision takes a few steps of the shortest size. With more of them in a row than this, the
+/// integration would not reach the next output time.
 constexpr int kMostShortestSteps = 1000;
 
 struct QuadraturePoint {
@@ -19,7 +19,8 @@ struct QuadraturePoint {
   double weight;
 };
 
-/// Gauss-Legendre, exact up to degree 11: its error is below that of the dense output.
+/// Gauss-Legendre quadrature, exact up to degree 11. Its error is smaller than that of the dense
+/// output.
 /// M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, table 25.4.
 constexpr std::array<QuadraturePoint, 6> kGaussLegendre{
     {{-0.932469514203152028, 0.171324492379170345},

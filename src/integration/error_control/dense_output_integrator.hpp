@@ -31,13 +31,13 @@ class DenseOutputIntegrator final : public Integrator {
   /// as often with half the time_step gives the same bits at the common times. If time_step differs
   /// from the last call, n counts from the last output time. Only the first call after a (re)start
   /// reads `state`.
-  /// If the motion diverges, all numbers of `state` except those of the first particle are NaN from
-  /// the first output time on that was not reached.
+  /// If the motion diverges, `state` is NaN, except for the first particle, at all output times
+  /// that the steps did not reach.
   void advance(State& state, double time_step, std::int64_t steps) override;
 
-  /// As `advance`, but gives up before a step once the work done since the integrator was made has
-  /// reached `most_work`; see StepStatistics::work.
-  /// \returns whether the output time was reached; if not, `state` is as it was and only `restart`
+  /// Like `advance`, but stops when the work since construction (StepStatistics::work) reaches
+  /// `most_work`.
+  /// \returns whether the output time was reached; if not, `state` is unchanged and only `restart`
   ///          may be called
   bool advanceWithin(State& state, double time_step, std::int64_t steps, double most_work);
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
@@ -49,11 +49,11 @@ class DenseOutputIntegrator final : public Integrator {
 
  private:
   void takeStep();
-  /// Energy dissipated in the first `fraction` of the last step, J.
+  /// Returns the energy dissipated in the first `fraction` of the last step, J.
   double dissipated(double fraction);
 
   std::unique_ptr<DenseOutputStepper> stepper_;
-  /// What tracking the dissipated energy needs.
+  /// Workspace for the dissipated energy.
   struct Dissipation {
     explicit Dissipation(const Chain& chain);
 
@@ -65,10 +65,10 @@ class DenseOutputIntegrator final : public Integrator {
   };
   std::optional<Dissipation> dissipation_;
   bool started_ = false;
-  std::ptrdiff_t particles_ = 0;  ///< of the initial state
+  std::ptrdiff_t particles_ = 0;  ///< size of the initial state
   bool diverged_ = false;
-  int shortest_steps_ = 0;      ///< consecutive ones, up to now
-  double output_origin_ = 0.0;  ///< s since the start; outputs are n * time_step later
+  int shortest_steps_ = 0;      ///< number of consecutive shortest steps, up to now
+  double output_origin_ = 0.0;  ///< s since the start; outputs are n * output_step_ later
   double output_step_ = 0.0;    ///< time_step of the last call
   std::int64_t outputs_ = 0;    ///< n
   double step_begin_ = 0.0;     ///< s since the start

@@ -12,17 +12,18 @@ namespace spring_pendulum {
 
 /// Work of a stepper since its construction.
 struct StepStatistics {
-  std::int64_t force_evaluations = 0;  ///< of F for the whole chain
-  /// What the evaluations of dearer methods cost beyond those of Taylor-8, in those of Taylor-8.
+  std::int64_t force_evaluations = 0;  ///< evaluations of F for the whole chain
+  /// Cost of the evaluations beyond that of as many evaluations of Taylor-8, in the same unit.
   double extra_work = 0.0;
-  std::int64_t accepted = 0;  ///< steps
+  std::int64_t accepted = 0;  ///< accepted steps
   std::int64_t rejected = 0;  ///< steps whose error was too large
-  double last_step = 0.0;     ///< length of the last accepted step, s
-  /// Largest |λ| of the motion seen in the last step, 1/s, where the method notices it for free;
-  /// else 0. A method whose last_step * fastest_rate is near its stability limit is held back by
-  /// stability, not by accuracy.
+  double last_step = 0.0;     ///< size of the last accepted step, s
+  /// Estimate of the largest |λ| of the motion in the last step, 1/s, if the method gets it at no
+  /// cost; else 0. If last_step * fastest_rate is near the stability limit of the method, stability
+  /// limits the step size.
   double fastest_rate = 0.0;
 
+  /// Cost of all evaluations, in force evaluations of Taylor-8.
   double work() const { return static_cast<double>(force_evaluations) + extra_work; }
 };
 
@@ -50,7 +51,7 @@ class DenseOutputStepper {
   ///          finite), after which only `start` may be called
   virtual double step() = 0;
 
-  /// The state inside the last step.
+  /// Computes the state inside the last step.
   /// \param fraction 0 at its beginning, 1 at its end
   /// \param[out] state must have the size of the chain
   virtual void interpolate(double fraction, State& state) const = 0;

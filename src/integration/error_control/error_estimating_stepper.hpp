@@ -1,8 +1,8 @@
-// Base class of one-step methods that estimate their local error: repeats a step until its error is
-// small enough, then chooses the size of the next step.
+// Base class of one-step methods that estimate their local error. It repeats a step until its error
+// is small enough, then chooses the size of the next step.
 //
-// States are sums with compensated summation: the rounding error of each sum is carried into the
-// next step. Without it, rounding errors would dominate at the tightest tolerances.
+// States are updated with compensated summation: the rounding error of each step is added to the
+// next step. Without this, rounding errors would dominate at the tightest tolerances.
 //
 // Reference: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002,
 // section 4.3 (compensated summation).
@@ -31,7 +31,7 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   };
   ErrorEstimatingStepper(const Chain& chain, const ErrorControl& control,
                          const ChainKernels& kernels);
-  /// With a first step that is short for any scene.
+  /// Uses a first step that is short for any scene.
   ErrorEstimatingStepper(const Chain& chain, double allowed_error, int error_order,
                          const ChainKernels& kernels);
 

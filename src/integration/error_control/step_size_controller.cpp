@@ -13,9 +13,9 @@ constexpr double kLargestGrowth = 5.0;
 constexpr double kLargestCut = 0.2;
 constexpr double kSmallestRoot = 0.05;  ///< smaller roots do not increase the step size further
 
-constexpr std::int64_t kOneBits = 0x3ff0000000000000;  ///< of 1.0
-constexpr double kSmallest = 1e-300;                   ///< 1/x must not overflow
-/// By so much the logarithm that the bits are exceeds the true one in the middle of its range.
+constexpr std::int64_t kOneBits = 0x3ff0000000000000;  ///< bits of 1.0
+constexpr double kSmallest = 1e-300;                   ///< smaller x would make 1/x overflow
+/// Mean error of the logarithm that the bits of a double represent; see `root`.
 constexpr std::int64_t kMeanExcess = 0x0000b00000000000;
 
 double integerPower(double x, int n) {
@@ -31,9 +31,9 @@ double integerPower(double x, int n) {
 double root(double x, int k) {
   if (!(x > 0.0)) return 0.0;
   x = std::max(x, kSmallest);
-  // The bits of a double, read as an integer, are nearly its logarithm: dividing their distance
-  // from those of 1 by -k gives 1/y, y the root, to some 3 percent. Newton's method for the power
-  // -k of 1/y needs no division.
+  // The bits of a double, read as an integer, are nearly a linear function of its logarithm.
+  // Dividing their difference from the bits of 1 by -k therefore gives the inverse 1/y of the root
+  // y to about 3 %. Newton's method for x (1/y)^k = 1 improves it without divisions.
   std::int64_t bits = 0;
   std::memcpy(&bits, &x, sizeof(bits));
   bits = kOneBits - (bits - kOneBits) / k - kMeanExcess;

@@ -13,8 +13,10 @@
 
 namespace spring_pendulum {
 
-/// The k-th root of x, 0 <= x, to 1e-8 relative; k in 1..32. A smaller x than 1e-300 counts as that. Exactly the same bits on every
-/// machine: it uses no function of the C library but the square root.
+/// Returns the k-th root of x with a relative error below 1e-8. The bits are the same on every
+/// machine, as only + - * / are used.
+/// \param x at least 0; treated as 1e-300 if it is smaller and not 0
+/// \param k 1..32
 double root(double x, int k);
 
 class StepSizeController {

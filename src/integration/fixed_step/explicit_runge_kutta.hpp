@@ -53,11 +53,11 @@ class ExplicitRungeKutta : public Integrator {
   Skips skips() const override;
 
  private:
-  /// Workspace of a thread, which integrates the particles begin <= i < end.
+  /// Workspace of a thread that integrates the particles begin <= i < end.
   struct Share {
     Eigen::Index begin = 0;
     Eigen::Index end = 0;
-    /// Rows to the left of the next block and to the right of the share, as before the pass.
+    /// State before the pass: rows to the left of the next block, and to the right of the share.
     State::Matrix left, right;
     StateBuffer block;
     AlignedNumbers dissipated;  ///< energy of each spring of the block, J

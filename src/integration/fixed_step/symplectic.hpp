@@ -31,7 +31,8 @@
 
 namespace spring_pendulum {
 
-/// Workspace, counters, and the dissipated energy: the trapezoidal rule over each step.
+/// Base class with workspace, counters, and the dissipated energy, which is integrated with the
+/// trapezoidal rule over each step.
 class SymplecticMethod : public Integrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
@@ -42,14 +43,14 @@ class SymplecticMethod : public Integrator {
  protected:
   SymplecticMethod(const Chain& chain, bool track_dissipation);
 
-  /// One step of `current()`.
+  /// Advances `current()` by one step.
   virtual void step(double time_step) = 0;
-  /// Called before the next step starts from another state than the last step returned.
+  /// Discards what was kept from the last step, because the next step starts from another state.
   virtual void forget() {}
 
   bool damped() const { return chain_.spring().damping != 0.0; }
   StateBuffer& current() { return current_; }
-  /// Accelerations of a state into the columns vx and vy of `slope`.
+  /// Writes the accelerations of a state to the columns vx and vy of `slope`.
   void evaluate(const StateBuffer& state, StateBuffer& slope);
   /// state velocities += weight * slope accelerations
   void kick(StateBuffer& state, double weight, const StateBuffer& slope) const;
@@ -57,7 +58,7 @@ class SymplecticMethod : public Integrator {
   void drift(StateBuffer& state, double weight) const;
 
  private:
-  /// Adds the energy that the current dissipated power amounts to in `time` s.
+  /// Adds the current dissipated power times `time` s.
   void addDissipation(double time);
 
   Chain chain_;
@@ -80,8 +81,8 @@ class SemiImplicitEuler final : public SymplecticMethod {
   StateBuffer slope_;
 };
 
-/// Order 2. Without damping one evaluation per step: the accelerations at the end of a step are
-/// also those at the beginning of the next.
+/// Order 2. One evaluation per step without damping, because the accelerations at the end of a step
+/// are also those at the beginning of the next.
 class VelocityVerlet final : public SymplecticMethod {
  public:
   VelocityVerlet(const Chain& chain, bool track_dissipation);

@@ -1,4 +1,4 @@
-// A pool of threads, which saves starting threads in every call.
+// A pool of threads, so that a call need not start threads.
 #pragma once
 
 #include <condition_variable>
@@ -35,8 +35,8 @@ class WorkerThreads {
   std::condition_variable begin_;
   std::condition_variable done_;
   std::int64_t run_ = 0;  ///< number of calls of `run`
-  int count_ = 0;         ///< tasks of this run
-  int unfinished_ = 0;    ///< tasks of the other threads that have not ended
+  int count_ = 0;         ///< number of tasks of the current run
+  int unfinished_ = 0;    ///< unfinished tasks of the other threads
   bool stop_ = false;
   std::vector<std::thread> threads_;
 };

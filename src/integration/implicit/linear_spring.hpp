@@ -1,7 +1,7 @@
 // Linearisation of a spring whose tension is an additional unknown.
 //
 // With the direction r, the separation d, the approach w, the length L and the tension T, the
-// force on one end is f = T r and its change
+// force on one end is f = T r. Its change is
 //
 //     df = r dT + e (I - r rᵀ) dd ,   e = T / L ,
 //     dT = a · dd + k_d r · dw ,      a = k_s r + k_d (w - (w · r) r) / L .
@@ -18,14 +18,14 @@ struct LinearSpring {
   PlaneVector<double> a{};  ///< derivative of the tension by the separation, N/m
   double e = 0.0;           ///< geometric stiffness, N/m
 
-  /// dT for changes of the separation and the approach, N.
+  /// Returns dT in N for changes of the separation and the approach.
   double tensionChange(double damping, const PlaneVector<double>& separation,
                        const PlaneVector<double>& approach) const {
     return (a.x * separation.x + a.y * separation.y) +
            damping * (r.x * approach.x + r.y * approach.y);
   }
 
-  /// (df/dd) d
+  /// Returns (df/dd) d.
   PlaneVector<double> stiffnessTimes(const PlaneVector<double>& d) const {
     const double along = r.x * d.x + r.y * d.y;
     const double change = (a.x * d.x + a.y * d.y) - e * along;
@@ -33,7 +33,7 @@ struct LinearSpring {
   }
 };
 
-/// k_s (L - L_0) + k_d w·r, N.
+/// Returns the tension k_s (L - L_0) + k_d w·r, N.
 inline double springTension(const SpringLaw& law, const PlaneVector<double>& separation,
                             const PlaneVector<double>& approach) {
   const double square = separation.x * separation.x + separation.y * separation.y;

@@ -27,9 +27,9 @@ inline constexpr std::array<Row, kStages> kMatrix{
      {0.14371356079122594132, 0.28135601514946206019, 0.31182652297574125408, 0.2231039010835707444,
       0.04}}};
 
-/// An eigenvalue of the inverse matrix with its left and right eigenvectors, normalised to product
-/// 1. The right eigenvectors of complex pairs are doubled, so that the real part is the sum of a
-/// pair.
+/// An eigenvalue of the inverse matrix with its left and right eigenvectors, scaled so that their
+/// product is 1. For a complex pair, the right eigenvector is doubled: its real part is then the
+/// sum over the pair.
 template <typename Scalar>
 struct Eigenvalue {
   Scalar value;
@@ -68,7 +68,7 @@ inline constexpr std::array<Eigenvalue<Complex>, 2> kPairs{
         {0.75578780449772249909, -0.93348826066498871858},
         {2.0, 0.0}}}}}};
 
-/// e_i of the error (I - q J)⁻¹ (q F(z_0) + sum_i e_i Z_i), q = h / kReal.value.
+/// Weights e_i of the error estimate (I - q J)⁻¹ (q F(z_0) + sum_i e_i Z_i), q = h / kReal.value.
 inline constexpr Row kError{-4.4189977167963817226, 0.57923485225667005447, -0.19923756095346800874,
                             0.094167483691945488975, -0.031813168885493824096};
 

@@ -27,10 +27,10 @@ constexpr std::size_t kMiddleStage = 2;
 constexpr double kIterationShare = 1e-3;
 constexpr int kMostIterations = 10;
 
-/// Size of rounding errors, relative to the positions, and absolute in m.
+/// Size of rounding errors of the positions, m.
 constexpr double kRounding = 1e-14;
 
-/// Error, relative to the allowed error, of a failed iteration; it halves the step size.
+/// Error, relative to the allowed error, that a failed iteration reports; it halves the step size.
 constexpr double kErrorOfFailure = 32.0;
 
 void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]) {
@@ -179,7 +179,7 @@ bool RadauStepper::solveStages(double h) {
     const double size = change.norm();
     if (!std::isfinite(size)) return false;
     const double contraction = iteration == 0 ? 1.0 : size / last;
-    // Without contraction rounding errors are all that is left, or the step is too long.
+    // Without contraction, either only rounding errors are left or the step is too long.
     const bool settled = contraction < 1.0 && contraction * size <= (1.0 - contraction) * wanted;
     if (settled || size <= kRounding) return true;
     if (iteration > 0 && contraction >= 1.0) return change.position <= kRounding;
@@ -262,8 +262,9 @@ double RadauStepper::estimateError(double h) {
   return filteredError(true);
 }
 
-// The tension at the start is taken from the end of the last step. The spring law would amplify
-// rounding errors of the velocities to forces that are large for a light particle.
+// The tension at the start is that at the end of the last step. Computed from the spring law, it
+// would contain rounding errors of the velocities, amplified to forces that are large for a light
+// particle.
 PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected) const {
   const LinearSpring& linear = springs_[spring];
   Ends ends = endsOf(spring, begin());

@@ -3,18 +3,18 @@
 //
 //     q' = v      m v' = sum of T r + m g      0 = k_s (L - L_0) + k_d L' - T
 //
-// An ordinary Newton iteration linearises the dashpots' force about one direction of the spring.
-// The spring turns within the step, the dashpot then pushes a light particle sideways, and the
-// iteration contracts no better than (k_d/m) h (ωh)² with the angular velocity ω of the spring.
-// Here the forces at a stage are taken from the iterate of T along the spring's direction at that
-// stage, and T follows its equation along the directions in the middle of the step. That contracts
-// with about ωh, whatever the mass. Eliminating the tensions leaves the systems of
-// chain_solver.hpp: a real one and two complex ones.
+// An ordinary Newton iteration linearises the force of a dashpot about one direction of the spring.
+// When the spring turns within the step, the linearised dashpot pushes a light particle sideways.
+// The iteration then contracts with (k_d/m) h (ωh)², where ω is the angular velocity of the spring.
+// Here, the force at a stage is the current iterate of T along the direction of the spring at that
+// stage; only the equation for T is linearised about the direction in the middle of the step. This
+// iteration contracts with about ωh, whatever the mass. Eliminating the tensions leaves three
+// systems as in chain_solver.hpp, a real one and two complex ones.
 //
-// The positions at the stages follow from the velocities, q_i = q_0 + h sum_j a_ij v_j, so only
-// velocities are solved for. The error estimate is the embedded formula filtered by (I - q J)⁻¹.
-// The error is controlled per unit step, which keeps vibrating light particles within the
-// tolerance. The dense output is the collocation polynomial.
+// The positions at the stages follow from the velocities, q_i = q_0 + h sum_j a_ij v_j, so the
+// unknowns of these systems are velocities. The error estimate is the embedded formula filtered by
+// (I - q J)⁻¹. The error is controlled per unit step, which keeps vibrating light particles within
+// the tolerance. The dense output is the collocation polynomial.
 //
 // Use this method for k_d/m above about 1e4/s. Without light particles the Taylor methods need less
 // time, as every method has to resolve undamped vibration.
@@ -44,25 +44,26 @@ class RadauStepper final : public ErrorEstimatingStepper {
   void interpolate(double fraction, State& state) const override;
   StepStatistics statistics() const override;
 
-  /// Work of a force evaluation and its part of the linear algebra, in force evaluations of Taylor-8.
-  /// A fit: 2.2 for 2 particles, 7 for 11, 14 for 50, 23 for 100, 46 for 300 were measured. The root
-  /// comes from the kernels of the series, whose vector instructions pay on long chains.
+  /// Returns the cost of a force evaluation with its share of the linear algebra, in force
+  /// evaluations of Taylor-8. A fit to measurements: 2.2 for 2 particles, 7 for 11, 14 for 50, 23
+  /// for 100, 46 for 300. It grows with N because only the Taylor kernels use vector instructions,
+  /// which need long chains.
   static double workPerEvaluation(Eigen::Index particles);
 
  private:
   using Row = radau::Row;
-  /// Changes of a particle's state since the beginning of the step, at each stage.
+  /// Differences between the state of a particle at each stage and at the beginning of the step.
   struct Increments {
     Row x, y, vx, vy;
   };
-  /// The collocation polynomial: of the particles, and the tensions of the springs.
+  /// The collocation polynomial: values at the stages.
   struct Collocation {
     explicit Collocation(Eigen::Index size)
         : particles(static_cast<std::size_t>(size)), tensions(static_cast<std::size_t>(size)) {}
     std::vector<Increments> particles;
     std::vector<Row> tensions;
   };
-  /// One linear system; x and y hold its right-hand side, then its solution.
+  /// One linear system. x and y hold its right-hand side and, after `solve`, its solution.
   template <typename Scalar>
   struct System {
     System(const Chain& chain, const radau::Eigenvalue<Scalar>& coefficients)
@@ -100,22 +101,24 @@ class RadauStepper final : public ErrorEstimatingStepper {
   static Ends endsOf(std::size_t spring, const StateBuffer& state);
   Ends endsOf(std::size_t spring, const Ends& start, std::size_t stage) const;
 
-  /// Initial guess of the stages: extrapolates the polynomial of the last step.
+  /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.
   void predict(double h);
   void linearise();
-  /// Simplified Newton iteration. \returns whether it converged
+  /// Solves for the stages with a simplified Newton iteration.
+  /// \returns whether it converged
   bool solveStages(double h);
-  /// Right-hand sides of all systems; also sets the tensions to those of the spring law.
+  /// Computes the right-hand sides of all systems, and the tensions from the spring law.
   void computeResiduals();
-  /// Force of spring i on particle i at all stages; also sets the tensions of spring i.
+  /// Computes the tensions of spring i and its forces on particle i, at all stages.
   void springForces(std::size_t spring, Row& fx, Row& fy);
   Change updateStages();
-  /// Largest estimated error of a coordinate, m.
+  /// Returns the largest estimated error of a coordinate, m.
   double estimateError(double h);
-  /// \param corrected whether the slope is evaluated at the start plus the first estimate
+  /// Returns one estimate of the error and stores the error of each particle in `change_`.
+  /// \param corrected whether to evaluate the slope at the start plus the first estimate
   double filteredError(bool corrected);
   PlaneVector<double> startForce(std::size_t spring, bool corrected) const;
-  /// One explicit Euler step, for a collision, where the polynomial is no approximation.
+  /// Takes an explicit Euler step, for a collision, where no polynomial describes the motion.
   double stepExplicitly(double h);
   void setEndFromLastStage();
 

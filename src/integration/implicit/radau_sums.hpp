@@ -28,13 +28,13 @@ inline double realPart(Complex a) {
   return a.re;
 }
 
-/// Adds the real parts of factor * value.
+/// Adds the real part of each factor times `value`.
 template <typename Scalar>
 void addTo(Row& row, const std::array<Scalar, kStages>& factors, Scalar value) {
   for (std::size_t s = 0; s < kStages; ++s) row[s] += realPart(factors[s] * value);
 }
 
-/// Values at `time` (in step sizes) of the Lagrange polynomials of the nodes.
+/// Returns the values of the Lagrange polynomials of the nodes at `time`, in step sizes.
 /// \param with_start whether 0 is a node as well
 inline Row lagrangeWeights(double time, bool with_start) {
   const Row& c = kNodes;

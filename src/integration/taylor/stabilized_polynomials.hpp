@@ -1,5 +1,5 @@
 // Weights that make the sum of a Taylor series stable along the negative real axis.
-// benchmark/derivations/stabilized_polynomials.py derives them and says how.
+// benchmark/derivations/stabilized_polynomials.py derives and explains them.
 #pragma once
 
 #include <array>
@@ -7,14 +7,14 @@
 
 namespace spring_pendulum {
 
-/// Term j of the series is summed with weight w_j, j = 0..K. The stability polynomial
+/// The weights w_j of the terms j = 0..K of a Taylor series. The stability polynomial
 /// R(z) = sum_j w_j z^j / j! agrees with exp(z) to order p.
 struct StabilizedPolynomial {
   static constexpr std::size_t kMaxAdded = 7;
 
   int order;                                    ///< p; w_j = 1 up to it
   int terms;                                    ///< K
-  double real_stability_limit;                  ///< |R| <= 1 from it to 0 on the negative real axis
+  double real_stability_limit;                  ///< |R(z)| <= 1 for real z from minus this to 0
   std::array<double, kMaxAdded - 1> weights;    ///< w_{p+1} to w_K
   std::array<double, kMaxAdded> error_weights;  ///< e_p to e_K: the error is sum_j e_j c_j h^j
 
@@ -28,7 +28,7 @@ struct StabilizedPolynomial {
   }
 };
 
-/// All of one order, 4 or 8, by rising number of terms; the first is the plain series.
+/// The polynomials of one order, with increasing number of terms. The first is the plain series.
 struct StabilizedPolynomials {
   const StabilizedPolynomial* first;
   std::size_t count;
@@ -37,6 +37,7 @@ struct StabilizedPolynomials {
   const StabilizedPolynomial* end() const { return first + count; }
 };
 
+/// \param order 4 or 8
 StabilizedPolynomials stabilizedPolynomials(int order);
 
 }  // namespace spring_pendulum

@@ -8,18 +8,18 @@
 namespace spring_pendulum {
 namespace {
 
-/// The last percents of a stability interval are left to the springs' own part of the rates.
+/// Used part of a stability interval. The rest is for the springs, which also add to the rates.
 constexpr double kUsedStability = 0.97;
 
-/// Errors of shorter steps count as if they were made in every such time, s: there are many of
-/// them, and where a light particle vibrates they add up.
+/// Step size in s below which the error is limited per time instead of per step. Such short steps
+/// are taken where a light particle vibrates, and their many errors add up.
 constexpr double kLeastTimePerError = 1e-3;
 
 double longestStep(const StabilizedPolynomial& polynomial, double rate) {
   return kUsedStability * polynomial.real_stability_limit / rate;
 }
 
-/// Those of the plain sum, times `factor` of the term of the state that a number belongs to.
+/// Returns the weights of the plain series, with the term of degree j multiplied by factor(j).
 template <typename Factor>
 TaylorWeights weighted(int terms, double time, const Factor& factor) {
   TaylorWeights weights = taylorWeights(terms, time);
@@ -31,7 +31,7 @@ TaylorWeights weighted(int terms, double time, const Factor& factor) {
 }
 
 TaylorWeights sumOf(const StabilizedPolynomial& polynomial, double time) {
-  // Where even the shortest step is too long the coefficients are mostly rounding errors.
+  // Near a collision, which takes shortest steps, higher coefficients are mostly rounding errors.
   if (time <= kShortestStep) return taylorWeights(1, time);
   return weighted(polynomial.terms, time,
                   [&polynomial](int term) { return polynomial.weight(term); });
@@ -64,7 +64,7 @@ double StabilizedTaylorStepper::admissible(double h) {
   h = std::min(h, longestStep(*(polynomials_.end() - 1), fastest_rate_));
   while (longestStep(*polynomial_, fastest_rate_) < h) ++polynomial_;
   if (polynomial_ == polynomials_.begin()) return h;
-  // The longest step of fewer terms may go further per term.
+  // A step at the limit of fewer terms may cover more time per term.
   const StabilizedPolynomial& fewer = *(polynomial_ - 1);
   const double shorter = longestStep(fewer, fastest_rate_);
   if (shorter * polynomial_->terms < h * fewer.terms) return h;
@@ -74,7 +74,7 @@ double StabilizedTaylorStepper::admissible(double h) {
 
 double StabilizedTaylorStepper::attempt(double h) {
   TaylorWorkspace& work = expansion_.work();
-  // A step that is tried again is shorter, and needs no more terms.
+  // A repeated step is shorter and needs no more terms.
   if (known_terms_ < polynomial_->terms) {
     known_terms_ = polynomial_->terms;
     work.order = known_terms_;
@@ -84,7 +84,7 @@ double StabilizedTaylorStepper::attempt(double h) {
   kernels().taylorState(work, begin().data(), carry().data(), sumOf(*polynomial_, h),
                         change_.data());
   setEnd(change_, {});
-  // The series follows a spring whose ends meet to negative lengths; see TaylorStepper::step.
+  // The series is invalid once the ends of a spring meet; see TaylorStepper::step.
   if (h > kShortestStep &&
       kernels().springsChangeMuch(work.size, work.pitch, begin().data(), end().data())) {
     return std::numeric_limits<double>::infinity();

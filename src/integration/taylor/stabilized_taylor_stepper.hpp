@@ -1,8 +1,8 @@
-// The Taylor series method with terms that serve stability instead of order.
+// The Taylor series method with weights on its higher terms, which extend the stability limit.
 //
-// The rates of a damped chain lie near the negative real axis and reach -k_d/m times 4; a plain
-// series of K terms is stable there only up to h|λ| = 0.4 K or so, because its last terms grow like
-// z^K/K!. Here the terms above the order p are weighted,
+// The eigenvalues λ of a damped chain lie near the negative real axis, down to about -4 k_d/m. On
+// this axis, the plain series with K terms is stable only up to about h|λ| = 0.4 K. Here, the terms
+// above the order p are weighted,
 //
 //     z(t+h) = sum_j w_j c_j h^j ,    w_j = 1 up to order p ,    R(z) = sum_j w_j z^j / j! ,
 //
@@ -13,14 +13,15 @@
 //     order 8, terms     8      9     10     11     12     13     14
 //     limit h|λ|        4.3    7.1   10.1   13.4   17.1   21.0   25.4
 //
-// Each step takes as many terms as its length needs. The error is another weighted sum, of order
-// p - 1, that stays small for fast modes. Undamped swinging is stable up to hω = 2.8 and 3.4. The
-// dense output is the sum with the weights of the step, of order p everywhere.
+// Each step uses as many terms as its size needs. The error estimate is another weighted sum, of
+// order p - 1, that stays small for fast modes. Undamped oscillation is stable up to hω = 2.8
+// (order 4) and 3.4 (order 8). The dense output is the series with the weights of the step and has
+// order p throughout the step.
 //
-// Take it where light particles and damping make plain steps short and errors of 1e-3 m to 1e-10 m
-// are wanted: it does with a quarter to a tenth of the work of other explicit methods, a stabilised
-// Runge-Kutta method of order 4 (ROCK4) included. Leave very light particles to Radau-9. More terms
-// would reach further, but within a step rounding errors grow like exp(h|λ|).
+// Use this method if light particles and damping make the steps of other explicit methods short and
+// errors of 1e-3 m to 1e-10 m are wanted. It then needs a quarter to a tenth of their work,
+// including that of the stabilised Runge-Kutta method ROCK4. For very light particles, use Radau-9.
+// More terms would extend the limit further, but rounding errors grow like exp(h|λ|) within a step.
 //
 // References: D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271,
 // doi:10.2140/camcos.2012.7.247 (optimal polynomials); taylor_stepper.hpp (the series).
@@ -34,9 +35,8 @@ namespace spring_pendulum {
 
 class StabilizedTaylorStepper final : public ErrorEstimatingStepper {
  public:
-  /// Part of the tolerance that the estimated error of a step may have. Measured on the reference
-  /// scenes: the position error is at most 7.2 tolerances, after 50 s of the weakly chaotic
-  /// `horizontal_11`.
+  /// Largest estimated error of a step, in tolerances. With this value, the position error is at
+  /// most 7.2 tolerances on the reference scenes: after 50 s of the weakly chaotic `horizontal_11`.
   static constexpr double kShareOfTolerance = 5e-5;
 
   /// \param order 4 or 8
@@ -47,16 +47,16 @@ class StabilizedTaylorStepper final : public ErrorEstimatingStepper {
 
  private:
   void prepare(bool restarted) override;
-  /// Also picks the number of terms for it.
+  /// Also selects the number of terms for the step.
   double admissible(double h) override;
   double attempt(double h) override;
 
-  double fastest_rate_;  ///< bound of |λ| of the damped modes, 1/s
+  double fastest_rate_;  ///< upper bound of |λ| of the damped modes, 1/s
   StabilizedPolynomials polynomials_;
   const StabilizedPolynomial* polynomial_;
   TaylorExpansion expansion_;
-  int known_terms_ = 0;  ///< of the expansion about `begin()`
-  StateBuffer change_;   ///< of the state in the step
+  int known_terms_ = 0;  ///< number of computed terms of the expansion about `begin()`
+  StateBuffer change_;   ///< change of the state in the step
   mutable StateBuffer inside_;
 };
 

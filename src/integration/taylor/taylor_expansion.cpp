@@ -7,7 +7,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// 1/i, which saves divisions; number 0 is not used.
+/// The reciprocals 1/i, which save divisions; element 0 is not used.
 constexpr auto kReciprocals = [] {
   std::array<double, kLargestTaylorOrder + 2> reciprocals{};
   for (std::size_t i = 1; i < reciprocals.size(); ++i) {

@@ -1,4 +1,4 @@
-// The Taylor coefficients of a chain's motion: their memory, and the weights of plain sums of them.
+// Memory for the Taylor coefficients of a chain's motion, and the weights of the plain series.
 #pragma once
 
 #include "integration/kernels/state_buffer.hpp"
@@ -7,11 +7,11 @@
 
 namespace spring_pendulum {
 
-/// A workspace for the kernels with the memory it points to. `work().size` and `work().order` may
-/// be made smaller and, up to what they were at first, larger again.
+/// Owns the memory to which a `TaylorWorkspace` points. `work().size` and `work().order` may be set
+/// to smaller values, and back up to their initial values.
 class TaylorExpansion {
  public:
-  /// \param order K in 2..14, the most coefficients
+  /// \param order K in 2..14, the largest number of coefficients
   TaylorExpansion(const Chain& chain, int order);
 
   TaylorWorkspace& work() { return work_; }
@@ -25,7 +25,7 @@ class TaylorExpansion {
   TaylorWorkspace work_;
 };
 
-/// The sum of the first `count` coefficients, `time` s later.
+/// Returns the weights that sum the first `count` coefficients of the series at `time` s.
 TaylorWeights taylorWeights(std::ptrdiff_t count, double time);
 
 }  // namespace spring_pendulum

@@ -11,15 +11,16 @@
 namespace spring_pendulum {
 namespace {
 
-/// Allowed rate of the velocity error, 1/s², times the tolerance. Measured on the reference scenes:
-/// with this the position error is at most 2.7 times the tolerance, after 50 s of the weakly
-/// chaotic `horizontal_11`, and far below it on all others.
+/// Allowed growth rate of the velocity error in units of the tolerance, 1/s². With this value, the
+/// position error is at most 2.7 tolerances after 50 s of the weakly chaotic reference scene
+/// `horizontal_11` and far below one tolerance on all other reference scenes.
 constexpr double kErrorRate = 0.01;
 
-/// Growth from one coefficient to the next, 1/s, where it can't be seen: larger than it ever is.
+/// Growth from one coefficient to the next, 1/s, if the coefficients do not show it: larger than in
+/// any motion.
 constexpr double kUnknownGrowth = 1e4;
 
-/// A coefficient that limits no step, so small that dividing by it could overflow.
+/// A coefficient too small to limit the step size. Dividing by a smaller one could overflow.
 constexpr double kNoMotion = 1e-200;
 
 }  // namespace
@@ -51,7 +52,7 @@ bool TaylorStepper::fallsFreely(Eigen::Index spring) const {
          square * inverseSquareRoot(square) == work_.spring.rest_length;
 }
 
-// The springs behind the computed part were falling freely at the last step and still are.
+// The springs beyond the computed part fell freely in the last step and still do.
 void TaylorStepper::skipFreeEnd() {
   Eigen::Index first = work_.size - 1;
   while (first > 1 && fallsFreely(first - 1)) --first;
@@ -66,12 +67,12 @@ void TaylorStepper::expand() {
   statistics_.force_evaluations += work_.order;
 }
 
-// The first term that is left out of the velocities, |a_K| h^(K+1) / (K+1), may be `allowed_rate_`
-// times h. Its size is extrapolated from the last four coefficients, even and odd ones apart:
-// of a chain let go at rest without damping, all odd ones vanish.
+// The first omitted term of the velocities, |a_K| h^(K+1) / (K+1), may be `allowed_rate_` times h.
+// Its size is extrapolated from the last four coefficients. Even and odd coefficients are compared
+// separately, because all odd ones vanish for an undamped chain released at rest.
 double TaylorStepper::longestAccurateStep() {
   const auto order = static_cast<int>(work_.order);
-  std::array<double, 4> size{};  // of coefficients K-1, K-2, K-3, K-4
+  std::array<double, 4> size{};  // largest values of coefficients K-1, K-2, K-3, K-4
   for (std::size_t back = 0; back < size.size(); ++back) {
     size[back] = kernels_.taylorLargest(work_, order - 1 - static_cast<int>(back));
     if (!std::isfinite(size[back])) return 0.0;
@@ -79,7 +80,7 @@ double TaylorStepper::longestAccurateStep() {
   const double ratio = std::sqrt(
       std::max(size[2] > 0.0 ? size[0] / size[2] : 0.0, size[3] > 0.0 ? size[1] / size[3] : 0.0));
   const double growth = ratio > 0.0 ? ratio : kUnknownGrowth;
-  // In this order: next = max of size[0] growth, size[1] growth^2, ..., size[3] growth^4.
+  // next = max(size[0] growth, size[1] growth², size[2] growth³, size[3] growth⁴)
   double next = 0.0;
   for (std::size_t back = size.size(); back-- > 0;) next = growth * std::max(next, size[back]);
   statistics_.fastest_rate = order * ratio;
@@ -91,9 +92,9 @@ double TaylorStepper::step() {
   expand();
   double h = longestAccurateStep();
   if (h == 0.0) return 0.0;
-  // The series follows a spring whose ends meet to negative lengths, the motion does not: go close
-  // to that moment, and past it with the shortest step. So close to it the coefficients are mostly
-  // rounding errors, of which one term of the forces keeps clear.
+  // When the ends of a spring meet, the series continues to negative lengths, but the motion does
+  // not. So step close to that moment, then past it with the shortest step. Near it, the higher
+  // coefficients are mostly rounding errors, so the shortest step uses only one.
   for (;; h = std::max(0.5 * h, kShortestStep)) {
     const bool shortest = h <= kShortestStep;
     sumSeries(h, shortest ? 1 : work_.order);
@@ -122,7 +123,7 @@ void TaylorStepper::sumAt(double time, StateBuffer& out) const {
                        out.data());
   const Eigen::Index falling = chain_.size() - work_.size;
   if (falling == 0) return;
-  // The kernel's arithmetic with the one coefficient that is not zero.
+  // The arithmetic of the kernel for a free fall, where only the first coefficient is not zero.
   const double speed = time * -chain_.gravity();
   const double drop = time * time / 2.0 * -chain_.gravity();
   const auto from = begin_.values().bottomRows(falling);

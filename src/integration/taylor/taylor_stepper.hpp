@@ -1,27 +1,30 @@
-// The Taylor series method of order K: from the state alone the motion's first derivatives are
-// computed exactly, by recursion, and the series is summed at a step of its own choice.
+// The Taylor series method of order K. In each step, a recursion computes the Taylor coefficients
+// of the motion from the state, without truncation error. Their size determines the step size, and
+// the series is summed at the end of the step.
 //
-// For a spring with separation d and approach w = d' the length L, the tension T and the force are
+// For a spring with separation d and approach w = d', the length L, the tension T and the force f
+// are
 //
-//     L L = d·d      T = k_s (L - L_0) + k_d L'      u = T / L      f = u d
+//     L L = d·d      T = k_s (L - rest length) + k_d L'      u = T / L      f = u d
 //
-// because the dashpot's rate w·r is the change of length L'. Each line is a product of series, so
-// with (ab)_n = sum_j a_j b_{n-j} and the coefficients up to d_{n+1} known:
+// as the elongation rate w·r of the dashpot is L'. These are products of series. With the Cauchy
+// product (ab)_n = sum_j a_j b_{n-j}, and the coefficients up to d_{n+1} known, they become (L_0 is
+// coefficient 0 of the length)
 //
-//     L_{n+1} = ((d·d)_{n+1} - sum_{0<j<=n} L_j L_{n+1-j}) / 2 L_0          (here L_0, T_0, ... are
-//     T_n     = k_s (L_n - [n = 0] rest length) + k_d (n+1) L_{n+1}          coefficients number 0)
+//     L_{n+1} = ((d·d)_{n+1} - sum_{0<j<=n} L_j L_{n+1-j}) / 2 L_0
+//     T_n     = k_s (L_n - [n = 0] rest length) + k_d (n+1) L_{n+1}
 //     u_n     = (T_n - sum_{j<n} u_j L_{n-j}) / L_0
 //     f_n     = sum_{j<=n} u_j d_{n-j}
 //     a_n     = (f_n of the right spring - f_n of the left one) / m - [n = 0] g
 //     d_{n+2} = (a_n of the right particle - a_n of the left one) / (n+1)(n+2)
 //
-// Forces of K coefficients give velocities right to order K and positions to order K + 1. One root
-// and one division a spring and step are all that is not + - *; no step is ever rejected, because
-// its error is known before its length is chosen; and the series is the dense output.
+// K force coefficients give velocities of order K and positions of order K + 1. A step needs one
+// square root and one division per spring, otherwise only + - *. The error is known before the step
+// size is chosen, so no step is rejected. The series is also the dense output.
 //
-// The linear stability function is 1 + z + ... + z^K/K!. On the scenes of this package it needs
-// less time for the same error than any Runge-Kutta pair, at all tolerances, unless particles are
-// so light that stability and not accuracy limits the step.
+// The linear stability function is 1 + z + ... + z^K/K!. On the scenes of this package, the method
+// needs less time for the same error than any embedded Runge-Kutta pair, at all tolerances, unless
+// particles are so light that stability limits the step size.
 //
 // References: R. E. Moore, Methods and Applications of Interval Analysis, SIAM 1979, section 3.4
 // (recursion); Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904
@@ -36,7 +39,7 @@
 
 namespace spring_pendulum {
 
-/// Largest h|λ| for λ on the negative real axis: the zero of |sum_{n<=K} z^n/n!| - 1.
+/// Stability limits h|λ| for λ on the negative real axis: the zeros of |sum_{n<=K} z^n/n!| - 1.
 constexpr double kTaylor8RealStabilityLimit = 4.313627227774381;
 constexpr double kTaylor12RealStabilityLimit = 5.8227790681937215;
 
@@ -51,14 +54,14 @@ class TaylorStepper final : public DenseOutputStepper {
   void interpolate(double fraction, State& state) const override;
   StepStatistics statistics() const override { return statistics_; }
 
-  /// Takes a step of this length, whatever its error: what the order is measured with.
+  /// Takes a step of size h whatever its error. Tests measure the order with it.
   void stepBy(double h);
 
  private:
-  /// Whether a spring pulls at neither end, and will not until its neighbours do: exactly of its
-  /// rest length, level, with both ends falling alike.
+  /// Whether a spring falls without force until its neighbours exert one: it is level, has exactly
+  /// its rest length, and both ends have the same vertical velocity.
   bool fallsFreely(Eigen::Index spring) const;
-  /// Leaves out the end of the chain that nothing but gravity moves in this step. In one step
+  /// Excludes the end of the chain that falls freely throughout the next step. In one step,
   /// information travels as many springs as the series has coefficients. Changes no bit.
   void skipFreeEnd();
   void expand();
@@ -67,11 +70,11 @@ class TaylorStepper final : public DenseOutputStepper {
   double longestAccurateStep();
 
   Chain chain_;
-  double allowed_rate_;  ///< of the error of the velocities, m/s²
+  double allowed_rate_;  ///< allowed growth rate of the velocity error, m/s²
   const ChainKernels& kernels_;
   TaylorExpansion expansion_;
-  TaylorWorkspace& work_;     ///< of the part of the chain that is not left out
-  std::ptrdiff_t terms_ = 0;  ///< summed in the last step
+  TaylorWorkspace& work_;     ///< its size excludes the end that falls freely
+  std::ptrdiff_t terms_ = 0;  ///< number of terms summed in the last step
   StateBuffer begin_;
   StateBuffer end_;
   mutable StateBuffer inside_;

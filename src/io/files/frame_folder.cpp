@@ -25,7 +25,7 @@ std::string hiddenName(std::int64_t index) {
   return fmt::format(".frame_{:04}.tmp", index);
 }
 
-/// No frame has this name, as index 0 is written with four digits.
+/// Name of a trial file. No frame has it, because frame 0 is written with four digits.
 constexpr const char* kTrial = ".frame_00000.tmp";
 
 /// Whether a name is `prefix` + at least four digits + `suffix`.

@@ -10,9 +10,9 @@
 
 namespace spring_pendulum {
 
-/// Written as FILE.unfinished and renamed at the end, so FILE is complete or absent, and a FILE of
-/// an earlier run is replaced only at the end. If FILE is a symbolic link, its target is written
-/// and the link stays. FILE.unfinished is locked, so that only one run at a time writes a file.
+/// Writes FILE.unfinished and renames it to FILE at the end. So FILE is complete or absent, and a
+/// FILE of an earlier run is replaced only at the end. If FILE is a symbolic link, its target is
+/// replaced and the link stays. A lock on FILE.unfinished ensures that only one run writes it.
 class OutputFile {
  public:
   /// \param inputs input files of the run, which must not be overwritten
@@ -27,14 +27,15 @@ class OutputFile {
 
   /// \throws FileError naming the file
   void write(std::string_view text);
-  /// Copies the file that will be replaced, if there is one, to the beginning of the new file.
-  /// \returns whether there is one
+  /// Copies an earlier FILE to the beginning of the new one.
+  /// \returns whether there is an earlier FILE
   /// \throws FileError naming the file
   bool copyEarlier();
-  /// A path under which a library can open the unfinished file again.
+  /// Returns a path by which a library can open the unfinished file.
   std::string unfinishedPath() const;
-  /// Size of the unfinished file, bytes.
+  /// Returns the size of the unfinished file, bytes.
   std::uintmax_t size() const;
+  /// Closes the file and gives it its final name.
   /// \throws FileError naming the file
   void finish();
 

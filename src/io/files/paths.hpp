@@ -7,7 +7,7 @@
 
 namespace spring_pendulum {
 
-/// The absolute path without "."; without ".." unless that would skip a symbolic link.
+/// Returns the absolute path without ".". Removes ".." unless that would skip a symbolic link.
 std::string fullPath(const std::string& path);
 
 /// The text for `errno`: "No such file or directory".

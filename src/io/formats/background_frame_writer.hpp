@@ -30,10 +30,10 @@ class BackgroundFrameWriter {
   BackgroundFrameWriter& operator=(const BackgroundFrameWriter&) = delete;
 
   /// As FrameWriter. All frames must have the same size.
-  /// \throws FileError naming the file of this or the previous frame; no more is written then
+  /// \throws FileError naming the file of this or the previous frame; later frames are not written
   void write(std::int64_t index, const State& state);
 
-  /// Waits until all frames are written, then as FrameWriter.
+  /// Waits until all frames are written, then ends the run like FrameWriter::finish.
   /// \throws FileError also for the last frame
   void finish();
 

@@ -10,10 +10,10 @@
 
 namespace spring_pendulum {
 
-/// Complete or absent, like every OutputFile. Columns: frame, time in s, kinetic, gravity, spring,
-/// total, dissipated and residual energy in J, the residual relative to the energy scale, and the
-/// position error in m (nan if not measured). Every number is the shortest text that reads back as
-/// the same double.
+/// Writes the energy balance of a run. The file is complete or absent, like every OutputFile.
+/// Columns: frame, time in s, kinetic, gravity, spring, total, dissipated and residual energy in J,
+/// the residual relative to the energy scale, and the position error in m (nan if not measured).
+/// Every number is the shortest text that reads back as the same double.
 class EnergyFile {
  public:
   /// As OutputFile.
@@ -31,7 +31,7 @@ class EnergyFile {
 
  private:
   OutputFile file_;
-  std::string text_;  ///< not yet written
+  std::string text_;  ///< rows that are not written yet
 };
 
 }  // namespace spring_pendulum

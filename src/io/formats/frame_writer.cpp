@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLongestLine = 2 * (kLongestNumber + 1);
 constexpr Eigen::Index kLinesAtOnce = 4096;
 
-/// Adds its lifetime to a sum.
+/// Adds its lifetime in s to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum) {}

@@ -3,12 +3,12 @@
 
 namespace spring_pendulum {
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP is only recorded; the second one ends the
-/// program. A signal that is ignored, as under nohup, stays ignored.
+/// From this call on, the first SIGINT, SIGTERM or SIGHUP is only recorded, and the second one ends
+/// the program. A signal that is ignored, as under nohup, stays ignored.
 /// \param also called in the signal handler, so it must be async-signal-safe; null: nothing
 void catchInterruptions(void (*also)() = nullptr);
 
-/// The signal received, 0 if none.
+/// Returns the number of the recorded signal, 0 if there was none.
 int interruption();
 
 }  // namespace spring_pendulum

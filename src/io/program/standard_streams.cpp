@@ -21,8 +21,8 @@ namespace {
 void prepareProcess() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // open() returns the lowest free number, which is this stream. The access mode is the wrong
-    // one, so that using the stream fails.
+    // open() returns the lowest free number, which is that of this stream. With the opposite access
+    // mode, using the stream still fails.
     const int mode = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
     if (::open("/dev/null", mode) != stream) return;
   }

@@ -5,10 +5,10 @@
 
 namespace spring_pendulum {
 
-/// Must be called first in every program. Opens standard streams that are closed, so that no file
-/// of the run gets their number and receives messages. Writing to such a stream still fails.
-/// Also ignores SIGPIPE and SIGXFSZ, so that a closed pipe and a file size limit are errors of
-/// `write`.
+/// Prepares the process; every program calls it first. Opens standard streams that are closed:
+/// otherwise a file of the run would get the number of such a stream and receive its messages.
+/// Writing to such a stream still fails. Also ignores SIGPIPE and SIGXFSZ, so that `write` reports
+/// a closed pipe or a file size limit as an error.
 void prepareProcess();
 
 /// Prints to standard output. \throws FileError if it can't be written

@@ -9,8 +9,8 @@ namespace spring_pendulum {
 class ShownState {
  public:
   /// Sets the state from the state of the run.
-  /// \param share 1: this state; less than 1: cubic Hermite interpolation between the previous
-  ///   state (0) and this
+  /// \param share 1 for the state of the run; less for a state interpolated between the previous
+  ///   state (0) and the current one, with cubic Hermite polynomials
   void follow(const PendulumRun& run, double share = 1.0);
 
   const State& state() const { return between_ ? shown_ : last_; }

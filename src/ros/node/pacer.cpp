@@ -5,8 +5,8 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kLateness = 0.1;     // s, largest delay that is made up for
-constexpr double kMeasureOver = 0.5;  // s
+constexpr double kLateness = 0.1;     // s, largest delay that the run makes up for
+constexpr double kMeasureOver = 0.5;  // s, duration of a measurement of the speed
 constexpr double kLongestWait = 1e9;  // s; ros::Duration has 32 bits for seconds
 
 }  // namespace

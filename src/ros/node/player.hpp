@@ -35,8 +35,8 @@ class Player {
   Action next();
 
   bool isPaused() const { return paused_; }
-  /// The state to show: 1 for the state of the run, less than 1 for a state between the previous
-  /// one and this. In slow motion the run is one state ahead of the display.
+  /// Position of the shown state between the previous state of the run (0) and the current one (1).
+  /// It is less than 1 in slow motion, where the run is one state ahead of the display.
   double shownShare() const;
   /// Speed of the run: "1.00 x real time"
   std::string pace() const;

@@ -10,14 +10,14 @@
 
 namespace spring_pendulum {
 
-/// Work since the start of the node, including the time before a reset.
+/// Work since the start of the node, including that before a reset.
 struct Totals {
   std::int64_t frames = 1;
   std::int64_t steps = 0;
-  double seconds = 0.0;  ///< integrating
+  double seconds = 0.0;  ///< time spent integrating
 };
 
-/// One line: frames, steps, force evaluations, times, position and energy error, verdict.
+/// Returns a line with frames, steps, force evaluations, times, position and energy error, verdict.
 std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                         const Publisher& publisher);
 
@@ -44,7 +44,7 @@ class RunLog {
   std::string said_choice_;
   bool said_tolerance_ = false;
   int choices_said_ = 0;
-  bool holds_ = false;  ///< the node lives on at the end of the run
+  bool holds_ = false;  ///< whether the node continues after the end of the run
 };
 
 }  // namespace spring_pendulum

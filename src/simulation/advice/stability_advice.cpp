@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// Factor of the linear limit. Measured on 140 random scenes: without it, the limit was up to 3.3
-/// times too large (one scene, Semi-Implicit-Euler).
+/// Safety factor of the linear limit. Measured on 140 random scenes: without this factor, the limit
+/// was up to 3.3 times too large (one scene, Semi-Implicit-Euler).
 constexpr double kLinearMargin = 0.25;
 /// Number of steps in which the growth of an unstable mode becomes visible.
 constexpr double kStepsOfMode = 2000.0;
 
-/// Work of a trial after a divergence: about 0.02 s.
+/// Allowed work of a trial after a divergence, see `TrialBench`: about 0.02 s.
 constexpr double kRemedyWork = 2e6;
 
 bool isStable(const Trial& trial) {
@@ -51,7 +51,7 @@ double accurateStep(const TrialBench& bench, const Method& method, double first)
   return measurable ? step : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The stable step size for q'' + damping q' + stiffness q = 0.
+/// Returns the largest stable step size for q'' + damping q' + stiffness q = 0.
 double stepForMode(const Method& method, double stiffness, double damping, double duration) {
   const double rate = std::max(std::sqrt(stiffness), damping);
   if (!(rate > 0.0) || !std::isfinite(rate)) return rate > 0.0 ? 0.0 : kUnlimited;
@@ -74,7 +74,7 @@ TrialBench benchFor(const Chain& chain, const State& start, const Scenario& scen
   return {chain, start, durationOf(scenario), frameSteps(scenario).timeOfFrame(1), most_work};
 }
 
-/// To three digits and never up, as the next step size up may fail.
+/// Formats a step size with three digits, rounded down because a larger step size may fail.
 std::string digits(double step) {
   const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
   return fmt::format("{:.3g}", std::floor(step / unit * (1.0 + 1e-9)) * unit);
@@ -120,8 +120,8 @@ struct Candidate {
   double work = kUnlimited;
 };
 
-/// The error must be this part of what is wished: a smaller step or tolerance may happen to give a
-/// larger error.
+/// Largest error of a trial that passes, relative to the wanted error. The margin is needed because
+/// a smaller step size or tolerance can happen to give a larger error.
 constexpr double kShareOfWanted = 0.5;
 
 bool reaches(const Trial& trial, double wanted) {
@@ -140,7 +140,7 @@ Candidate cheapestTolerance(const TrialBench& bench, const Method& method, doubl
   return {};
 }
 
-/// \param most_work of interest
+/// \param most_work work of the best candidate so far; a more costly one is not searched for
 Candidate cheapestStep(const TrialBench& bench, const Method& method, double first, double wanted,
                        double most_work) {
   const double least = std::max(bench.leastStep(method), bench.workOf(method, 1.0) / most_work);
