@@ -34,7 +34,7 @@ State horizontal() {
 TEST(Misuse, NegativeSizes) {
   EXPECT_THROW(AlignedNumbers(-1), InputError);
   EXPECT_THROW(State(-1), InputError);
-  EXPECT_THROW(State(std::numeric_limits<std::ptrdiff_t>::min()), InputError);
+  EXPECT_THROW(State{std::numeric_limits<std::ptrdiff_t>::min()}, InputError);
 }
 
 TEST(Misuse, ChainsThatCannotBe) {

@@ -65,8 +65,9 @@ class Conveyor {
 
   /// Whether a stage later than j + 1 needs slope j.
   static constexpr bool keepsSlope(std::ptrdiff_t j) {
-    for (std::ptrdiff_t i = j + 2; i < kStages; ++i) {
-      if (kTableau.a[i][j] != 0.0) return true;
+    const auto slope = static_cast<std::size_t>(j);
+    for (std::size_t i = slope + 2; i < kTableau.stages; ++i) {
+      if (kTableau.a[i][slope] != 0.0) return true;
     }
     return false;
   }
