@@ -123,7 +123,10 @@ std::set<std::string> testNames() {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(PROJECT_DIR "/test")) {
     const std::filesystem::path path = entry.path().lexically_relative(PROJECT_DIR "/test");
-    if (path.extension() == ".test") names.insert("ros." + path.stem().string());
+    const std::string stem = path.stem().string();
+    const std::size_t end = stem.rfind("_test");
+    if (path.extension() == ".py" && end != std::string::npos)
+      names.insert("ros." + stem.substr(0, end));
     if (path.extension() != ".cpp") continue;
     names.insert(replaced(path.parent_path() / path.stem(), '/', "_"));
     forEachMatch(

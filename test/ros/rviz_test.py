@@ -210,5 +210,5 @@ class Rviz(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('rviz_pictures')
-    rostest.rosrun('spring_pendulum', 'rviz_pictures', Rviz)
+    rospy.init_node('rviz')
+    rostest.rosrun('spring_pendulum', 'rviz', Rviz)

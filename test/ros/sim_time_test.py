@@ -45,5 +45,6 @@ class SimTime(unittest.TestCase):
 
 
 if __name__ == '__main__':
+    rospy.set_param('/use_sim_time', True)
     rospy.init_node('sim_time_test')
     rostest.rosrun('spring_pendulum', 'sim_time', SimTime)
