@@ -28,7 +28,7 @@ Outcome run(const std::string& method, Eigen::Index particles, double mass, doub
   const Chain chain(Eigen::VectorXd::Constant(particles, mass), SpringLaw{}, 9.81);
   State state = horizontal(particles);
   const auto integrator = makeIntegrator(method, chain, {1e-6, true});
-  Judge judge(chain, state, true);
+  Judge judge(chain, state, JudgeOptions{true});
   for (int frame = 0; frame < 500; ++frame) {
     if (frame > 0) integrator->advance(state, time_step, 10);
     const double time = time_step * 10.0 * frame;
@@ -79,7 +79,7 @@ TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
     for (const Eigen::Index column : {0, 1, 2, 3}) {
       State state = start;
       state.values()(3, column) = bad;
-      Judge judge(chain, start, false);
+      Judge judge(chain, start, JudgeOptions{false});
       EXPECT_EQ(judge.judge(0.5, state, 0.0).kind, VerdictKind::kDiverged);
       EXPECT_EQ(judge.latest().particle, 4);
       EXPECT_EQ(judge.latest().text,
@@ -91,7 +91,7 @@ TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
 TEST(Verdict, FindsANumberThatIsNotFiniteWithoutSpringsAndGravity) {
   const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{0.0, 0.0, 0.0}, 0.0);
   State state = horizontal(3);
-  Judge judge(chain, state, false);
+  Judge judge(chain, state, JudgeOptions{false});
   EXPECT_EQ(judge.judge(0.0, state, 0.0).kind, VerdictKind::kOk);
   state.y()[2] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(judge.judge(0.1, state, 0.0).kind, VerdictKind::kDiverged);
@@ -101,7 +101,7 @@ TEST(Verdict, FindsANumberThatIsNotFiniteWithoutSpringsAndGravity) {
 TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
   const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
   const State start = horizontal(3);
-  Judge judge(chain, start, false);
+  Judge judge(chain, start, JudgeOptions{false});
   judge.judge(0.0, start, 0.0);
   State raised = start;
   raised.y()[2] = 0.2;  // 2 J up
@@ -114,7 +114,7 @@ TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
 
 TEST(Verdict, IsOkForTheFixedParticleAlone) {
   const Chain chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
-  Judge judge(chain, State(1), false);
+  Judge judge(chain, State(1), JudgeOptions{false});
   EXPECT_EQ(judge.judge(1.0, State(1), 0.0).kind, VerdictKind::kOk);
 }
 

@@ -75,8 +75,6 @@ class Judge {
 
   /// \throws InputError as EnergyBalance
   Judge(const Chain& chain, const State& start, const JudgeOptions& options);
-  Judge(const Chain& chain, const State& start, bool tracks_dissipation)
-      : Judge(chain, start, JudgeOptions{tracks_dissipation, 0.0, 0.0}) {}
 
   /// Judges the state at `time` s by its energy only. Does not allocate unless the verdict is bad.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked

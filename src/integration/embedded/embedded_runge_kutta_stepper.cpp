@@ -1,5 +1,7 @@
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 
+#include "integration/kernels/stage_sum.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,22 +16,6 @@ constexpr double kNoError = 1e-150;
 constexpr double kVelocityTime = 0.1;
 
 }  // namespace
-
-class EmbeddedRungeKuttaStepper::Sum {
- public:
-  Sum(double h, const EmbeddedPair::Weights& weights, const std::vector<StateBuffer>& slopes) {
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-      if (weights[i] != 0.0) terms_[count_++] = {h * weights[i], slopes[i].data()};
-    }
-  }
-  operator SlopeSum() const {  // NOLINT(google-explicit-constructor)
-    return {terms_.data(), static_cast<std::ptrdiff_t>(count_)};
-  }
-
- private:
-  std::array<WeightedSlope, EmbeddedPair::kMaxSlopes> terms_{};
-  std::size_t count_ = 0;
-};
 
 EmbeddedRungeKuttaStepper::EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair& pair,
                                                      double tolerance, const ChainKernels& kernels)
@@ -54,10 +40,10 @@ void EmbeddedRungeKuttaStepper::prepare(bool restarted) {
 double EmbeddedRungeKuttaStepper::attempt(double h) {
   const ButcherTableau& tableau = pair_.tableau;
   for (std::size_t i = 1; i < tableau.stages; ++i) {
-    kernels().stageSlope(kernelChain(), begin().data(), Sum(h, tableau.a[i], slopes_),
+    kernels().stageSlope(kernelChain(), begin().data(), StageSum(h, tableau.a[i], slopes_),
                          slopes_[i].data());
   }
-  setEnd(carry(), Sum(h, tableau.b, slopes_));
+  setEnd(carry(), StageSum(h, tableau.b, slopes_));
   kernels().stageSlope(kernelChain(), end().data(), {}, slopes_[tableau.stages].data());
   counters().force_evaluations += static_cast<std::int64_t>(tableau.stages);
   const double error = errorOf(pair_.error, h);
@@ -68,7 +54,7 @@ double EmbeddedRungeKuttaStepper::attempt(double h) {
 
 double EmbeddedRungeKuttaStepper::errorOf(const EmbeddedPair::Weights& weights, double h) const {
   const LargestChange change =
-      kernels().largestChange(begin().size(), begin().pitch(), Sum(h, weights, slopes_));
+      kernels().largestChange(begin().size(), begin().pitch(), StageSum(h, weights, slopes_));
   // std::max may drop a NaN; the second term keeps it.
   return std::max(change.position, kVelocityTime * change.velocity) +
          0.0 * (change.position + change.velocity);
@@ -77,7 +63,7 @@ double EmbeddedRungeKuttaStepper::errorOf(const EmbeddedPair::Weights& weights, 
 void EmbeddedRungeKuttaStepper::makeExtraSlopes() const {
   if (extra_slopes_known_) return;
   for (std::size_t i = pair_.tableau.stages + 1; i < pair_.dense_slopes; ++i) {
-    const Sum sum(statistics().last_step, pair_.tableau.a[i], slopes_);
+    const StageSum sum(statistics().last_step, pair_.tableau.a[i], slopes_);
     kernels().stageSlope(kernelChain(), begin().data(), sum, slopes_[i].data());
     ++extra_evaluations_;
   }
@@ -90,7 +76,7 @@ void EmbeddedRungeKuttaStepper::interpolate(double fraction, State& state) const
     return;
   }
   makeExtraSlopes();
-  const Sum sum(statistics().last_step, pair_.denseWeights(fraction), slopes_);
+  const StageSum sum(statistics().last_step, pair_.denseWeights(fraction), slopes_);
   kernels().combine(begin().pitch(), begin().data(), sum, inside_.data());
   state.values() = inside_.values();
 }

@@ -8,7 +8,6 @@
 #include "integration/embedded/embedded_pair.hpp"
 #include "integration/error_control/error_estimating_stepper.hpp"
 
-#include <array>
 #include <vector>
 
 namespace spring_pendulum {
@@ -23,9 +22,6 @@ class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
   StepStatistics statistics() const override;
 
  private:
-  /// The sum h * weight * slope; terms with weight 0 are left out.
-  class Sum;
-
   void prepare(bool restarted) override;
   double attempt(double h) override;
   double errorOf(const EmbeddedPair::Weights& weights, double h) const;

@@ -1,5 +1,6 @@
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 
+#include "integration/kernels/stage_sum.hpp"
 #include "model/checks.hpp"
 
 namespace spring_pendulum {
@@ -13,8 +14,7 @@ PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& table
       kernels_(kernels),
       dissipated_(chain.size()),
       state_(chain.size()),
-      stage_(chain.size()),
-      terms_(tableau.stages) {
+      stage_(chain.size()) {
   for (std::size_t i = 0; i < tableau.stages; ++i) slopes_.emplace_back(chain.size());
 }
 
@@ -26,21 +26,11 @@ void PlainRungeKutta::advance(State& state, double time_step, std::int64_t steps
   state.values().bottomRows(state.size() - 1) = state_.values().bottomRows(state.size() - 1);
 }
 
-SlopeSum PlainRungeKutta::sum(double time_step,
-                              const std::array<double, ButcherTableau::kMaxStages>& weights,
-                              std::size_t stages) {
-  std::ptrdiff_t count = 0;
-  for (std::size_t j = 0; j < stages; ++j) {
-    if (weights[j] == 0.0) continue;
-    terms_[static_cast<std::size_t>(count++)] = {time_step * weights[j], slopes_[j].data()};
-  }
-  return {terms_.data(), count};
-}
-
 void PlainRungeKutta::step(double time_step) {
   const Eigen::Index pitch = state_.pitch();
   for (std::size_t i = 0; i < tableau_.stages; ++i) {
-    kernels_.combine(pitch, state_.data(), sum(time_step, tableau_.a[i], i), stage_.data());
+    kernels_.combine(pitch, state_.data(), StageSum(time_step, tableau_.a[i], slopes_),
+                     stage_.data());
     kernels_.stageSlope(constants_.chain(), stage_.data(), {}, slopes_[i].data());
     ++force_evaluations_;
     if (track_dissipation_ && damping_ != 0.0 && tableau_.b[i] != 0.0) {
@@ -48,8 +38,7 @@ void PlainRungeKutta::step(double time_step) {
       kernels_.addDissipation(constants_.chain(), stage_.data(), weight, dissipated_.data());
     }
   }
-  kernels_.combine(pitch, state_.data(), sum(time_step, tableau_.b, tableau_.stages),
-                   state_.data());
+  kernels_.combine(pitch, state_.data(), StageSum(time_step, tableau_.b, slopes_), state_.data());
 }
 
 }  // namespace spring_pendulum

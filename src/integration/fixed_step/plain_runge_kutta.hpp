@@ -28,9 +28,6 @@ class PlainRungeKutta : public Integrator {
 
  private:
   void step(double time_step);
-  /// sum_j h w_j k_j over the first `stages` slopes; terms with weight 0 are left out.
-  SlopeSum sum(double time_step, const std::array<double, ButcherTableau::kMaxStages>& weights,
-               std::size_t stages);
 
   ButcherTableau tableau_;
   bool track_dissipation_;
@@ -41,7 +38,6 @@ class PlainRungeKutta : public Integrator {
   StateBuffer state_;
   StateBuffer stage_;                ///< z_n + h sum a_ij k_j
   std::vector<StateBuffer> slopes_;  ///< k_i, one per stage
-  std::vector<WeightedSlope> terms_;
   std::int64_t force_evaluations_ = 0;
 };
 

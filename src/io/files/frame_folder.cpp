@@ -21,10 +21,6 @@
 namespace spring_pendulum {
 namespace {
 
-std::string hiddenName(std::int64_t index) {
-  return fmt::format(".frame_{:04}.tmp", index);
-}
-
 /// Name of a trial file. No frame has it, because frame 0 is written with four digits.
 constexpr const char* kTrial = ".frame_00000.tmp";
 
@@ -183,7 +179,7 @@ bool FrameFolder::openHidden(std::int64_t index) {
     if (file_.reuse(fresh_)) return true;
     ::unlinkat(descriptor_.get(), file_.name().c_str(), 0);
   }
-  file_ = UnfinishedFile(descriptor_.get(), hiddenName(index));
+  file_ = UnfinishedFile(descriptor_.get(), hiddenFrom(frameName(index)));
   return file_.create();
 }
 
