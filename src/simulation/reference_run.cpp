@@ -23,6 +23,9 @@ constexpr double kToleranceShare = 1e-3;
 /// of the reference.
 constexpr double kOtherTolerance = 100.0;
 constexpr double kChange = 1000.0;
+/// Uncertainty, in distances of the second trajectory from the reference. Their errors may have the
+/// same direction: the reference was up to 2.5 distances off on light particles.
+constexpr double kSafety = 3.0;
 /// Smallest distance that can be resolved, relative to the largest coordinate.
 constexpr double kRounding = 1e-14;
 
@@ -170,7 +173,7 @@ void ReferenceRun::advance(double time_step, std::int64_t steps, double run_work
 
 void ReferenceRun::compare() {
   const State& reference = trajectories_.front().state;
-  uncertainty_ = largestDistance(reference, trajectories_[1].state) + rounding_;
+  uncertainty_ = kSafety * largestDistance(reference, trajectories_[1].state) + rounding_;
   if (measures_growth_) measureGrowth();
   if (uncertainty_ <= believed_) {
     state_ = reference;

@@ -122,6 +122,18 @@ TEST_P(ReferenceRunOn, TellsTheErrorOfEveryMethodWithinAFactorOfTwo) {
   EXPECT_GE(compared, 2);
 }
 
+// A light particle creeps into the first one, at a distance of exp(-50 t) after t seconds. The
+// errors of both trajectories have the same direction, and the error is 2.5 times their distance.
+TEST(ReferenceRun, StaysWithinItsUncertaintyWhereBothTrajectoriesErrAlike) {
+  const Eigen::Vector2d masses{1.0, 1.17e-6};
+  State start(2);
+  start.x()[1] = -0.483;
+  start.y()[1] = 0.252;
+  ReferenceRun reference(Chain(masses, {50.0, 1.0, 0.0}, 0.0), start, {1e-8, true});
+  reference.advance(0.1, 10, 0);
+  EXPECT_LE(largestDistance(reference.state(), State(2)), reference.uncertainty());
+}
+
 TEST(ReferenceRun, MeasuresTheLargestDistanceOfAParticle) {
   const test::Scene scene = test::horizontalChain("3 particles", 3, 1.0);
   ReferenceRun reference(scene.chain, scene.start);

@@ -1,9 +1,9 @@
 // A reference run: the same motion, integrated alongside a run with a much smaller error.
 //
 // Two error-controlled trajectories advance together with the measured run. The first is the
-// reference. The tolerance of the second is a hundred times as large, so the distance between the
-// two is a bound on the error of the reference, also where small perturbations grow. When they have
-// separated, the motion is too sensitive to be known, and the measurement ends.
+// reference. The tolerance of the second is a hundred times as large. Three times the distance
+// between the two is taken as a bound on the error of the reference, also where small perturbations
+// grow. When they have separated, the motion is too sensitive to be known, and the measurement ends.
 //
 // For an error-controlled run, two more trajectories start with slightly moved particles. Their
 // distances from the reference measure the growth of perturbations, and thus which tolerance can be
