@@ -43,16 +43,14 @@ class Disturbed : public testing::Test {
     return exercise3(folder_, options);
   }
 
-  void waitForFrame() const {
-    while (access(folder_.path("out/frame_0005.txt").c_str(), F_OK) != 0) usleep(200);
-  }
+  static constexpr const char* kFrame = "out/frame_0005.txt";
 
   TemporaryFolder folder_;
 };
 
 TEST_F(Disturbed, OutputFolderRemoved) {
   Process process(command());
-  waitForFrame();
+  process.waitForFile(folder_.path(kFrame));
   std::error_code error;
   do {
     std::filesystem::remove_all(folder_.path("out"), error);
@@ -67,7 +65,7 @@ TEST_F(Disturbed, OutputFolderMadeReadOnly) {
   Command disturbed = command();
   disturbed.prepare = respectPermissions;
   Process process(disturbed);
-  waitForFrame();
+  process.waitForFile(folder_.path(kFrame));
   chmod(folder_.path("out").c_str(), 0555);
   const Result result = process.wait();
   chmod(folder_.path("out").c_str(), 0755);
@@ -78,7 +76,7 @@ TEST_F(Disturbed, OutputFolderMadeReadOnly) {
 
 TEST_F(Disturbed, KilledWithAEnergyBalanceLeavesNoPartOfIt) {
   Process process(command({"--energy", "energy.csv"}));
-  waitForFrame();
+  process.waitForFile(folder_.path(kFrame));
   process.sendSignal(SIGKILL);
   EXPECT_EQ(process.wait().status, 128 + SIGKILL);
   EXPECT_FALSE(std::filesystem::exists(folder_.path("energy.csv")));
@@ -86,7 +84,7 @@ TEST_F(Disturbed, KilledWithAEnergyBalanceLeavesNoPartOfIt) {
 
 TEST_F(Disturbed, ASecondRunWithTheSameEnergyBalanceIsRefused) {
   Process first(command({"--energy", "energy.csv"}));
-  waitForFrame();
+  first.waitForFile(folder_.path(kFrame));
   const Result second = run(exercise3(folder_, {"Euler", "--no-frames", "--energy", "energy.csv"}));
   EXPECT_EQ(second.status, 1);
   EXPECT_EQ(second.errors, folder_.path("energy.csv") +
@@ -98,7 +96,7 @@ TEST_F(Disturbed, ParticleFileReplacedDuringTheRunDoesNotMatter) {
   std::vector<std::string> first = options;
   first.emplace_back("out");
   Process process(exercise3(folder_, first));
-  waitForFrame();
+  process.waitForFile(folder_.path(kFrame));
   folder_.write("particle.txt", "no particles");
   EXPECT_EQ(process.wait().status, 0);
   folder_.write("particle.txt", chainOf(1000));

@@ -1,4 +1,6 @@
 // Output files at unusual paths: only outputs are written, and nothing is lost.
+#include "io/files/frame_folder.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -202,15 +204,11 @@ class Exercise3Endless : public Exercise3Files {
     all.insert(all.end(), options.begin(), options.end());
     return command(all);
   }
-
-  void waitFor(const std::string& name) const {
-    while (access(folder_.path(name).c_str(), F_OK) != 0) usleep(200);
-  }
 };
 
 TEST_F(Exercise3Endless, AFolderMovedAwayAndReplacedIsAnError) {
   Process process(endless());
-  waitFor("out/frame_0005.txt");
+  process.waitForFile(folder_.path("out/frame_0005.txt"));
   std::filesystem::rename(folder_.path("out"), folder_.path("moved"));
   std::filesystem::create_directory(folder_.path("out"));
   process.sendSignal(SIGTERM);
@@ -225,7 +223,7 @@ TEST_F(Exercise3Endless, AFolderMovedAwayAndReplacedIsAnError) {
 TEST_F(Exercise3Endless, TheFolderOfAnEnergyFileMovedAwayIsAnError) {
   std::filesystem::create_directory(folder_.path("far"));
   Process process(endless({"--energy", "far/e.csv"}));
-  waitFor("out/frame_0005.txt");
+  process.waitForFile(folder_.path("out/frame_0005.txt"));
   std::filesystem::rename(folder_.path("far"), folder_.path("moved"));
   process.sendSignal(SIGTERM);
   const Result result = process.wait();
@@ -238,7 +236,7 @@ TEST_F(Exercise3Endless, TheFolderOfAnEnergyFileMovedAwayIsAnError) {
 
 TEST_F(Exercise3Endless, AnUnfinishedFileReplacedByAnotherProgramIsAnError) {
   Process process(endless());
-  waitFor("out/frame_0005.txt");
+  process.waitForFile(folder_.path("out/frame_0005.txt"));
   std::filesystem::remove(folder_.path("e.csv.unfinished"));
   folder_.write("e.csv.unfinished", "of somebody");
   process.sendSignal(SIGTERM);
@@ -258,7 +256,7 @@ TEST_F(Exercise3Endless, ASignalEndsItInsideAFrame) {
     for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
       std::filesystem::remove_all(folder_.path("out"));
       Process process(disturbed);
-      waitFor("out/frame_0000.txt");
+      process.waitForFile(folder_.path("out/frame_0000.txt"));
       process.sendSignal(signal_number);
       const Result result = process.wait();
       EXPECT_EQ(result.status, 128 + signal_number);
@@ -275,11 +273,10 @@ TEST_F(Exercise3Endless, SignalsIgnoredAtTheStartStayIgnored) {
     disturbed.prepare = [signal_number] { signal(signal_number, SIG_IGN); };
     std::filesystem::remove_all(folder_.path("out"));
     Process process(disturbed);
-    waitFor("out/frame_0005.txt");
+    process.waitForFile(folder_.path("out/frame_0005.txt"));
     process.sendSignal(signal_number);
     const int later = static_cast<int>(listFolder(folder_.path("out")).size()) + 20;
-    waitFor("out/frame_" + std::string(later < 1000 ? (later < 100 ? "00" : "0") : "") +
-            std::to_string(later) + ".txt");
+    process.waitForFile(folder_.path("out/" + frameName(later)));
     process.sendSignal(SIGTERM);
     EXPECT_EQ(process.wait().status, 128 + SIGTERM);
   }
@@ -296,7 +293,7 @@ TEST_F(Exercise3Endless, AVanishedTerminalDoesNotEndIt) {
     if (errors < 0 || dup2(errors, STDERR_FILENO) < 0 || close(errors) != 0) _exit(1);
   };
   Process process(disturbed);
-  waitFor("out/frame_0005.txt");
+  process.waitForFile(folder_.path("out/frame_0005.txt"));
   close(terminal);
   sleep(2);
   process.sendSignal(SIGTERM);

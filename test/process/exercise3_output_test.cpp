@@ -51,10 +51,6 @@ class LongRun : public testing::Test {
                                "--time-step", "0.001"});
   }
 
-  void waitForFrame(const std::string& output, int index) const {
-    while (access(folder_.path(output + "/" + frame(index)).c_str(), F_OK) != 0) usleep(200);
-  }
-
   /// The existing frames are those of a run that was not stopped.
   void expectWholeFrames(const std::string& output, const std::string& complete) const {
     const int count = std::min(countFrames(folder_.path(output)), kFrames);
@@ -73,7 +69,7 @@ TEST_F(LongRun, KilledAtAnyTimeLeavesOnlyWholeFrames) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     const std::string killed = "killed" + std::to_string(attempt);
     Process process(command(killed, kEndless));
-    waitForFrame(killed, 5 * attempt);
+    process.waitForFile(folder_.path(killed + "/" + frame(5 * attempt)));
     usleep(100 * attempt);  // in another phase of writing each time
     process.sendSignal(SIGKILL);
     ASSERT_EQ(process.wait().status, 128 + SIGKILL);
@@ -83,7 +79,7 @@ TEST_F(LongRun, KilledAtAnyTimeLeavesOnlyWholeFrames) {
 
 TEST_F(LongRun, WhatAKilledRunLeftIsRemovedByTheNext) {
   Process process(command("killed", kEndless));
-  waitForFrame("killed", 10);
+  process.waitForFile(folder_.path("killed/" + frame(10)));
   process.sendSignal(SIGKILL);
   process.wait();
   folder_.write("killed/.frame_0011.tmp", "0 0\n0.99");  // whether it was caught writing or not
@@ -97,7 +93,7 @@ TEST_F(LongRun, InterruptedEndsWithAWholeFrameAndTheClosingLine) {
   for (const int signal_number : {SIGINT, SIGTERM}) {
     const std::string stopped = "stopped" + std::to_string(signal_number);
     Process process(command(stopped, kEndless));
-    waitForFrame(stopped, 3);
+    process.waitForFile(folder_.path(stopped + "/" + frame(3)));
     process.sendSignal(signal_number);
     const Result result = process.wait();
     EXPECT_EQ(result.status, 128 + signal_number);
@@ -112,7 +108,7 @@ TEST_F(LongRun, InterruptedEndsWithAWholeFrameAndTheClosingLine) {
 
 TEST_F(LongRun, ASecondRunIntoTheSameFolderIsRefused) {
   Process first(command("shared"));
-  waitForFrame("shared", 0);
+  first.waitForFile(folder_.path("shared/" + frame(0)));
   first.sendSignal(SIGSTOP);  // it still exists when the second one starts
   const Result second = run(command("shared", 1));
   EXPECT_EQ(second.status, 1);

@@ -66,6 +66,16 @@ void Process::sendSignal(int signal_number) const {
   kill(pid_, signal_number);
 }
 
+void Process::waitForFile(const std::string& path) const {
+  const auto exists = [&path] { return access(path.c_str(), F_OK) == 0; };
+  while (!exists()) {
+    siginfo_t ended{};
+    waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (ended.si_pid == pid_ && !exists()) throw std::runtime_error(path + " was not written");
+    usleep(200);
+  }
+}
+
 Result Process::wait() {
   int status = 0;
   rusage usage{};

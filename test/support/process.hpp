@@ -34,6 +34,9 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void sendSignal(int signal_number) const;
+  /// Waits until the program has written a file.
+  /// \throws std::runtime_error if the program ends without it
+  void waitForFile(const std::string& path) const;
   Result wait();
 
  private:
