@@ -61,7 +61,7 @@ case $what in
   end-to-end) wanted=end_to_end ;;
   # The last one, as it exits with an error if a tolerance is not met.
   all | smoke) wanted="throughput end_to_end skips accuracy stability tolerance" ;;
-  *) die "benchmark.sh: unknown benchmark '$what': known are throughput, end-to-end, skips," \
+  *) die "benchmark.sh: unknown benchmark '$what'; known benchmarks: throughput, end-to-end, skips," \
          "accuracy, tolerance, stability, all, smoke" ;;
 esac
 

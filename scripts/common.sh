@@ -16,7 +16,8 @@ die() { printf '%s\n' "$*" >&2; exit 1; }
 
 # configure FOLDER [CMake options]; prints nothing unless it fails
 configure() {
-  mkdir -p "$1"
+  { mkdir -p "$1" && [ -w "$1" ]; } ||
+    die "cannot write to $1: set SPRING_PENDULUM_BUILD to a build folder of your own"
   local folder devel
   folder=$(cd "$1" && pwd); shift
   devel=$(devel_of "$folder")

@@ -30,7 +30,7 @@ while [ $# -gt 0 ]; do
   [ "$1" = --config ] && config=$(realpath "$2") || printf -v "${1#--}" %s "$2"
   shift 2
 done
-[ -f "$bag" ] || die "there is no bag '$bag'"
+[ -f "$bag" ] || die "the bag '$bag' does not exist"
 case $out in *.gif | *.mp4 | *.png) ;; *) die "OUT must end in .gif, .mp4 or .png" ;; esac
 [[ $size =~ ^[0-9]+x[0-9]+$ ]] || die "--size is '$size': must be WIDTHxHEIGHT, for example 800x600"
 for option in start duration fps slow; do
@@ -50,8 +50,8 @@ project=$(cd "$here/.." && pwd)
 topics=$(/usr/bin/python3 -c 'import rosbag, sys
 for name, info in rosbag.Bag(sys.argv[1]).get_type_and_topic_info()[1].items():
     if info.msg_type == "visualization_msgs/MarkerArray": print(name)' "$bag" 2> /dev/null) ||
-  die "$bag is not a complete bag: see rosbag info, rosbag reindex"
-[ -n "$topics" ] || die "$bag holds no markers (visualization_msgs/MarkerArray)"
+  die "$bag is not a complete bag; rosbag reindex may repair it"
+[ -n "$topics" ] || die "$bag contains no markers (visualization_msgs/MarkerArray)"
 
 work=$(mktemp -d)
 started=()
@@ -93,16 +93,18 @@ export DISPLAY=:$(cat "$work/display")
 start rosmaster --core -p "$port"
 until_true 20 rosmaster "the ROS master did not start" rosparam set /use_sim_time true
 rviz_listens() { for topic in $topics; do rostopic info "$topic" | grep -q '\* /rviz '; done; }
-rviz_listens_or_ended() { rviz_listens || ! kill -0 "${started[-1]}"; }
+# The display is black until rviz draws.
+rviz_draws() { [ "$(import -silent -window root ppm:- | identify -format '%[max]' -)" != 0 ]; }
+rviz_is_ready_or_ended() { { rviz_listens && rviz_draws; } || ! kill -0 "${started[-1]}"; }
 # The software renderer of Mesa can crash at the start of rviz: try once more.
 for try in first second; do
   start roslaunch "$project/launch/view.launch" config:="$work/film.rviz" bag:="$bag" \
     rviz_args:="$rviz_args"
-  until_true 60 roslaunch "rviz did not listen to $(echo $topics) within 60 s" rviz_listens_or_ended
+  until_true 60 roslaunch "rviz did not show $(echo $topics) within 60 s" rviz_is_ready_or_ended
   sleep 2
   kill -0 "${started[-1]}" 2> /dev/null && break
   [ $try = first ] || give_up roslaunch "rviz ended right after its start, twice"
-  say "rviz crashed as it started: once more"
+  say "rviz crashed at its start; trying again"
 done
 
 calculate() { awk "BEGIN { printf \"%.4f\", ($1) }"; }
@@ -114,7 +116,8 @@ if [[ $out = *.png ]]; then
   start rosbag play --clock --quiet --delay 1 -s "$from" -u "$(calculate "$start - $from + 0.02")" "$bag"
   tail --pid="${started[-1]}" -f /dev/null
   sleep 1
-  import -silent -window root "$out"
+  take_picture() { import -silent -window root "$out" && [ "$(identify -format %k "$out")" -gt 20 ]; }
+  until_true 60 roslaunch "rviz drew no markers" take_picture  # the background has few colours
   say "$out"
   exit
 fi

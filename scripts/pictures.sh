@@ -47,7 +47,7 @@ rviz() {
 }
 
 if [ $# -gt 0 ]; then
-  [ "$*" = rviz ] || die "pictures.sh: unknown picture '$*'; known is rviz"
+  [ "$*" = rviz ] || die "pictures.sh: unknown picture '$*'; the only one is rviz"
   rviz
   exit
 fi

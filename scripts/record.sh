@@ -10,11 +10,11 @@ topics=()
 for argument in "$@"; do [[ $argument = __* ]] || topics+=("$argument"); done
 
 fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$(realpath -m "$bag")" "$1" >&2; exit 1; }
-mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be made"
+mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be created"
 [ -w "$(dirname "$bag")" ] || fail "no permission to write in the folder"
 # An earlier bag stays until rosbag renames the new one over it.
 earlier=$(stat -c %i "$bag" 2> /dev/null || true)
-[ ! -e "$bag" ] || { [ -f "$bag" ] && [ -w "$bag" ]; } || fail "there is one that cannot be replaced"
+[ ! -e "$bag" ] || { [ -f "$bag" ] && [ -w "$bag" ]; } || fail "the existing bag cannot be replaced"
 
 # In a separate process group, so that the recorder gets only the SIGINT of this script.
 setsid env --default-signal=INT rosrun rosbag record -O "$bag" "${topics[@]}" & recorder=$!

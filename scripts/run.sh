@@ -35,7 +35,7 @@ while [ $# -gt 0 ]; do
 done
 
 "$project/scripts/setup.sh" core ros
-say "building into $build"
+say "building into $build (a few minutes the first time)"
 configure "$build"
 compile "$build" Exercise3 $(have_ros && echo pendulum_node record_bag spring_pendulum_generate_messages)
 
@@ -45,7 +45,7 @@ if $answers; then exec "${simulate[@]}"; fi
 say "frames: $output/frame_0000.txt and so on"
 
 (cd "$output" && gnuplot -e "load '$project/data/animate_pendulum.plt'" 2> /dev/null)
-say "moving picture: $output/pendulum.gif"
+say "animation: $output/pendulum.gif"
 have_ros || { say "this machine has no ROS 1: no bag, no rviz"; exit 0; }
 
 "$(program record_bag)" "$method" --particles "$particles" --bag "$output/pendulum.bag" "${options[@]}"

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Runs rviz with a configuration that fits the node or bag to be shown.
 
 Usage: view.py CONFIG BAG [arguments of rviz]
@@ -65,7 +65,7 @@ def adapted(path, bag_path):
     with rosbag.Bag(bag_path) as bag:
         topics = marker_topics(bag)
         if not topics:
-            sys.exit('%s: holds no markers (visualization_msgs/MarkerArray)' % bag_path)
+            sys.exit('%s: contains no markers (visualization_msgs/MarkerArray)' % bag_path)
         set_displays(config, topics)
         if not has_camera(bag):
             set_view(config, bag, topics)
@@ -87,7 +87,10 @@ def main():
             config = adapted(config, bag)
     except (OSError, rosbag.ROSBagException, yaml.YAMLError) as error:
         sys.exit('%s: %s' % (bag, error))
-    os.execvp('rviz', ['rviz', '-d', config] + [o for o in others if o != '--'])
+    try:
+        os.execvp('rviz', ['rviz', '-d', config] + [o for o in others if o != '--'])
+    except FileNotFoundError:
+        sys.exit('rviz is not installed: run scripts/setup.sh rviz, or use rviz:=false')
 
 
 if __name__ == '__main__':

@@ -157,6 +157,33 @@ class Launch(unittest.TestCase):
         self.assertEqual(done.stderr, 'rviz needs a display, and DISPLAY is not set; without one, use '
                                       'rviz:=false\n')
 
+    def test_replay_without_loop_plays_the_bag_and_ends(self):
+        with Folder() as folder:
+            subprocess.run([program('record_bag'), 'Euler', '--particles', SCENE, '--frames', '5', '--bag',
+                            folder + '/one.bag'], check=True, stdout=subprocess.DEVNULL)
+            output = launch('replay.launch', 'bag:=one.bag', 'rviz:=false', 'loop:=false', 'rate:=10',
+                            cwd=folder)
+        self.assertIn('process has finished cleanly', output)
+
+    def test_another_python3_on_the_path_does_no_harm(self):
+        with Folder() as folder:
+            for name, text in (('python3', '#!/bin/sh\nexit 9\n'), ('rviz', '#!/bin/sh\necho "$@"\n')):
+                with open(folder + '/' + name, 'w') as file:
+                    file.write(text)
+                os.chmod(folder + '/' + name, 0o755)
+            done = subprocess.run([project('scripts/view.py'), 'a.rviz', 'none'], capture_output=True,
+                                  text=True, env=dict(os.environ, QT_QPA_PLATFORM='offscreen',
+                                                      PATH=folder + ':' + os.environ['PATH']))
+        self.assertEqual(done.stdout, '-d a.rviz\n', done.stderr)
+
+    def test_a_missing_rviz_is_one_line(self):
+        with Folder() as folder:
+            done = subprocess.run([project('scripts/view.py'), 'a.rviz', 'none'], capture_output=True,
+                                  text=True, env=dict(os.environ, PATH=folder, QT_QPA_PLATFORM='offscreen'))
+        self.assertEqual(done.stderr, 'rviz is not installed: run scripts/setup.sh rviz, or use '
+                                      'rviz:=false\n')
+        self.assertEqual(done.returncode, 1)
+
     def test_a_bag_without_a_camera_is_seen_from_near(self):
         with Folder() as folder:
             subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--particles',
