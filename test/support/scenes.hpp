@@ -74,7 +74,7 @@ inline Scene pluckedChain() {
   return scene;
 }
 
-/// From stiff to soft, damped to undamped, one particle to fifty.
+/// Returns scenes from stiff to soft, from damped to undamped, with one to fifty particles.
 inline std::vector<Scene> stabilityScenes() {
   std::vector<Scene> scenes{
       {"one spring, hanging", Chain(Eigen::VectorXd::Ones(2), SpringLaw{}, 9.81),

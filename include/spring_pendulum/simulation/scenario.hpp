@@ -11,7 +11,7 @@
 
 namespace SPRING_PENDULUM_API spring_pendulum {
 
-/// What a run does after a divergence. It never continues with numbers that are not finite.
+/// Action after a divergence. A run never continues with numbers that are not finite.
 enum class OnDivergence { kStop, kContinue };
 
 /// Whether a reference run measures the position error: while it is cheap, to the end, or never.

@@ -51,7 +51,7 @@ class OutputFile {
   [[noreturn]] void refuseForErrno() const;
 
   std::string path_;         ///< absolute
-  std::string folder_path_;  ///< as given
+  std::string folder_path_;  ///< path of the folder as given, for `leadsTo`
   std::string name_;
   FileDescriptor folder_;
   UnfinishedFile file_;

@@ -21,7 +21,7 @@ class BackgroundFrameWriter {
   /// Number of particles above which copying a frame takes far less time than formatting it.
   static constexpr Eigen::Index kLargeFrame = 1000;
 
-  /// As FrameWriter.
+  /// Same arguments and errors as FrameWriter.
   BackgroundFrameWriter(const std::string& folder, std::int64_t frames,
                         const std::vector<std::string>& inputs = {});
   /// Waits until the last frame is written.
@@ -29,7 +29,7 @@ class BackgroundFrameWriter {
   BackgroundFrameWriter(const BackgroundFrameWriter&) = delete;
   BackgroundFrameWriter& operator=(const BackgroundFrameWriter&) = delete;
 
-  /// As FrameWriter. All frames must have the same size.
+  /// Writes a frame like FrameWriter::write. All frames must have the same size.
   /// \throws FileError naming the file of this or the previous frame; later frames are not written
   void write(std::int64_t index, const State& state);
 
@@ -39,7 +39,7 @@ class BackgroundFrameWriter {
 
   /// Absolute path of the folder.
   std::string folder() const { return writer_.folder(); }
-  /// As FrameWriter.
+  /// Number of removed frames of an earlier run.
   std::int64_t earlierFrames() const { return writer_.earlierFrames(); }
   /// Wall-clock time that callers spent in `write`, s.
   double secondsWaited() const { return seconds_waited_; }

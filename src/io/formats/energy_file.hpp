@@ -16,7 +16,7 @@ namespace spring_pendulum {
 /// Every number is the shortest text that reads back as the same double.
 class EnergyFile {
  public:
-  /// As OutputFile.
+  /// Same arguments and errors as OutputFile.
   explicit EnergyFile(const std::string& path, const std::vector<std::string>& inputs = {});
 
   /// \param entry          from an energy balance that tracks the dissipation
