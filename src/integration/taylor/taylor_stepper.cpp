@@ -88,6 +88,16 @@ double TaylorStepper::longestAccurateStep() {
   return std::clamp(root(allowed_rate_ * (order + 1) / next, order), kShortestStep, kLongestStep);
 }
 
+// The invalid series can return within the step, so the end alone does not show that ends met.
+bool TaylorStepper::springsChangeMuch(double h) {
+  const auto differ = [this](const StateBuffer& later) {
+    return kernels_.springsChangeMuch(work_.size, work_.pitch, begin_.data(), later.data());
+  };
+  if (differ(end_)) return true;
+  sumAt(0.5 * h, inside_);
+  return differ(inside_);
+}
+
 double TaylorStepper::step() {
   expand();
   double h = longestAccurateStep();
@@ -98,9 +108,7 @@ double TaylorStepper::step() {
   for (;; h = std::max(0.5 * h, kShortestStep)) {
     const bool shortest = h <= kShortestStep;
     sumSeries(h, shortest ? 1 : work_.order);
-    if (shortest ||
-        !kernels_.springsChangeMuch(work_.size, work_.pitch, begin_.data(), end_.data()))
-      break;
+    if (shortest || !springsChangeMuch(h)) break;
   }
   ++statistics_.accepted;
   return h;
