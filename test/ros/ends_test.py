@@ -74,7 +74,9 @@ class Ends(unittest.TestCase):
                 message = late.wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
                 self.assertIn('diverged at t = ', message.text)
                 late.close()
-                # All of this is logged when it happens, not at the end of the node.
+                # All of this is logged when it happens, not at the end of the node. The search for the
+                # largest stable step comes between the status and the log.
+                wait_until(lambda: 'until Ctrl-C' in node.output(), 'the lines about the divergence')
                 for part in ('diverged at t = ', 'particle 11', 'step'):
                     self.assertIn(part, node.lines('ERROR')[0])
                 self.assertIn('verdict: diverged', node.lines('INFO')[-2])
