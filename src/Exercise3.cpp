@@ -1,6 +1,6 @@
 // The exercise: integrates the motion of a chain of particles and writes one file per frame.
-#include "io/files/text_file.hpp"
 #include "io/formats/run_files.hpp"
+#include "io/program/closing.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
@@ -64,36 +64,16 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
   const std::int64_t steps =
       std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
   const std::string report = integrator.report();
-  printOutput(
-      onOneLine(fmt::format(
-          "{}{}: {}, {}{}, {}{}, {:.3f} s integrating, {:.3f} s writing{}, {:.3f} s reference run, "
-          "{}, verdict: {}",
-          scenario.method.get().name, report.empty() ? "" : " (" + report + ")",
-          counted(chain.size(), "particle"), counted(summary.frames, "frame"),
-          slept > 0 ? fmt::format(" ({} at rest, not stepped)", slept) : "",
-          scenario.method.get().hasFixedStep() ? counted(steps, "step") + ", " : "",
-          counted(integrator.forceEvaluations(), "force evaluation"),
-          std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0),
-          files.secondsWriting(), files.destination(), monitor.seconds(), monitor.measurements(),
-          toString(monitor.verdict().kind))) +
-      "\n");
-}
-
-void warn(const std::string& text) {
-  if (!text.empty()) printError("warning: " + text + "\n");
-}
-
-/// Prints the warning or error to standard error. \returns the exit status
-int conclude(const Scenario& scenario, const Chain& chain, const State& start,
-             const RunMonitor& monitor) {
-  const Verdict& verdict = monitor.verdict();
-  if (verdict.kind == VerdictKind::kDiverged) {
-    printError(fmt::format("{}; {}\n", verdict.text, remedyForDivergence(chain, start, scenario)));
-    return kDiverged;
-  }
-  if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) warn(verdict.text);
-  warn(monitor.toleranceRemark());
-  return interruption() == 0 ? kDone : kSignalled + interruption();
+  printClosingLine(fmt::format(
+      "{}{}: {}, {}{}, {}{}, {} integrating, {} writing{}, {} reference run, {}, verdict: {}",
+      scenario.method.get().name, report.empty() ? "" : " (" + report + ")",
+      counted(chain.size(), "particle"), counted(summary.frames, "frame"),
+      slept > 0 ? fmt::format(" ({} at rest, not integrated)", slept) : "",
+      scenario.method.get().hasFixedStep() ? counted(steps, "step") + ", " : "",
+      counted(integrator.forceEvaluations(), "force evaluation"),
+      durationText(std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0)),
+      durationText(files.secondsWriting()), files.destination(), durationText(monitor.seconds()),
+      monitor.measurements(), toString(monitor.verdict().kind)));
 }
 
 int run(const Scenario& scenario, const Switches& switches) {
@@ -114,12 +94,12 @@ int run(const Scenario& scenario, const Switches& switches) {
   }
   catchInterruptions();
   RunFiles files(scenario, switches.config);
-  warn(stabilityWarning(chain, scenario));
+  printWarning(stabilityWarning(chain, scenario));
   State state = particles.state;
   const Summary summary = simulate(scenario, state, integrator, monitor, files);
   files.finish();
   printSummary(scenario, summary, chain, integrator, files, monitor);
-  return conclude(scenario, chain, particles.state, monitor);
+  return conclude(scenario, chain, particles.state, monitor.verdict(), monitor.toleranceRemark());
 }
 
 int runCommandLine(int argc, const char* const* argv) {

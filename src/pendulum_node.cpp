@@ -55,8 +55,7 @@ NodeConfiguration readConfiguration() {
     return readPrivateParameters();
   } catch (const InputError& error) {
     throw InputError(
-        fmt::format("{}; parameters of an earlier run are deleted with: rosparam "
-                    "delete {}",
+        fmt::format("{}. If an earlier run has left this parameter, delete it: rosparam delete {}",
                     error.what(), ros::this_node::getName()));
   }
 }

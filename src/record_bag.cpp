@@ -1,6 +1,6 @@
 // Writes the messages of a run directly to a bag: without a master, as fast as possible, stamped
 // with simulated time, and with the same bytes in every run.
-#include "io/files/text_file.hpp"
+#include "io/program/closing.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
@@ -41,6 +41,7 @@ int record(int argc, const char* const* argv) {
                             "Writes the messages that pendulum_node publishes straight into a bag.",
                             "Runge-Kutta-4 --particles particle.txt --bag pendulum.bag"};
   Scenario scenario;
+  scenario.output.clear();  // frame files only with --output
   NodeOptions display;
   BagOptions bag;
   OptionSet options(bagOptions(bag));
@@ -58,16 +59,16 @@ int record(int argc, const char* const* argv) {
   if (switches.check) return kDone;
   bag.config = switches.config;
   catchInterruptions();
-  const BagSummary summary = recordBag(scenario, display, bag);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string line = fmt::format(
-      "{}: {}, {}, {} bytes in {}, {:.3f} s, {}, verdict: {}", scenario.method.get().name,
+  PendulumRun run(scenario, readParticleFile(scenario.particles),
+                  display.track_energy || !scenario.energy.empty(),
+                  display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0);
+  const BagSummary summary = recordBag(run, display, bag);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  printClosingLine(fmt::format(
+      "{}: {}, {}, {} bytes in {}, {}, {}, verdict: {}", scenario.method.get().name,
       counted(summary.frames, "frame"), counted(summary.messages, "message"), summary.bytes,
-      summary.path, seconds, summary.measurements, summary.verdict.text);
-  printOutput(onOneLine(line) + "\n");
-  if (summary.verdict.kind == VerdictKind::kDiverged) return kDiverged;
-  return interruption() == 0 ? kDone : kSignalled + interruption();
+      summary.path, durationText(time.count()), run.measurements(), toString(run.verdict().kind)));
+  return conclude(scenario, run.chain(), run.start(), run.verdict(), run.toleranceRemark());
 }
 
 }  // namespace

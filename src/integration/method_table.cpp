@@ -7,6 +7,7 @@
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 #include "model/checks.hpp"
+#include "model/spelling.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -96,12 +97,12 @@ std::deque<Method> builtInMethods() {
       {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
        "doi:10.1016/0771-050X(80)90013-3",
-       "the best known pair, for comparisons: Taylor-8 needs less time for the same error",
-       &kDormandPrince5.tableau, makeEmbeddedPair<kDormandPrince5>, false, 430},
+       "the best-known embedded pair, for comparison", &kDormandPrince5.tableau,
+       makeEmbeddedPair<kDormandPrince5>, false, 430},
       {"Dormand-Prince-8", 8, 12, StepControl::kErrorControlled, 6.3936515228, 5.9603598117,
        "E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, 2nd ed., Springer 1993, section II.10",
-       "Hairer's DOP853, for comparisons: Taylor-12 needs less time for the same error",
-       &kDormandPrince8.tableau, makeEmbeddedPair<kDormandPrince8>, false, 710},
+       "Hairer's DOP853, for comparison", &kDormandPrince8.tableau,
+       makeEmbeddedPair<kDormandPrince8>, false, 710},
       {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
@@ -115,23 +116,25 @@ std::deque<Method> builtInMethods() {
       {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
-       "4 to 10 terms per step: for light particles (k_d/m of 1e2/s to 1e4/s) and coarse "
+       "for light particles (k_d/m of 1e2/s to 1e4/s) and coarse "
        "tolerances",
        nullptr, makeTaylor<StabilizedTaylorStepper>, false, 920},
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
-       "8 to 14 terms per step: for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there",
-       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 1500},
+       "for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there", nullptr,
+       makeTaylor<StabilizedTaylorStepper>, false, 1500},
       {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
        "doi:10.1016/S0377-0427(99)00134-X",
-       "implicit in the spring tensions: for very light particles (k_d/m beyond 1e4/s)", nullptr,
-       makeRadau, false, 1190},
+       "implicit, with the spring tensions as unknowns: for very light particles (k_d/m beyond "
+       "1e4/s), down to 1e-9 kg",
+       nullptr, makeRadau, false, 1190},
       {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
-       "chooses among the Taylor methods and Radau-9 as the motion requires", nullptr, makeAuto,
-       false, 2700},
+       "chooses among the Taylor methods and Radau-9 as the motion requires, and reports its "
+       "choice",
+       nullptr, makeAuto, false, 2700},
   };
 }
 
@@ -166,7 +169,7 @@ void checkMethod(const Method& method) {
   };
   if (method.name.empty()) throw InputError("a method needs a name");
   for (const Method& known : methodTable()) {
-    if (known.name == method.name) refuse("the name is taken");
+    if (known.name == method.name) refuse("a method of this name exists");
   }
   if (method.order < 1) refuse("order must be at least 1");
   if (method.stages < 1) refuse("stages must be at least 1");
@@ -177,10 +180,17 @@ void checkMethod(const Method& method) {
   if (method.tableau == nullptr && !method.make) refuse("needs a tableau or a factory");
   if (method.tableau == nullptr) return;
   checkTableau(method);
-  if (!method.make && !method.hasFixedStep()) refuse("a tableau alone has fixed steps");
+  if (!method.make && !method.hasFixedStep())
+    refuse("a tableau without a factory is a fixed-step method");
   if (!method.make && static_cast<std::size_t>(method.stages) != method.tableau->stages) {
-    refuse("stages must be those of the tableau");
+    refuse("stages must equal the stages of the tableau");
   }
+}
+
+std::vector<std::string> methodNames() {
+  std::vector<std::string> names;
+  for (const Method& method : methodTable()) names.push_back(method.name);
+  return names;
 }
 
 }  // namespace
@@ -199,19 +209,14 @@ void registerMethod(const Method& method) {
 }
 
 std::string knownMethodNames() {
-  std::string names;
-  for (const Method& method : methodTable()) {
-    if (!names.empty()) names += ", ";
-    names += method.name;
-  }
-  return names;
+  return fmt::format("{}", fmt::join(methodNames(), ", "));
 }
 
 const Method& findMethod(std::string_view name) {
   for (const Method& method : methodTable()) {
     if (method.name == name) return method;
   }
-  throw InputError(fmt::format("unknown method '{}': known are {}", name, knownMethodNames()));
+  throw InputError(unknownName("method", name, methodNames()));
 }
 
 std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& chain,
@@ -223,7 +228,7 @@ std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& ch
   requireAtLeastZero("threads", options.threads);
   std::unique_ptr<Integrator> integrator = method.make(method, chain, options);
   if (!integrator)
-    throw InputError(fmt::format("the factory of method '{}' made nothing", method.name));
+    throw InputError(fmt::format("the factory of method '{}' returned no integrator", method.name));
   return integrator;
 }
 

@@ -15,7 +15,7 @@ constexpr std::ptrdiff_t kMostNumbers =
     std::numeric_limits<std::ptrdiff_t>::max() / static_cast<std::ptrdiff_t>(sizeof(double));
 
 double* allocated(std::ptrdiff_t size) {
-  if (size < 0) throw InputError(fmt::format("array size is {}: must be at least 0", size));
+  if (size < 0) throw InputError(fmt::format("array size must be at least 0, got {}", size));
   if (size == 0) return nullptr;
   if (size > kMostNumbers) throw std::bad_alloc();
   return new (

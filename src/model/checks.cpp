@@ -8,8 +8,9 @@ namespace spring_pendulum {
 
 void requireSize(std::ptrdiff_t particles, const State& state) {
   if (state.size() == particles) return;
-  throw InputError(fmt::format("the state holds {} particles, the chain {}: sizes must agree",
-                               state.size(), particles));
+  throw InputError(
+      fmt::format("the state has {} particles but the chain has {}; the sizes must agree",
+                  state.size(), particles));
 }
 
 void requireAdvance(std::ptrdiff_t particles, const State& state, double time_step,
@@ -21,17 +22,17 @@ void requireAdvance(std::ptrdiff_t particles, const State& state, double time_st
 
 void requireFiniteAtLeastZero(const char* name, double value, const char* unit) {
   if (std::isfinite(value) && value >= 0.0) return;
-  throw InputError(fmt::format("{} is {}: must be finite and at least 0 {}", name, value, unit));
+  throw InputError(fmt::format("{} must be finite and at least 0 {}, got {}", name, unit, value));
 }
 
 void requireFinitePositive(const char* name, double value, const char* unit) {
   if (std::isfinite(value) && value > 0.0) return;
-  throw InputError(fmt::format("{} is {}: must be finite and above 0 {}", name, value, unit));
+  throw InputError(fmt::format("{} must be finite and above 0 {}, got {}", name, unit, value));
 }
 
 void requireAtLeastZero(const char* name, std::ptrdiff_t value) {
   if (value >= 0) return;
-  throw InputError(fmt::format("{} is {}: must be at least 0", name, value));
+  throw InputError(fmt::format("{} must be at least 0, got {}", name, value));
 }
 
 }  // namespace spring_pendulum

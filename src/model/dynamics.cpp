@@ -28,7 +28,7 @@ PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::p
 
 void computeSlope(const Chain& chain, const State& state, State& slope) {
   requireSize(chain.size(), state);
-  if (&slope == &state) throw InputError("computeSlope: slope and state must be two objects");
+  if (&slope == &state) throw InputError("computeSlope: slope and state must be different objects");
   const std::ptrdiff_t size = chain.size();
   if (slope.size() != size) slope = State(size);
   slope.positions() = state.velocities();

@@ -12,7 +12,7 @@ namespace {
 
 std::ptrdiff_t numbersOf(std::ptrdiff_t particles) {
   if (particles < 0) {
-    throw InputError(fmt::format("number of particles is {}: must be at least 0", particles));
+    throw InputError(fmt::format("number of particles must be at least 0, got {}", particles));
   }
   if (particles > std::numeric_limits<std::ptrdiff_t>::max() / 4) throw std::bad_alloc();
   return 4 * particles;

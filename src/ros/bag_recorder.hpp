@@ -2,8 +2,7 @@
 #pragma once
 
 #include "ros/parameters/node_options.hpp"
-#include <spring_pendulum/simulation/scenario.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
+#include "ros/pendulum_run.hpp"
 
 #include <cstdint>
 #include <string>
@@ -27,15 +26,13 @@ struct BagSummary {
   std::int64_t messages = 0;
   std::uintmax_t bytes = 0;  ///< size of the file
   std::string path;          ///< absolute
-  Verdict verdict;
-  std::string measurements;  ///< position and energy error in words
 };
 
-/// Records a run. Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same
-/// scenario and options give the same bytes. The bag is complete or absent, like every OutputFile;
-/// when appending, a longer copy replaces the bag at the end. After a signal, the bag ends with the
-/// last message before it.
-/// \throws InputError for a bad scenario, FileError naming the bag
-BagSummary recordBag(const Scenario& scenario, const NodeOptions& options, const BagOptions& to);
+/// Records a run, and prints a warning if its step size is unstable. Stamps are simulated time,
+/// starting at `Stamps::simulatedStart()`. The same scenario and options give the same bytes. The
+/// bag is complete or absent, like every OutputFile; when appending, a longer copy replaces the bag
+/// at the end. After a signal, the bag ends with the last message before it.
+/// \throws FileError naming the bag
+BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to);
 
 }  // namespace spring_pendulum

@@ -38,7 +38,7 @@ EnergyScale::EnergyScale(const Chain& chain, const State& start) {
   constant_ = std::max(std::max(energy, 0.0) + depth, least);
   if (!std::isfinite(energy) || !std::isfinite(constant_) || !std::isfinite(fall_)) {
     throw InputError(
-        "the energy of the start exceeds what a double can hold: masses, lengths, stiffness or "
+        "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
         "gravity must be smaller");
   }
 }

@@ -24,11 +24,13 @@ std::string skippedWork(const Scenario& scenario, const Integrator& integrator,
   std::string text;
   if (skips.damping) text += "skipped: velocity differences: damping is 0\n";
   if (skips.gravity) text += "skipped: gravity: it is 0\n";
-  if (skips.masses) text += "skipped: reading masses: all moving particles have the same\n";
+  if (skips.masses) {
+    text += "skipped: reading masses: all moving particles have the same mass\n";
+  }
   if (scenario.damping == 0.0) {
     text += "skipped: dissipated energy: damping is 0\n";
   } else if (!tracks_dissipation) {
-    text += "skipped: dissipated energy: costly here, and no energy file is asked for\n";
+    text += "skipped: dissipated energy: expensive for this run; --energy FILE computes it\n";
   }
   if (scenario.no_frames) text += "skipped: frame files: not written\n";
   return text;

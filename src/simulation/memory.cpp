@@ -47,8 +47,9 @@ std::string memoryRemark(const Scenario& scenario, Eigen::Index particles) {
 
 void checkMemory(const Scenario& scenario, Eigen::Index particles, double usable) {
   if (expectedMemory(scenario, particles) <= usable) return;
-  throw std::runtime_error(fmt::format("not enough memory: {}, and this process may use {:.2f} GB",
-                                       needOf(scenario, particles), 1e-9 * usable));
+  throw std::runtime_error(
+      fmt::format("not enough memory: {}, but this process can use only {:.2f} GB",
+                  needOf(scenario, particles), 1e-9 * usable));
 }
 
 }  // namespace spring_pendulum

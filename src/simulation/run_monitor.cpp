@@ -135,7 +135,7 @@ std::string RunMonitor::measurements() const {
     }
   }
   text += judge_.entry().relative_residual
-              ? fmt::format(", largest energy error {:.1e} of the energy scale", worst_residual_)
+              ? fmt::format(", largest energy error {:.2g} times the energy scale", worst_residual_)
               : ", energy balance not checked";
   return text;
 }
@@ -143,11 +143,12 @@ std::string RunMonitor::measurements() const {
 std::string RunMonitor::toleranceRemark() const {
   if (exceeded_time_ == 0.0) return {};
   if (exceeded_growth_ < kSensitiveGrowth) {
-    return fmt::format("position error above ten tolerances from t = {:.6g} s", exceeded_time_);
+    return fmt::format("the position error exceeds ten times the tolerance from t = {:.6g} s on",
+                       exceeded_time_);
   }
   return fmt::format(
-      "sensitive from t = {:.6g} s: small changes have grown {:.2g} times by then, no "
-      "method can keep a tolerance of {:.3g} m beyond",
+      "sensitive from t = {:.6g} s on: by then small changes have grown by a factor of {:.2g}, "
+      "so no method can keep a tolerance of {:.3g} m",
       exceeded_time_, exceeded_growth_, tolerance_);
 }
 

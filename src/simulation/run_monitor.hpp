@@ -54,7 +54,7 @@ class RunMonitor {
   const ReferenceRun* reference() const;
 
   /// Returns a text such as "largest position error 0.0039 m at t = 49.3 s, largest energy error
-  /// 1.2e-07 of the energy scale".
+  /// 1.2e-07 times the energy scale".
   std::string measurements() const;
   /// A sentence on a tolerance that was not met, and the reason; else empty.
   std::string toleranceRemark() const;

@@ -12,8 +12,8 @@ void checkTolerance(const Scenario& scenario, const Chain& chain, const State& s
   const double least = smallestTolerance(chain, start);
   if (scenario.tolerance >= least) return;
   throw InputError(
-      fmt::format("tolerance: must be at least {:.1e} m for this scene, as its positions are "
-                  "rounded, got {}",
+      fmt::format("tolerance: must be at least {:.1e} m for this scene, because of the rounding "
+                  "errors of its positions; got {}",
                   1.05 * least, scenario.tolerance));
 }
 

@@ -48,7 +48,7 @@ Verdict diverged(const Chain& chain, const State& state, const EnergyEntry& entr
 Verdict gainedEnergy(const EnergyEntry& entry) {
   return {VerdictKind::kGainedEnergy, entry.time, 0,
           fmt::format("gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the "
-                      "energy scale, in a chain that nothing drives",
+                      "energy scale, although no force drives the chain",
                       entry.gain, entry.time, 100.0 * entry.relative_gain)};
 }
 
@@ -73,11 +73,10 @@ Verdict notMeasured(double time, const ReferenceRun* reference) {
   }
   switch (reference->status()) {
     case ReferenceRun::Status::kSensitive:
-      return {
-          VerdictKind::kSensitive, time, 0,
-          fmt::format("sensitive from t = {:.6g} s: small errors grow so much that no method can "
-                      "tell the true positions beyond",
-                      time)};
+      return {VerdictKind::kSensitive, time, 0,
+              fmt::format("sensitive from t = {:.6g} s on: small errors grow so much that the true "
+                          "positions cannot be determined",
+                          time)};
     case ReferenceRun::Status::kFailed:
       return {VerdictKind::kNotChecked, time, 0,
               fmt::format("not checked from t = {:.6g} s: the reference run diverged", time)};

@@ -239,7 +239,8 @@ TEST(Misuse, MessagesNameTheValue) {
     makeIntegrator("Euler", chain())->advance(state, 0.01, 1);
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "the state holds 3 particles, the chain 5: sizes must agree");
+    EXPECT_STREQ(error.what(),
+                 "the state has 3 particles but the chain has 5; the sizes must agree");
   }
 }
 

@@ -130,14 +130,14 @@ TEST(OwnMethods, AreRefusedIfTheyCannotWork) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<BadMethod> bad_methods{
       {"name", [](Method& m, ButcherTableau&) { m.name = ""; }},
-      {"name is taken", [](Method& m, ButcherTableau&) { m.name = "Euler"; }},
+      {"of this name exists", [](Method& m, ButcherTableau&) { m.name = "Euler"; }},
       {"order", [](Method& m, ButcherTableau&) { m.order = 0; }},
       {"stages", [](Method& m, ButcherTableau&) { m.stages = 0; }},
       {"stages", [](Method& m, ButcherTableau&) { m.stages = 3; }},
       {"limits", [](Method& m, ButcherTableau&) { m.real_stability_limit = kNan; }},
       {"limits", [](Method& m, ButcherTableau&) { m.imaginary_stability_limit = -1.0; }},
       {"tableau or a factory", [](Method& m, ButcherTableau&) { m.tableau = nullptr; }},
-      {"fixed steps",
+      {"fixed-step method",
        [](Method& m, ButcherTableau&) { m.control = StepControl::kErrorControlled; }},
       {"0 stages", [](Method&, ButcherTableau& t) { t.stages = 0; }},
       {"17 stages", [](Method&, ButcherTableau& t) { t.stages = 17; }},

@@ -45,8 +45,8 @@ TEST(Documents, ListTheMethodsOfTheTable) {
     const Method& method = methodTable()[i];
     // The order of Auto is that of the active method.
     const std::string order = method.name == "Auto" ? "" : fmt::format(" {}", method.order);
-    EXPECT_THAT(rows[i], testing::StartsWith(fmt::format("| `{}` |{} | {} | ", method.name, order,
-                                                         method.hasFixedStep() ? "fixed" : "own")));
+    EXPECT_EQ(rows[i], fmt::format("| `{}` |{} | {} | {} |", method.name, order,
+                                   method.hasFixedStep() ? "fixed" : "own", method.use));
   }
 }
 

@@ -75,10 +75,10 @@ TEST_P(ParticleFileRefuses, WithOneLineThatTellsWhere) {
 
 std::string noNumber(const std::string& line, const std::string& word) {
   return "particle.txt:" + line + ": " + word +
-         " is not a number; write a finite one such as 0.5 or -2e-3";
+         " is not a number; write a finite number such as 0.5 or -2e-3";
 }
 
-const std::string kNoParticles = "particle.txt: no particles; write a line 'x y m' for each";
+const std::string kNoParticles = "particle.txt: no particles; write one line 'x y m' per particle";
 
 INSTANTIATE_TEST_SUITE_P(
     BadRows, ParticleFileRefuses,
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"0 0 1\n1.0x 0 1\n", noNumber("2", "'1.0x'")},
         BadText{"0 0 1\n1 0 1;\n", noNumber("2", "'1;'")},
         BadText{"0 0 1\n1,5 0 1\n",
-                "particle.txt:2: '1,5' is not a number; use a decimal point, and blanks between "
+                "particle.txt:2: '1,5' is not a number; use a decimal point, and spaces between "
                 "numbers"},
         BadText{"0 0 1\nnan 0 1\n", noNumber("2", "'nan'")},
         BadText{"0 0 1\n0 -inf 1\n", noNumber("2", "'-inf'")},
@@ -114,9 +114,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"0 0 1\n1 0 1e-310\n",
                 "particle.txt:2: mass must be large enough for 1/mass to be finite, got 1e-310 kg"},
         BadText{"0 0 1\n\n0 -0 1\n",
-                "particle.txt:3: same place as the particle in line 1; neighbours must be apart"},
+                "particle.txt:3: same position as the particle in line 1; neighbours must not "
+                "coincide"},
         BadText{"0 0 1\n1e-170 0 1\n",
-                "particle.txt:2: same place as the particle in line 1; neighbours must be apart"},
+                "particle.txt:2: same position as the particle in line 1; neighbours must not "
+                "coincide"},
         BadText{"0 0 1\n1e200 0 1\n",
                 "particle.txt:2: too far from the particle in line 1; the square of their "
                 "distance must be finite"}));

@@ -102,8 +102,8 @@ TEST(ScenarioFile, UnknownKeyListsTheKnownOnes) {
     parse("frames: 1\n\nframse: 5\n");
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                testing::StartsWith("run.yaml:3: unknown parameter 'framse': known are method, "));
+    EXPECT_THAT(error.what(), testing::StartsWith("run.yaml:3: unknown parameter 'framse'; did you "
+                                                  "mean 'frames'? Known parameters: method, "));
     Scenario scenario;
     for (const Option& option : scenarioOptions(scenario)) {
       EXPECT_THAT(error.what(), testing::HasSubstr(std::string(option.key)));

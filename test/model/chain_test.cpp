@@ -26,10 +26,13 @@ void expectRefused(const Eigen::VectorXd& masses, const SpringLaw& spring, doubl
 TEST(Chain, RefusesWhatIsOutOfRange) {
   const Eigen::VectorXd masses = Eigen::VectorXd::Ones(3);
   expectRefused({}, {}, 9.81, "at least one particle");
-  expectRefused(masses, {-1.0, 1.0, 1.0}, 9.81, "stiffness is -1");
-  expectRefused(masses, {50.0, kInfinity, 1.0}, 9.81, "damping is inf");
-  expectRefused(masses, {50.0, 1.0, -0.5}, 9.81, "rest_length is -0.5");
-  expectRefused(masses, {}, kInfinity, "gravity is inf");
+  expectRefused(masses, {-1.0, 1.0, 1.0}, 9.81,
+                "stiffness must be finite and at least 0 N/m, got -1");
+  expectRefused(masses, {50.0, kInfinity, 1.0}, 9.81,
+                "damping must be finite and at least 0 N·s/m, got inf");
+  expectRefused(masses, {50.0, 1.0, -0.5}, 9.81,
+                "rest_length must be finite and at least 0 m, got -0.5");
+  expectRefused(masses, {}, kInfinity, "gravity must be a finite number in m/s², got inf");
   for (const double mass : {0.0, -1.0, kInfinity, 5e-324}) {
     Eigen::VectorXd wrong = masses;
     wrong[2] = mass;

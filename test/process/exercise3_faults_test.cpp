@@ -88,7 +88,7 @@ TEST_F(Disturbed, ASecondRunWithTheSameEnergyBalanceIsRefused) {
   const Result second = run(exercise3(folder_, {"Euler", "--no-frames", "--energy", "energy.csv"}));
   EXPECT_EQ(second.status, 1);
   EXPECT_EQ(second.errors, folder_.path("energy.csv") +
-                               ": another run is writing it; give each run a file of its own\n");
+                               ": another run is writing it; use a different file for each run\n");
 }
 
 TEST_F(Disturbed, ParticleFileReplacedDuringTheRunDoesNotMatter) {

@@ -55,8 +55,9 @@ TEST_F(Exercise3Files, InputsAreNeverWritten) {
   for (const std::string name : {"particle.txt", "./particle.txt", "soft", "hard", "run.yaml"}) {
     const Result result = run(command({"--config", "run.yaml", "--no-frames", "--energy", name}));
     EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.errors,
-                EndsWith(" is read by this run and would be lost; give another file\n"));
+    EXPECT_THAT(
+        result.errors,
+        EndsWith(" is an input of this run and would be overwritten; choose another file\n"));
   }
   EXPECT_EQ(read("particle.txt"), kTwoParticles);
   EXPECT_EQ(read("run.yaml"), yaml);
@@ -66,7 +67,8 @@ TEST_F(Exercise3Files, AParticleFileWithTheNameOfAFrameStays) {
   folder_.write("frame_0012.txt", kTwoParticles);
   expectRefused({"--particles", "frame_0012.txt"}, 2,
                 folder_.path("frame_0012.txt") +
-                    ": is read by this run and would be lost; give the frames another folder");
+                    ": is an input of this run and would be overwritten; choose another folder for "
+                    "the frames");
   EXPECT_EQ(read("frame_0012.txt"), kTwoParticles);
 }
 
@@ -103,7 +105,8 @@ TEST_F(Exercise3Files, WhatIsInTheWayOfTheUnfinishedFileIsNotOpened) {
   std::filesystem::create_directory(folder_.path("c.csv.unfinished"));
   for (const std::string name : {"a.csv", "b.csv", "c.csv"}) {
     expectRefused({"--energy", name}, 1,
-                  folder_.path(name) + ".unfinished: is in the way and no regular file; remove it");
+                  folder_.path(name) +
+                      ".unfinished: is needed for writing but is not a regular file; remove it");
   }
   EXPECT_EQ(read("particle.txt"), kTwoParticles);
 }

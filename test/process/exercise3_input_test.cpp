@@ -95,12 +95,12 @@ INSTANTIATE_TEST_SUITE_P(
         particles("APipe", "pipe", 1, ": could not be read: it is a pipe or a device"),
         particles("ADevice", "/dev/zero", 1, ": could not be read: it is a pipe or a device"),
         particles("Unreadable", "secret.txt", 1, ": could not be read: Permission denied\n"),
-        particles("Empty", "empty.txt", 2, ": no particles; write a line 'x y m' for each\n"),
+        particles("Empty", "empty.txt", 2, ": no particles; write one line 'x y m' per particle\n"),
         particles("Columns", "columns.txt", 2,
                   ":2: 2 numbers in this line; a particle needs 3: x y m\n"),
         particles("TrailingGarbage", "trailing.txt", 2, ":2: '1.0x' is not a number; write"),
         particles("Massless", "massless.txt", 2, ":3: mass must be positive, got 0 kg"),
-        particles("SamePlace", "same_place.txt", 2, ":2: same place as the particle in line 1")),
+        particles("SamePlace", "same_place.txt", 2, ":2: same position as the particle in line 1")),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -110,14 +110,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UnknownMethod",
                  {"Oiler"},
                  2,
-                 "METHOD: unknown method 'Oiler': known are Euler, Runge-Kutta-2, "},
-        BadInput{"MethodInOtherCase", {"euler"}, 2, "METHOD: unknown method 'euler': known are "},
+                 "METHOD: unknown method 'Oiler'; did you mean 'Euler'? Known methods: Euler, "
+                 "Runge-Kutta-2, "},
+        BadInput{"MethodInOtherCase",
+                 {"euler"},
+                 2,
+                 "METHOD: unknown method 'euler'; did you mean 'Euler'? "},
         BadInput{"TwoMethods", {"Euler", "Euler"}, 2, "'Euler': give only one METHOD\n"},
         BadInput{"UnknownOption",
                  {"Euler", "--frame", "5"},
                  2,
-                 "unknown option '--frame': known are --config, --particles, "},
-        BadInput{"TwoLinesInAnOption", {"Euler", "--no\nway"}, 2, "unknown option '--no?way': "},
+                 "unknown option '--frame'; did you mean '--frames'? Known options: --config, "
+                 "--particles, "},
+        BadInput{"TwoLinesInAnOption",
+                 {"Euler", "--no\nway"},
+                 2,
+                 "unknown option '--no?way'; known options: "},
         BadInput{"NoValue", {"Euler", "--frames"}, 2, "--frames: needs a value, see --help\n"},
         BadInput{"NothingAfterTheEqualsSign",
                  {"Euler", "--output="},
@@ -140,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         value("NegativeStiffness", "--stiffness", "-1", "a number of at least 0 N/m"),
         value("NanDamping", "--damping", "nan", "a number of at least 0 N·s/m"),
         value("NoRestLength", "--rest-length", "long", "a number of at least 0 m"),
-        value("InfiniteGravity", "--gravity", "-1e999", "a finite number m/s²")),
+        value("InfiniteGravity", "--gravity", "-1e999", "a finite number in m/s²")),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -158,7 +166,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UnknownKey",
                  {"Euler", "--config", "unknown.yaml"},
                  2,
-                 "unknown.yaml:3: unknown parameter 'framse': known are method, particles, "},
+                 "unknown.yaml:3: unknown parameter 'framse'; did you mean 'frames'? Known "
+                 "parameters: method, "},
         BadInput{"KeyGivenTwice",
                  {"Euler", "--config", "twice.yaml"},
                  2,
@@ -172,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UnknownMethod",
                  {"--config", "method.yaml"},
                  2,
-                 "method.yaml:1: method: unknown method 'Oiler': known are Euler, "},
+                 "method.yaml:1: method: unknown method 'Oiler'; did you mean 'Euler'? "},
         BadInput{"NoMethod", {"--config", "frames.yaml"}, 2, "METHOD is missing; try: "}),
     nameOf);
 

@@ -51,7 +51,8 @@ TEST_F(Exercise3Memory, IsThatOfTheTableOfMethods) {
                             peakMemory(folder_, method.name, "short.txt", 1e-3);
     const double expected = expectedMemory(scenario, kLong) - expectedMemory(scenario, kShort);
     EXPECT_LT(measured, 1.3 * expected) << method.name;
-    if (method.name != "Auto") EXPECT_GT(measured, 0.7 * expected) << method.name;
+    if (method.name == "Auto") continue;  // needs the memory of one method or of two
+    EXPECT_GT(measured, 0.7 * expected) << method.name;
   }
 }
 
@@ -71,7 +72,7 @@ TEST_F(Exercise3Memory, IsRefusedBeforeTheRunIfThereIsLess) {
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.errors,
             "not enough memory: Radau-9 takes up to 0.14 GB of memory for 100000 "
-            "particles, and this process may use 0.06 GB\n");
+            "particles, but this process can use only 0.06 GB\n");
 }
 
 }  // namespace

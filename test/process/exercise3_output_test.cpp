@@ -114,8 +114,7 @@ TEST_F(LongRun, ASecondRunIntoTheSameFolderIsRefused) {
   EXPECT_EQ(second.status, 1);
   EXPECT_EQ(second.errors,
             folder_.path("shared") +
-                ": another run is writing its frames here; give each run a folder of its "
-                "own\n");
+                ": another run is writing frames here; use a different folder for each run\n");
   first.sendSignal(SIGCONT);
   EXPECT_EQ(first.wait().status, 0);
   EXPECT_EQ(countFrames(folder_.path("shared")), kFrames);
@@ -131,11 +130,22 @@ TEST(Exercise3Output, FiveHundredFramesByDefault) {
   EXPECT_EQ(result.errors, "");
   EXPECT_THAT(result.output,
               MatchesRegex("Runge-Kutta-4: 2 particles, 500 frames, 4990 steps, 19960 force "
-                           "evaluations, [0-9.]+ s integrating, [0-9.]+ s writing to " +
+                           "evaluations, [0-9.]+ m?s integrating, [0-9.]+ m?s writing to " +
                            folder.path() + ".*\n"));
   EXPECT_EQ(listFolder(folder.path()).size(), 501U);
   EXPECT_EQ(readFile(folder.path(frame(0))), "0 0\n1 0\n");
   EXPECT_TRUE(std::filesystem::exists(folder.path(frame(499))));
+}
+
+TEST(Exercise3Output, AnUnstableTimeStepIsAWarningAtTheStart) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  const Result result = run(exercise3(folder, {"Runge-Kutta-4", "--no-frames", "--time-step=9"}));
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(
+      result.errors,
+      MatchesRegex("warning: Runge-Kutta-4 may be unstable with a time step of 9 s; .*or use "
+                   "Auto\ndiverged at t = .*; largest stable step .*\n"));
 }
 
 TEST(Exercise3Output, AFrameIsTenStepsFromTheNext) {
@@ -198,7 +208,9 @@ TEST(Exercise3Output, WhatIsNoFileIsNeverRemoved) {
   std::filesystem::create_directory(folder.path(frame(3)));
   const Result result = run(exercise3(folder, {"Euler"}));
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.errors, StartsWith(folder.path(frame(3)) + ": is in the way of the frames"));
+  EXPECT_THAT(result.errors,
+              StartsWith(folder.path(frame(3)) +
+                         ": has the name of a frame file but is not a regular file"));
   EXPECT_EQ(readFile(folder.path(frame(0))), "earlier\n");
 }
 

@@ -91,7 +91,7 @@ class RecordBag(unittest.TestCase):
                     second = record(folder, *arguments)
                     self.assertEqual(second.returncode, 1)
                     self.assertEqual(second.stderr, folder + '/run.bag: another run is writing it; '
-                                     'give each run a file of its own\n')
+                                     'use a different file for each run\n')
                 first.send_signal(signal.SIGINT)
                 output, errors = first.communicate()
                 self.assertEqual(first.returncode, 128 + signal.SIGINT, errors)
@@ -111,7 +111,7 @@ class RecordBag(unittest.TestCase):
             self.assertIn('Runge-Kutta-4', checked.stdout)
             refused = record(folder, '--bag', 'particle.txt')
             self.assertEqual(refused.returncode, 2)
-            self.assertIn('particle.txt: is read by this run', refused.stderr)
+            self.assertIn('particle.txt: is an input of this run', refused.stderr)
             self.assertEqual(files_in(folder), before)
 
 

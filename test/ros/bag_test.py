@@ -104,6 +104,14 @@ class Bag(unittest.TestCase):
             self.assertIn('diverged at t = ', output)
             self.assertEqual(contents(path, '/status')[-1][0].code, PendulumStatus.DIVERGED)
 
+    def test_an_unstable_time_step_is_a_warning(self):
+        with Folder() as folder:
+            _, output = record(folder, 'one.bag', '--time-step', '0.5', status=3)
+            self.assertIn('warning: Runge-Kutta-4 may be unstable with a time step of 0.5 s', output)
+            self.assertRegex(output, r'diverged at t = .*; largest stable step for Runge-Kutta-4: ')
+            _, output = record(folder, 'two.bag')
+            self.assertNotIn('warning', output)
+
     def test_check_writes_nothing(self):
         with Folder() as folder:
             _, output = record(folder, 'one.bag', '--check', '--report-skips')
@@ -134,7 +142,7 @@ class Bag(unittest.TestCase):
         cases = [(('--color', 'red'), 2, "--color: must be #rrggbb"), (('--frames', '0'), 2, 'frames'),
                  (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, '--trail: needs a value'),
                  (('--time-step', '0,5'), 2, 'use a decimal point'), (('Euler',), 2, 'only one METHOD'),
-                 (('--bag', '/nowhere/x.bag'), 1, '/nowhere/x.bag')]
+                 (('--bag', SCENE + '/x.bag'), 1, 'particle.txt')]
         for arguments, status, message in cases:
             with self.subTest(arguments=arguments), Folder() as folder:
                 _, output = record(folder, 'one.bag', *arguments, status=status)

@@ -167,7 +167,8 @@ TEST(Bag, IsReadBackByTheLibrary) {
   scenario.particles = PROJECT_DIR "/data/particle.txt";
   BagOptions options;
   options.path = folder.path() + "/one.bag";
-  const BagSummary summary = recordBag(scenario, NodeOptions{}, options);
+  PendulumRun run(scenario, readParticleFile(scenario.particles), true, 1.0 / 30.0);
+  const BagSummary summary = recordBag(run, NodeOptions{}, options);
   rosbag::Bag bag(options.path);
   std::map<std::string, int> counts;
   ros::Time last;

@@ -58,7 +58,7 @@ class Services(unittest.TestCase):
     def check_steps(self):
         for _ in range(3):
             frame = self.last().frame
-            self.assertEqual(self.call('step', Trigger).message, 'going to frame %d' % (frame + 1))
+            self.assertEqual(self.call('step', Trigger).message, 'advancing to frame %d' % (frame + 1))
             message = self.state.wait_for_any(lambda m, f=frame: m.frame == f + 1)
             self.assertTrue(message.at_frame)
 
@@ -75,10 +75,10 @@ class Services(unittest.TestCase):
             status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
             answer = self.call('step', Trigger)
             self.assertFalse(answer.success)
-            self.assertIn('over at frame 2', answer.message)
+            self.assertIn('ended at frame 2', answer.message)
             answer = self.call('pause', SetBool, True)
             self.assertFalse(answer.success)
-            self.assertIn('over at frame 2', answer.message)
+            self.assertIn('ended at frame 2', answer.message)
             self.call('reset', Trigger)
             wait_until(lambda: sum(m.code == PendulumStatus.FINISHED for m in status.messages) >= 2,
                        'a second end')

@@ -18,7 +18,7 @@ TEST(SkippedWork, NamesWhatTheSceneDoesNotNeed) {
   EXPECT_EQ(skippedIn(scenario, Eigen::VectorXd::Ones(4)),
             "skipped: velocity differences: damping is 0\n"
             "skipped: gravity: it is 0\n"
-            "skipped: reading masses: all moving particles have the same\n"
+            "skipped: reading masses: all moving particles have the same mass\n"
             "skipped: dissipated energy: damping is 0\n"
             "skipped: frame files: not written\n");
 }

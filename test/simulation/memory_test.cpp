@@ -34,7 +34,7 @@ TEST(Memory, IsRefusedWhereThereIsLess) {
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(),
                  "not enough memory: Runge-Kutta-4 takes up to 1.60 GB of memory for "
-                 "10000000 particles, and this process may use 1.00 GB");
+                 "10000000 particles, but this process can use only 1.00 GB");
   }
 }
 

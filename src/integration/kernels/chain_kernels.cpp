@@ -53,7 +53,8 @@ std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name) {
   std::string known;
   for (const ChainKernels* k : kernels) known.append(known.empty() ? "" : ", ").append(k->name);
   throw InputError(
-      fmt::format("SPRING_PENDULUM_INSTRUCTION_SET is '{}': this processor has {}", name, known));
+      fmt::format("SPRING_PENDULUM_INSTRUCTION_SET must be one of {} on this processor, got '{}'",
+                  known, name));
 }
 
 AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTableau& tableau,

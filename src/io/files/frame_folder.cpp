@@ -94,7 +94,7 @@ void FrameFolder::open() {
   const bool is_locked = ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno == EWOULDBLOCK) {
     throw FileError(fmt::format(
-        "{}: another run is writing its frames here; give each run a folder of its own", path_));
+        "{}: another run is writing frames here; use a different folder for each run", path_));
   }
 }
 
@@ -115,12 +115,13 @@ std::vector<std::string> FrameFolder::listOwnFiles(const std::vector<std::string
       refuse(name, "could not be read: " + messageForErrno());
     }
     if (!S_ISREG(status.st_mode)) {
-      refuse(name, "is in the way of the frames and no regular file; remove it");
+      refuse(name, "has the name of a frame file but is not a regular file; remove it");
     }
     if (isInput(status, inputs)) {
-      throw InputError(fmt::format(
-          "{}/{}: is read by this run and would be lost; give the frames another folder", path_,
-          name));
+      throw InputError(
+          fmt::format("{}/{}: is an input of this run and would be overwritten; choose another "
+                      "folder for the frames",
+                      path_, name));
     }
     names.push_back(name);
   }

@@ -42,8 +42,8 @@ void checkEarlierFile(const std::string& path, const std::vector<std::string>& i
         fmt::format("{}: is a folder, a pipe or a device; give a regular file", full_path));
   }
   if (isInput(status, inputs)) {
-    throw InputError(
-        fmt::format("{}: is read by this run and would be lost; give another file", full_path));
+    throw InputError(fmt::format(
+        "{}: is an input of this run and would be overwritten; choose another file", full_path));
   }
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     struct stat other {};
@@ -98,14 +98,14 @@ void OutputFile::createUnfinished() {
       refuseUnlessUnfinished();
     }
   }
-  refuse("other runs keep writing it; give each run a file of its own");
+  refuse("other runs are writing it; use a different file for each run");
 }
 
 /// \returns false if the run that held the lock before has renamed or removed the file
 bool OutputFile::lock() {
   if (::flock(file_.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     file_ = UnfinishedFile();  // belongs to the other run
-    refuse("another run is writing it; give each run a file of its own");
+    refuse("another run is writing it; use a different file for each run");
   }
   return file_.hasItsName();  // a file system without locks is not an error
 }
@@ -117,9 +117,10 @@ void OutputFile::refuseUnlessUnfinished() const {
   if (error != 0 && errno == ENOENT) return;
   const std::string name = (std::filesystem::path(path_).parent_path() / file_.name()).string();
   if (error != 0 || S_ISREG(status.st_mode)) {
-    throw FileError(fmt::format("{}: is in the way and could not be opened; remove it", name));
+    throw FileError(fmt::format("{}: is left over and could not be opened; remove it", name));
   }
-  throw FileError(fmt::format("{}: is in the way and no regular file; remove it", name));
+  throw FileError(
+      fmt::format("{}: is needed for writing but is not a regular file; remove it", name));
 }
 
 void OutputFile::write(std::string_view text) {

@@ -44,7 +44,7 @@ class ParticleParser {
 
   Particles particles() const {
     if (rows_.empty()) {
-      throw InputError(fmt::format("{}: no particles; write a line 'x y m' for each", name_));
+      throw InputError(fmt::format("{}: no particles; write one line 'x y m' per particle", name_));
     }
     const auto size = static_cast<Eigen::Index>(rows_.size());
     Particles result{AlignedNumbers(size), State(size)};
@@ -75,8 +75,8 @@ class ParticleParser {
     if (!value) {
       const bool has_comma = word.find(',') != std::string_view::npos;
       refuse(fmt::format("{} is not a number; {}", quoted(word),
-                         has_comma ? "use a decimal point, and blanks between numbers"
-                                   : "write a finite one such as 0.5 or -2e-3"));
+                         has_comma ? "use a decimal point, and spaces between numbers"
+                                   : "write a finite number such as 0.5 or -2e-3"));
     }
     return *value + 0.0;  // turns -0.0 into 0.0
   }
@@ -90,12 +90,13 @@ class ParticleParser {
     const double dy = row[1] - rows_.back()[1];
     const double square = dx * dx + dy * dy;
     if (std::isnormal(square)) return;
-    refuse(std::isfinite(square)
-               ? fmt::format("same place as the particle in line {}; neighbours must be apart",
-                             last_line_)
-               : fmt::format("too far from the particle in line {}; the square of their distance "
-                             "must be finite",
-                             last_line_));
+    refuse(
+        std::isfinite(square)
+            ? fmt::format("same position as the particle in line {}; neighbours must not coincide",
+                          last_line_)
+            : fmt::format("too far from the particle in line {}; the square of their distance "
+                          "must be finite",
+                          last_line_));
   }
 
   [[noreturn]] void refuse(const std::string& what) const {

@@ -1,6 +1,7 @@
 #include "io/program/command_line.hpp"
 
 #include "io/formats/option_file.hpp"
+#include "model/spelling.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/errors.hpp>
@@ -37,8 +38,10 @@ std::string helpFor(const Option& option) {
   if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
   if (option.placeholder().empty()) return help;
   const std::string value = option.text();
-  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,
-                     option.unit.empty() ? "" : " ", option.unit);
+  const bool names_unit = option.placeholder() == "SECONDS" || option.placeholder() == "METRES";
+  const std::string_view unit = names_unit ? "" : option.unit;
+  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value, unit.empty() ? "" : " ",
+                     unit);
 }
 
 void addWithValue(po::options_description& description, const std::string& name,
@@ -101,12 +104,9 @@ std::vector<po::option> split(const std::vector<std::string>& arguments,
         .run()
         .options;
   } catch (const po::unknown_option& error) {
-    std::string known;
-    for (const auto& option : description.options()) {
-      known += fmt::format("{}--{}", known.empty() ? "" : ", ", option->long_name());
-    }
-    throw InputError(
-        fmt::format("unknown option '{}': known are {}", error.get_option_name(), known));
+    std::vector<std::string> known;
+    for (const auto& option : description.options()) known.push_back("--" + option->long_name());
+    throw InputError(unknownName("option", error.get_option_name(), known));
   } catch (const po::invalid_command_line_syntax& error) {
     const bool lacks_value = error.kind() == po::invalid_syntax::missing_parameter ||
                              error.kind() == po::invalid_syntax::empty_adjacent_parameter;

@@ -18,7 +18,7 @@ ros::Time Stamps::next(double simulated_time) {
   const bool fits = played_.toSec() + more <= kLatest;
   if (!fits && simulated_) {
     throw InputError(
-        fmt::format("simulated time reaches {:g} s: stamps of ROS hold times up to {:g} s",
+        fmt::format("simulated time {:g} s is too large for ROS time stamps, which end at {:g} s",
                     simulated_time, kLatest));
   }
   if (fits && more > 0.0) played_ += ros::Duration(more);

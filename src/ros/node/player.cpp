@@ -142,7 +142,7 @@ std::string Player::pace() const {
 }
 
 std::string Player::overMessage() const {
-  return fmt::format("the run is over at frame {}{}: ~reset starts it again", run_.frame(),
+  return fmt::format("the run ended at frame {}{}; call ~reset to start it again", run_.frame(),
                      run_.isShown() ? "" : ", because the motion diverged");
 }
 
@@ -169,10 +169,10 @@ bool Player::onStep(TriggerRequest&, TriggerResponse& response) {
   if (run_.isOver()) {
     answer(response, false, overMessage());
   } else if (!paused_) {
-    answer(response, false, "the run is not paused: call ~pause first");
+    answer(response, false, "the run is not paused; call ~pause first");
   } else {
     ++steps_wanted_;
-    answer(response, true, fmt::format("going to frame {}", run_.frame() + steps_wanted_));
+    answer(response, true, fmt::format("advancing to frame {}", run_.frame() + steps_wanted_));
   }
   return true;
 }

@@ -105,8 +105,8 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   while (ros::ok() && interruption() == 0 && !is_ready()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPollInterval));
     if (timeout.isZero() || ros::SteadyTime::now() - start < timeout) continue;
-    ROS_WARN("%u of %ld subscribers after %.6g s: starting without the others", subscribers(),
-             static_cast<long>(options.wait_for_subscribers), options.wait_timeout);
+    ROS_WARN("only %u of %ld subscribers after %.6g s (wait_timeout): starting anyway",
+             subscribers(), static_cast<long>(options.wait_for_subscribers), options.wait_timeout);
     return;
   }
 }

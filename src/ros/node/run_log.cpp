@@ -1,5 +1,6 @@
 #include "ros/node/run_log.hpp"
 
+#include "io/program/closing.hpp"
 #include "model/numbers.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
@@ -39,14 +40,15 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
                         const Publisher& publisher) {
   const std::string report = run.integrator().report();
   return fmt::format(
-      "{}{}: {}, {}, {}{}, {:.3f} s integrating, {:.3f} s writing {}, {} marker and {} state "
-      "messages built, {}, verdict: {}",
+      "{}{}: {}, {}, {}{}, {} integrating, {} writing {}, {} marker and {} state messages built, "
+      "{}, verdict: {}",
       run.scenario().method.get().name, report.empty() ? "" : " (" + report + ")",
       counted(run.chain().size(), "particle"), counted(totals.frames, "frame"),
       run.scenario().method.get().hasFixedStep() ? counted(totals.steps, "step") + ", " : "",
-      counted(run.integrator().forceEvaluations(), "force evaluation"), totals.seconds,
-      files.secondsWriting(), counted(files.framesWritten(), "frame"), publisher.markersBuilt(),
-      publisher.statesBuilt(), run.measurements(), run.verdict().text);
+      counted(run.integrator().forceEvaluations(), "force evaluation"),
+      durationText(totals.seconds), durationText(files.secondsWriting()),
+      counted(files.framesWritten(), "frame"), publisher.markersBuilt(), publisher.statesBuilt(),
+      run.measurements(), run.verdict().text);
 }
 
 void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {

@@ -97,17 +97,18 @@ std::string errorText(const Trial& trial) {
   const std::string position =
       std::isnan(error.largest)
           ? "position error unknown"
-          : fmt::format(
-                "largest position error {:.2g} m at t = {:.4g} s{}", error.largest,
-                error.largest_time,
-                trial.measured ? "" : fmt::format(" (known until {:.4g} s)", error.measured_until));
-  return fmt::format("{}, largest energy error {:.2g} % of the energy scale", position,
-                     100.0 * trial.energy_error);
+          : fmt::format("largest position error {:.2g} m at t = {:.4g} s{}", error.largest,
+                        error.largest_time,
+                        trial.measured
+                            ? ""
+                            : fmt::format(" (measured until t = {:.4g} s)", error.measured_until));
+  return fmt::format("{}, largest energy error {:.2g} times the energy scale", position,
+                     trial.energy_error);
 }
 
 std::string linearText(const Method& method, const Chain& chain, double duration) {
   return fmt::format(
-      "{}: too many particles and steps to try; linear stability limit with margin: "
+      "{}: too many particles and steps to try; linear estimate of the largest stable step size: "
       "{}\n",
       method.name, stepText(linearStepLimit(method, chain, duration)));
 }
@@ -169,12 +170,13 @@ std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
     }
   }
   if (best.method == nullptr) {
-    return fmt::format("position error of at most {:.3g} m: no method tried reaches it\n", wanted);
+    return fmt::format("no method tried keeps the position error below {:.3g} m\n", wanted);
   }
   const bool fixed = best.method->hasFixedStep();
   return fmt::format(
-      "position error of at most {:.3g} m: {} with a {} of {} {}, {} force evaluations\n", wanted,
-      best.method->name, fixed ? "step size" : "tolerance",
+      "cheapest for a position error of at most {:.3g} m: {} with a {} of {} {}, {} force "
+      "evaluations\n",
+      wanted, best.method->name, fixed ? "step size" : "tolerance",
       fixed ? digits(best.step) : fmt::format("{:.3g}", best.step), fixed ? "s" : "m",
       best.evaluations);
 }
@@ -221,16 +223,16 @@ std::string describeStability(const Chain& chain, const State& start, const Scen
                                 std::max<std::int64_t>(scenario.frames - 1, 1), true);
   if (!trial.affordable) {
     return fixed ? linearText(method, chain, duration)
-                 : fmt::format("{}: too costly to try\n", method.name);
+                 : fmt::format("{}: takes too long to try\n", method.name);
   }
-  std::string text = fmt::format("{} with a {} of {} {} over {:.4g} s: {}, {}\n", method.name,
+  std::string text = fmt::format("{} with a {} of {} {} over {:.4g} s: {}\n{}\n", method.name,
                                  fixed ? "step size" : "tolerance",
                                  fixed ? scenario.time_step : scenario.tolerance, fixed ? "s" : "m",
                                  duration, trial.verdict.text, errorText(trial));
   if (fixed) {
     const StepLimits limits = findStepLimits(method, chain, start, scenario.time_step, duration,
                                              frameSteps(scenario).timeOfFrame(1));
-    text += fmt::format("largest stable step size: {}; largest accurate step size: {}\n",
+    text += fmt::format("largest stable step size: {}\nlargest accurate step size: {}\n",
                         limitText(limits.stable, bench.leastStep(method)),
                         limitText(limits.accurate, bench.leastStep(method)));
   }
@@ -253,7 +255,7 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Sc
   const Method& other = findMethod("Auto");
   if (&other == &method) return text;
   const bool works = isStable(bench.run(other, scenario.tolerance, false));
-  return works ? fmt::format("{}; {} would do", text, other.name) : text;
+  return works ? fmt::format("{}; or use {}", text, other.name) : text;
 }
 
 }  // namespace spring_pendulum

@@ -48,8 +48,7 @@ std::string stabilityWarning(const Chain& chain, const Scenario& scenario) {
   const FrameSteps step = frameSteps(scenario);
   const double limit = linearStepLimit(method, chain, step.timeOfFrame(scenario.frames - 1));
   return fmt::format(
-      "{} may be unstable with a time step of {} s; {}Auto would do", method.name,
-      scenario.time_step,
+      "{} may be unstable with a time step of {} s; {}or use Auto", method.name, scenario.time_step,
       limit > 0.0 ? fmt::format("largest stable step: about {:.2g} s (linear estimate); ", limit)
                   : "");
 }

@@ -1,5 +1,6 @@
 #include "simulation/options/option_set.hpp"
 
+#include "model/spelling.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
@@ -14,12 +15,12 @@ void OptionSet::add(std::vector<Option> options) {
 }
 
 const Option& OptionSet::find(std::string_view key, std::string_view place) const {
-  std::string known;
+  std::vector<std::string> known;
   for (const Option& option : options_) {
     if (option.key == key) return option;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", option.key);
+    known.emplace_back(option.key);
   }
-  throw InputError(fmt::format("{}: unknown parameter '{}': known are {}", place, key, known));
+  throw InputError(fmt::format("{}: {}", place, unknownName("parameter", key, known)));
 }
 
 void OptionSet::set(const Option& option, std::string_view text, const std::string& place) {

@@ -45,7 +45,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
       {"threads", Count{&s.threads, Range::atLeast(0)}, "",
        "largest number of threads; 0: one per processor core"},
       {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",
-       "a chain whose particles all stay slower than this is not stepped; 0: always stepped"},
+       "do not integrate while all particles stay slower than this; 0: always integrate"},
   };
 }
 

@@ -1,0 +1,76 @@
+#include "model/spelling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace spring_pendulum {
+namespace {
+
+/// Only letters in lower case and digits. Names are ASCII.
+std::string simplified(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    if (c >= 'A' && c <= 'Z') text += static_cast<char>(c - 'A' + 'a');
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) text += c;
+  }
+  return text;
+}
+
+/// Levenshtein distance.
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+/// Whether the letters of `name` occur in this order in `known`: "rk4" in "rungekutta4".
+bool abbreviates(const std::string& name, const std::string& known) {
+  std::size_t found = 0;
+  for (const char c : known) {
+    if (found < name.size() && name[found] == c) ++found;
+  }
+  return name.size() >= 3 && found == name.size();
+}
+
+}  // namespace
+
+std::string closestName(std::string_view name, const std::vector<std::string>& known) {
+  const std::string given = simplified(name.substr(0, 100));
+  std::string closest, abbreviated;
+  std::size_t least = std::min<std::size_t>((given.size() + 1) / 2, 4), abbreviations = 0;
+  for (const std::string& candidate : known) {
+    const std::string simple = simplified(candidate);
+    const std::size_t distance = editDistance(given, simple);
+    if (distance == least) closest.clear();
+    if (distance < least) {
+      least = distance;
+      closest = candidate;
+    }
+    if (!abbreviates(given, simple)) continue;
+    ++abbreviations;
+    abbreviated = candidate;
+  }
+  if (!closest.empty()) return closest;
+  return abbreviations == 1 ? abbreviated : "";
+}
+
+std::string unknownName(std::string_view kind, std::string_view name,
+                        const std::vector<std::string>& known) {
+  const std::string meant = closestName(name, known);
+  return fmt::format("unknown {} '{}'; {} {}s: {}", kind, name,
+                     meant.empty() ? "known" : fmt::format("did you mean '{}'? Known", meant), kind,
+                     fmt::join(known, ", "));
+}
+
+}  // namespace spring_pendulum

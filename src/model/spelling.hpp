@@ -1,0 +1,19 @@
+// Error messages for names that are not known, with a suggestion.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Returns the name that was probably meant: another spelling ("runge_kutta4"), a typing error
+/// ("Oiler") or an abbreviation ("rk4") of exactly one of the `known` names. Else empty.
+std::string closestName(std::string_view name, const std::vector<std::string>& known);
+
+/// "unknown method 'rk4'; did you mean 'Runge-Kutta-4'? Known methods: Euler, Runge-Kutta-2, ..."
+/// \param kind "method", for example
+std::string unknownName(std::string_view kind, std::string_view name,
+                        const std::vector<std::string>& known);
+
+}  // namespace spring_pendulum

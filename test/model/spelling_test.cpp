@@ -1,0 +1,46 @@
+// Suggestions for misspelt names.
+#include "model/spelling.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+TEST(Spelling, FindsTheMethodThatWasMeant) {
+  std::vector<std::string> methods;
+  for (const Method& method : methodTable()) methods.push_back(method.name);
+  const std::pair<const char*, const char*> rows[] = {
+      {"euler", "Euler"},
+      {"Oiler", "Euler"},
+      {"RK4", "Runge-Kutta-4"},
+      {"rk2", "Runge-Kutta-2"},
+      {"RungeKutta4", "Runge-Kutta-4"},
+      {"Runge_Kutta_2", "Runge-Kutta-2"},
+      {"runge kuta 4", "Runge-Kutta-4"},
+      {"verlet", "Velocity-Verlet"},
+      {"dopri5", "Dormand-Prince-5"},
+      {"radau", "Radau-9"},
+      {"SemiImplicitEuler", "Semi-Implicit-Euler"},
+      {"auto", "Auto"},
+      {"Runge-Kutta-5", ""},  // as near to 2 as to 4
+      {"Taylor", "Taylor-8"},
+      {"Leapfrog", ""},
+      {"4", ""},
+      {"", ""},
+  };
+  for (const auto& [given, meant] : rows) EXPECT_EQ(closestName(given, methods), meant) << given;
+}
+
+TEST(Spelling, TellsTheKnownNames) {
+  EXPECT_EQ(unknownName("key", "framse", {"frames", "sleep"}),
+            "unknown key 'framse'; did you mean 'frames'? Known keys: frames, sleep");
+  EXPECT_EQ(unknownName("key", "mass", {"frames", "sleep"}),
+            "unknown key 'mass'; known keys: frames, sleep");
+}
+
+}  // namespace
+}  // namespace spring_pendulum
