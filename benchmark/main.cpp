@@ -1,6 +1,7 @@
 // The main function of all benchmarks, each of which defines run().
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
 
 #include "options.hpp"
@@ -20,6 +21,11 @@ Options parseOptions(int count, char** words) {
       options.scene = value;
     } else if (key == "--peer") {
       options.peer = value;
+    } else if (key == "--particles") {
+      std::istringstream lengths(value);
+      for (std::string length; std::getline(lengths, length, ',');) {
+        options.particles.push_back(std::stoul(length));
+      }
     } else if (key == "--limit") {
       options.limit = std::stod(value);
     } else if (key == "--budget") {

@@ -1,16 +1,19 @@
 // The command line of all benchmarks: pairs of a name and a value.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace spring_pendulum::benchmark {
 
 struct Options {
-  std::string output = ".";  ///< folder of the CSV file
-  std::string scene;         ///< empty: all
-  std::string peer;          ///< library or method; empty: all
-  double limit = 2.0;        ///< s, longest time of a point; longer ones are recorded as too slow
-  double budget = 0.02;      ///< s, least time per point and pass
+  std::string output = ".";            ///< folder of the CSV file
+  std::string scene;                   ///< empty: all
+  std::string peer;                    ///< library or method; empty: all
+  std::vector<std::size_t> particles;  ///< lengths of chains, separated by commas; empty: all
+  double limit = 2.0;    ///< s, longest time of a point; longer ones are recorded as too slow
+  double budget = 0.02;  ///< s, least time per point and pass
   int passes = 2;
   bool smoke = false;  ///< few points, in seconds: checks that everything works
 };

@@ -106,10 +106,12 @@ void sample(const Problem& problem, Candidate& candidate) {
   if (problem.size() > kLarge) candidate.peer.reset();
 }
 
-std::vector<Candidate> candidatesFor(std::size_t particles) {
+/// \param library to compare with the plain loops; empty: all
+std::vector<Candidate> candidatesFor(std::size_t particles, const std::string& library) {
   std::vector<Candidate> candidates;
   for (const PeerRow& row : allPeers()) {
     if (!row.classical_runge_kutta) continue;
+    if (!library.empty() && row.library != library && row.library != "plain") continue;
     const bool own = row.library == "own";
     Candidate candidate;
     candidate.row = &row;
@@ -143,9 +145,12 @@ void write(const Problem& problem, Candidate& candidate, ResultFile& file) {
 }
 
 /// \param lost methods that failed with fewer particles, which are skipped
-bool runSize(std::size_t particles, int rounds, std::set<std::string>& lost, ResultFile& file) {
+bool runSize(std::size_t particles, const Options& options, std::set<std::string>& lost,
+             ResultFile& file) {
+  const int smallest = particles < 100'000 ? 25 : particles <= kLarge ? 7 : 3;
+  const int rounds = options.smoke ? 3 : smallest;
   const Problem problem = horizontalChain(particles);
-  std::vector<Candidate> candidates = candidatesFor(particles);
+  std::vector<Candidate> candidates = candidatesFor(particles, options.peer);
   bool all_agree = true;
   for (Candidate& candidate : candidates) {
     if (lost.count(candidate.row->name) > 0) {
@@ -184,11 +189,13 @@ int run(const Options& options) {
                   "force_evaluations_a_step,difference_m_or_m_per_s,note");
   bool all_agree = true;
   std::set<std::string> lost;
-  for (std::size_t particles :
-       {3, 11, 17, 33, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000}) {
+  std::vector<std::size_t> lengths = options.particles;
+  if (lengths.empty()) {
+    lengths = {3, 11, 17, 33, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000};
+  }
+  for (const std::size_t particles : lengths) {
     if (options.smoke && particles > 1'000) break;
-    const int rounds = options.smoke ? 3 : particles < 100'000 ? 25 : particles <= kLarge ? 7 : 3;
-    all_agree = runSize(particles, rounds, lost, file) && all_agree;
+    all_agree = runSize(particles, options, lost, file) && all_agree;
   }
   return all_agree ? 0 : 1;
 }

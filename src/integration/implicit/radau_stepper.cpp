@@ -34,8 +34,8 @@ constexpr double kRounding = 1e-14;
 constexpr double kErrorOfFailure = 32.0;
 
 void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]) {
-  for (std::ptrdiff_t c = 0; c < 4; ++c)
-    buffer.data()[c * buffer.pitch() + static_cast<std::ptrdiff_t>(particle)] = values[c];
+  double* const row = buffer.particle(static_cast<Eigen::Index>(particle));
+  for (std::ptrdiff_t c = 0; c < 4; ++c) row[c * buffer.pitch()] = values[c];
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ double RadauStepper::attempt(double h) {
 
 RadauStepper::Ends RadauStepper::endsOf(std::size_t spring, const StateBuffer& state) {
   const std::ptrdiff_t pitch = state.pitch();
-  const double* z = state.data() + spring;
+  const double* z = state.particle(static_cast<Eigen::Index>(spring));
   return {{z[1] - z[0], z[pitch + 1] - z[pitch]},
           {z[2 * pitch + 1] - z[2 * pitch], z[3 * pitch + 1] - z[3 * pitch]}};
 }
@@ -143,7 +143,7 @@ void RadauStepper::predict(double h) {
   };
   const std::ptrdiff_t pitch = begin().pitch();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const double* velocity = begin().data() + 2 * pitch + i;
+    const double* velocity = begin().particle(static_cast<Eigen::Index>(i)) + 2 * pitch;
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
     guess(velocity[0], old.vx, next.x, next.vx);
@@ -285,7 +285,7 @@ PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected)
 double RadauStepper::filteredError(bool corrected) {
   const double q = real_.q;
   const auto position_part = [&](std::size_t i) {
-    const double* velocity = begin().data() + 2 * begin().pitch() + i;
+    const double* velocity = begin().particle(static_cast<Eigen::Index>(i)) + 2 * begin().pitch();
     const Increments& stage = stages_.particles[i];
     return PlaneVector<double>{q * velocity[0] + radau::dot(radau::kError, stage.x),
                                q * velocity[begin().pitch()] + radau::dot(radau::kError, stage.y)};
@@ -328,7 +328,7 @@ double RadauStepper::stepExplicitly(double h) {
   const std::ptrdiff_t pitch = begin().pitch();
   double finite = 0.0;
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const double* slope = change_.data() + i;
+    const double* slope = change_.particle(static_cast<Eigen::Index>(i));
     Increments& stage = stages_.particles[i];
     for (std::size_t s = 0; s < kStages; ++s) {
       const double time = h * radau::kNodes[s];
@@ -351,7 +351,7 @@ void RadauStepper::setEndFromLastStage() {
   const std::ptrdiff_t pitch = begin().pitch();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const Increments& stage = stages_.particles[i];
-    const double* lost = carry().data() + i;
+    const double* lost = carry().particle(static_cast<Eigen::Index>(i));
     const double changes[] = {lost[0] + stage.x.back(), lost[pitch] + stage.y.back(),
                               lost[2 * pitch] + stage.vx.back(), lost[3 * pitch] + stage.vy.back()};
     setRow(change_, i, changes);

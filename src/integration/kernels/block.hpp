@@ -48,31 +48,52 @@ struct BlockPlace {
           fused(weight, slope.vx, state.vx), fused(weight, slope.vy, state.vy)};
 }
 
-/// Number of blocks of a chain of `size` particles.
+/// Number of blocks of a chain of `size` particles, at least 1.
 [[gnu::always_inline]] inline std::ptrdiff_t blocksOf(std::ptrdiff_t size) {
-  return (size + kLanes - 1) / kLanes;
+  return size > 1 ? (size - 2) / kLanes + 1 : 1;
 }
 
-/// Returns the force on each particle of a block from the spring to its right neighbour, 0 for the
-/// last particle of the chain. Without damping no velocity is read, which changes no bit.
+/// Returns where a block of moving particles lies; block -1 ends with the fixed particle.
+template <typename Number>
+[[gnu::always_inline]] inline BlockPlace<Number> placeOf(Number* state, std::ptrdiff_t pitch,
+                                                         std::ptrdiff_t block) {
+  return {state + kFirstMoving + block * kLanes, pitch};
+}
+
+/// Returns the separations of the particles of a block from their left neighbours.
+[[gnu::always_inline]] inline PlaneVector<Pack> separationsOf(const Block& left,
+                                                              const Block& here) {
+  return {here.x - leftNeighbours(left.x, here.x), here.y - leftNeighbours(left.y, here.y)};
+}
+
+/// Returns the velocities of the particles of a block relative to their left neighbours.
+[[gnu::always_inline]] inline PlaneVector<Pack> approachesOf(const Block& left, const Block& here) {
+  return {here.vx - leftNeighbours(left.vx, here.vx), here.vy - leftNeighbours(left.vy, here.vy)};
+}
+
+/// Returns the forces of the springs of a block with those behind the end of the chain set to 0.
+[[gnu::always_inline]] inline PlaneVector<Pack> onlySprings(const PlaneVector<Pack>& force,
+                                                            const KernelChain& chain,
+                                                            std::ptrdiff_t block) {
+  const std::ptrdiff_t springs = chain.size - 1 - block * kLanes;
+  if (springs >= kLanes) return force;
+  return {only(force.x, 0, springs), only(force.y, 0, springs)};
+}
+
+/// Returns the forces of the springs between the particles of a block and their left neighbours, as
+/// they act on the left neighbours. Without damping no velocity is read, which changes no bit.
 template <bool kDamped>
-[[gnu::always_inline]] inline PlaneVector<Pack> forcesFromRight(const KernelChain& chain,
-                                                                const Block& here,
-                                                                const Block& right,
-                                                                std::ptrdiff_t block) {
-  const PlaneVector<Pack> separation{rightNeighbours(here.x, right.x) - here.x,
-                                     rightNeighbours(here.y, right.y) - here.y};
+[[gnu::always_inline]] inline PlaneVector<Pack> springForces(const KernelChain& chain,
+                                                             const Block& left, const Block& here,
+                                                             std::ptrdiff_t block) {
+  const PlaneVector<Pack> separation = separationsOf(left, here);
   PlaneVector<Pack> force;
   if constexpr (kDamped) {
-    const PlaneVector<Pack> approach{rightNeighbours(here.vx, right.vx) - here.vx,
-                                     rightNeighbours(here.vy, right.vy) - here.vy};
-    force = springForce(chain.spring, separation, approach);
+    force = springForce(chain.spring, separation, approachesOf(left, here));
   } else {
     force = undampedSpringForce(chain.spring, separation);
   }
-  const std::ptrdiff_t springs = chain.size - 1 - block * kLanes;
-  if (springs < kLanes) force = {only(force.x, 0, springs), only(force.y, 0, springs)};
-  return force;
+  return onlySprings(force, chain, block);
 }
 
 /// dissipated += weight * rate², with weight = k_d times a time, kg.
@@ -81,28 +102,27 @@ template <bool kDamped>
 }
 
 /// Returns the slope of a block.
-/// \param left, right forces of the springs to the right of each particle, in the block to the left
-///   and in this block
-/// \tparam kInner whether the block is neither the first nor the last, so that all its particles
-///   move
+/// \param forces, next_forces forces of the springs to the left of each particle, in this block and
+///   in the block to the right
+/// \tparam kInner whether the block is not the last, so that it contains no padding
 template <bool kGravity, bool kInner = false>
 [[gnu::always_inline]] inline Block slopeOf(const KernelChain& chain, const Block& here,
-                                            const PlaneVector<Pack>& left,
-                                            const PlaneVector<Pack>& right, std::ptrdiff_t block) {
+                                            const PlaneVector<Pack>& forces,
+                                            const PlaneVector<Pack>& next_forces,
+                                            std::ptrdiff_t block) {
   const Pack inverse_mass = Pack::load(chain.inverse_masses + chain.mass_stride * (block * kLanes));
-  const PlaneVector<Pack> force{right.x - leftNeighbours(left.x, right.x),
-                                right.y - leftNeighbours(left.y, right.y)};
+  const PlaneVector<Pack> force{rightNeighbours(forces.x, next_forces.x) - forces.x,
+                                rightNeighbours(forces.y, next_forces.y) - forces.y};
   Block slope{here.vx, here.vy, force.x * inverse_mass, {}};
   if constexpr (kGravity) {
     slope.vy = fused(force.y, inverse_mass, -chain.gravity);
   } else {
     slope.vy = force.y * inverse_mass;
   }
-  const std::ptrdiff_t particles = chain.size - block * kLanes;
-  if (!kInner && (block == 0 || particles < kLanes)) {
-    const std::ptrdiff_t first_moving = block == 0 ? 1 : 0;
-    slope = {only(slope.x, first_moving, particles), only(slope.y, first_moving, particles),
-             only(slope.vx, first_moving, particles), only(slope.vy, first_moving, particles)};
+  const std::ptrdiff_t particles = chain.size - 1 - block * kLanes;
+  if (!kInner && particles < kLanes) {
+    slope = {only(slope.x, 0, particles), only(slope.y, 0, particles), only(slope.vx, 0, particles),
+             only(slope.vy, 0, particles)};
   }
   return slope;
 }

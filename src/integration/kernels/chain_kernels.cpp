@@ -85,13 +85,13 @@ KernelConstants::KernelConstants(const Chain& chain, bool skip_masses) {
   chain_.gravity = chain.gravity();
   chain_.mass_stride = skipped ? 0 : 1;
   chain_.size = chain.size();
-  chain_.pitch = StateBuffer::paddedSize(chain.size());
+  chain_.pitch = StateBuffer::pitchFor(chain.size());
   inverse_masses_ = AlignedNumbers(skipped ? 8 : chain_.pitch);
   chain_.inverse_masses = inverse_masses_.data();
   if (skipped) {
     std::fill_n(inverse_masses_.data(), 8, chain.inverseMasses()[1]);
   } else {
-    std::copy_n(chain.inverseMasses().data(), chain.size(), inverse_masses_.data());
+    std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, inverse_masses_.data());
   }
 }
 

@@ -21,16 +21,20 @@
 
 namespace spring_pendulum {
 
-/// A chain of N particles. States and slopes have the layout of `StateBuffer`: column c of particle
-/// i is element c * pitch + i.
+/// Element of the first moving particle in a column of `StateBuffer`. The fixed particle precedes it,
+/// so aligned vectors contain moving particles only: N - 1 particles and N - 1 springs.
+inline constexpr std::ptrdiff_t kFirstMoving = 8;
+
+/// A chain of N particles. States and slopes have the layout of `StateBuffer`: column c of moving
+/// particle i is element c * pitch + kFirstMoving + i.
 struct KernelChain {
   SpringLaw spring;
   double gravity = 0.0;  ///< m/s²
-  /// 1/kg, a column of N numbers, or 8 equal numbers if `mass_stride` is 0
+  /// Of the N - 1 moving particles, 1/kg, or 8 equal numbers if `mass_stride` is 0
   const double* inverse_masses = nullptr;
   std::ptrdiff_t mass_stride = 1;  ///< 1, or 0 if all moving particles have the same mass
   std::ptrdiff_t size = 0;         ///< N >= 1; the first particle is fixed
-  std::ptrdiff_t pitch = 0;        ///< length of a column, a multiple of 8, at least N
+  std::ptrdiff_t pitch = 0;        ///< length of a column, see `StateBuffer::pitchFor`
 };
 
 /// The term w k of a sum: weight (step size times a coefficient) and slope (N×4).
@@ -60,9 +64,15 @@ constexpr std::ptrdiff_t ringBlocks(std::size_t stages) {
   return blocks;
 }
 
+/// Largest number of blocks of a chain that does one stage after the other.
+constexpr std::ptrdiff_t kWholeBlocks = 64;
+
 /// Doubles of workspace for whole steps: states, sums, slopes and springs of every stage.
 constexpr std::ptrdiff_t stepWorkspaceSize(std::size_t stages) {
-  return static_cast<std::ptrdiff_t>(stages) * (4 * ringBlocks(stages) * 4 + 2) * 8;
+  const auto count = static_cast<std::ptrdiff_t>(stages);
+  const std::ptrdiff_t rings = 4 * count * ringBlocks(stages);
+  const std::ptrdiff_t whole = (3 + count) * (kWholeBlocks + 1);
+  return (2 * count + 4 * (rings > whole ? rings : whole)) * 8;
 }
 
 /// Terms that a kernel for whole steps computes. A term that is 0 may be left out for speed.

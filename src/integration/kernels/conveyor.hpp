@@ -8,9 +8,10 @@
 //
 //     tick t:   stage 1 of blocks t and t-1,  stage 2 of t-3 and t-4,  ...  stage 4 of t-9 and t-10
 //
-// The halves of one tick do not depend on each other. Chains of up to four blocks are kept in
-// registers where these suffice. Chains that fit the ring buffers complete each stage before the
-// next.
+// The halves of one tick do not depend on each other. Here blocks are counted from the free end,
+// because the springs of a block need the block to the left, and its particles the springs to the
+// right. Short chains are kept in registers where these suffice. Chains whose workspace fits the
+// first-level cache complete each stage before the next.
 #pragma once
 
 #include "integration/kernels/block.hpp"
@@ -39,20 +40,23 @@ class Conveyor {
         workspace_(workspace),
         blocks_(blocksOf(chain.size)) {}
 
-  bool isShort() const { return blocks_ <= 4; }
+  /// Whether the chain has so few blocks that its code is unrolled.
+  bool isShort() const { return blocks_ <= 8; }
 
-  void advanceShort(std::ptrdiff_t steps) {
-    if (blocks_ == 1) return shortSteps(steps, std::make_index_sequence<1>());
-    if (blocks_ == 2) return shortSteps(steps, std::make_index_sequence<2>());
-    if (blocks_ == 3) return shortSteps(steps, std::make_index_sequence<3>());
-    return shortSteps(steps, std::make_index_sequence<4>());
-  }
+  void advanceShort(std::ptrdiff_t steps) { shortSteps(steps, std::make_index_sequence<8>()); }
 
-  void advance(std::ptrdiff_t steps) {
-    for (std::ptrdiff_t n = 0; n < steps; ++n) step(std::make_index_sequence<kTableau.stages>());
+  // Inlined, so that the compiler keeps constants in registers instead of reading them again after
+  // every store.
+  [[gnu::always_inline]] void advance(std::ptrdiff_t steps) {
+    constexpr auto kAll = std::make_index_sequence<kTableau.stages>();
+    if (blocks_ <= kWholeBlocks) return wholeSteps(steps, kAll);
+    for (std::ptrdiff_t n = 0; n < steps; ++n) step(kAll);
   }
 
  private:
+  /// Layout of the workspace: a record per block of the chain, or a ring of records per stage.
+  enum class Memory { kWhole, kRings };
+
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
   /// Ticks between the halves of a stage, so that about four halves of other stages run meanwhile.
   static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
@@ -86,16 +90,46 @@ class Conveyor {
   static constexpr std::ptrdiff_t kRing = keepsSlopes() ? ringBlocks(kStages) : 8;
 
   template <std::size_t... kStage>
-  void step(std::index_sequence<kStage...> /*stages*/) {
+  [[gnu::always_inline]] void step(std::index_sequence<kStage...> /*stages*/) {
     for (std::ptrdiff_t i = 0; i < kStages; ++i) {
       Pack{}.store(forcesOf(i));
       Pack{}.store(forcesOf(i) + kLanes);
     }
-    if (blocks_ <= kRing) return (wholeStage<kStage>(), ...);
     std::ptrdiff_t tick = 0;
     for (; tick <= kFill; ++tick) (halves<kStage>(tick), ...);
     for (; tick < blocks_ - 1; ++tick) (innerHalves<kStage>(tick), ...);
     for (; tick < blocks_ + kFill; ++tick) (halves<kStage>(tick), ...);
+  }
+
+  /// Steps that complete each stage before the next. The last `kLead` second halves of a stage
+  /// alternate with the first halves of the next one.
+  template <std::size_t... kStage>
+  [[gnu::always_inline]] void wholeSteps(std::ptrdiff_t steps,
+                                         std::index_sequence<kStage...> /*stages*/) {
+    const Block fixed = load(placeOf<const double>(state_, chain_.pitch, -1));
+    store(fixed, {recordOf<Memory::kWhole>(0, -1), kLanes});
+    PlaneVector<Pack> next_forces{};
+    for (std::ptrdiff_t n = 0; n < steps; ++n) (wholeStage<kStage>(n > 0, next_forces), ...);
+    for (std::ptrdiff_t block = kLead - 1; block >= 0; --block) {
+      finish<kStages - 1, Memory::kWhole, true>(block, next_forces);
+    }
+  }
+
+  template <std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void wholeStage(bool has_previous, PlaneVector<Pack>& next_forces) {
+    constexpr std::ptrdiff_t kPrevious = (kStage + kStages - 1) % kStages;
+    std::ptrdiff_t block = blocks_ - 1;
+    for (std::ptrdiff_t last = kLead - 1; last >= 0; --last, --block) {
+      if (kStage > 0 || has_previous) finish<kPrevious, Memory::kWhole, true>(last, next_forces);
+      begin<kStage, Memory::kWhole, true>(block);
+    }
+    next_forces = {};
+    finish<kStage, Memory::kWhole, false>(blocks_ - 1, next_forces);
+    begin<kStage, Memory::kWhole, true>(block);
+    for (--block; block >= 0; --block) {
+      finish<kStage, Memory::kWhole, true>(block + kLead, next_forces);
+      begin<kStage, Memory::kWhole, true>(block);
+    }
   }
 
   /// A block of a short chain, which the compiler keeps in registers where these suffice.
@@ -106,16 +140,24 @@ class Conveyor {
     Block slopes[keepsSlopes() ? kStages : 1];
   };
 
+  /// Calls `shortStepsOf` for the number of blocks of the chain.
+  template <std::size_t... kCount>
+  void shortSteps(std::ptrdiff_t steps, std::index_sequence<kCount...> /*counts*/) {
+    (void)((blocks_ == static_cast<std::ptrdiff_t>(kCount) + 1 &&
+            (shortStepsOf(steps, std::make_index_sequence<kCount + 1>()), true)) ||
+           ...);
+  }
+
   template <std::size_t... kBlock>
-  void shortSteps(std::ptrdiff_t steps, std::index_sequence<kBlock...> blocks) {
+  void shortStepsOf(std::ptrdiff_t steps, std::index_sequence<kBlock...> blocks) {
     ShortBlock chain[sizeof...(kBlock)];
-    ((chain[kBlock].state = load({state_ + kBlock * kLanes, chain_.pitch})), ...);
+    ((chain[kBlock].state = load(placeOf<const double>(state_, chain_.pitch, kBlock))), ...);
     for (std::ptrdiff_t n = 0; n < steps; ++n) {
       ((chain[kBlock].at = chain[kBlock].sum = chain[kBlock].state), ...);
       shortStages(chain, blocks, std::make_index_sequence<kTableau.stages>());
       ((chain[kBlock].state = chain[kBlock].sum), ...);
     }
-    (store(chain[kBlock].state, {state_ + kBlock * kLanes, chain_.pitch}), ...);
+    (store(chain[kBlock].state, placeOf(state_, chain_.pitch, kBlock)), ...);
   }
 
   template <std::size_t... kBlock, std::size_t... kStage>
@@ -127,15 +169,16 @@ class Conveyor {
   template <std::size_t kStage, std::size_t... kBlock>
   [[gnu::always_inline]] void shortStage(ShortBlock* chain, std::index_sequence<kBlock...>) {
     constexpr std::size_t kLast = sizeof...(kBlock) - 1;
-    ((chain[kBlock].springs =
-          springsBetween(chain[kBlock].at, chain[kBlock < kLast ? kBlock + 1 : kLast].at)),
+    const Block fixed = load(placeOf<const double>(state_, chain_.pitch, -1));
+    ((chain[kBlock].springs = springsBetween(
+          kBlock > 0 ? chain[kBlock > 0 ? kBlock - 1 : 0].at : fixed, chain[kBlock].at)),
      ...);
     ((chain[kBlock].forces = forcesFrom<kStage, (kBlock < kLast)>(chain[kBlock].springs, kBlock)),
      ...);
-    ((chain[kBlock].slope = slopeOf<kGravity>(
-          chain_, chain[kBlock].at,
-          kBlock > 0 ? chain[kBlock > 0 ? kBlock - 1 : 0].forces : PlaneVector<Pack>{},
-          chain[kBlock].forces, kBlock)),
+    ((chain[kBlock].slope = slopeOf<kGravity, (kBlock < kLast)>(
+          chain_, chain[kBlock].at, chain[kBlock].forces,
+          kBlock < kLast ? chain[kBlock < kLast ? kBlock + 1 : kLast].forces : PlaneVector<Pack>{},
+          kBlock)),
      ...);
     (shortResult<kStage>(chain[kBlock], std::make_index_sequence<kStage>()), ...);
   }
@@ -163,86 +206,85 @@ class Conveyor {
   }
 
   template <std::ptrdiff_t kStage>
-  void wholeStage() {
-    for (std::ptrdiff_t block = 0; block < blocks_ + kLead; ++block) {
-      if (block >= kLead) finish<kStage, false>(block - kLead);
-      if (block < blocks_) begin<kStage, false>(block);
-    }
-  }
-
-  template <std::ptrdiff_t kStage>
   [[gnu::always_inline]] void halves(std::ptrdiff_t tick) {
-    const std::ptrdiff_t block = tick - kBlocksBetweenStages * kStage;
-    if (block >= kLag && block - kLag < blocks_) finish<kStage, false>(block - kLag);
-    if (block >= 0 && block < blocks_) begin<kStage, false>(block);
+    const std::ptrdiff_t turn = tick - kBlocksBetweenStages * kStage;
+    const std::ptrdiff_t block = blocks_ - 1 - turn;
+    if (turn >= kLag && turn - kLag < blocks_) finish<kStage, false>(block + kLag);
+    if (turn >= 0 && turn < blocks_) begin<kStage, Memory::kRings, false>(block);
   }
 
   template <std::ptrdiff_t kStage>
   [[gnu::always_inline]] void innerHalves(std::ptrdiff_t tick) {
-    const std::ptrdiff_t block = tick - kBlocksBetweenStages * kStage;
-    finish<kStage, true>(block - kLag);
-    begin<kStage, true>(block);
+    const std::ptrdiff_t block = blocks_ - 1 - tick + kBlocksBetweenStages * kStage;
+    finish<kStage, true>(block + kLag);
+    begin<kStage, Memory::kRings, true>(block);
   }
 
   /// First half of a stage: separations and inverse lengths of the springs.
-  template <std::ptrdiff_t kStage, bool kInner>
+  /// \tparam kInner whether there is a block to the left
+  template <std::ptrdiff_t kStage, Memory kMemory, bool kInner>
   [[gnu::always_inline]] void begin(std::ptrdiff_t block) {
-    const Block here = load(stateOf(kStage, block));
-    const Block next = load(stateOf(kStage, kInner || block + 1 < blocks_ ? block + 1 : block));
-    const Springs springs = springsBetween(here, next);
-    double* const to = springsOf(kStage) + inRing(block);
+    const Block here = load(stateOf<kStage, kMemory>(block));
+    const Block left = load(kInner || block > 0 ? stateOf<kStage, kMemory>(block - 1)
+                                                : placeOf<const double>(state_, chain_.pitch, -1));
+    const Springs springs = springsBetween(left, here);
+    double* const to = recordOf<kMemory>(kStage, block) + kSpringsAt;
     springs.separation.x.store(to);
     springs.separation.y.store(to + kLanes);
     springs.inverse_length.store(to + 2 * kLanes);
     if constexpr (kDamped) springs.dot.store(to + 3 * kLanes);
   }
 
-  [[gnu::always_inline]] static Springs springsBetween(const Block& here, const Block& next) {
+  [[gnu::always_inline]] static Springs springsBetween(const Block& left, const Block& here) {
     Springs springs{};
-    springs.separation = {rightNeighbours(here.x, next.x) - here.x,
-                          rightNeighbours(here.y, next.y) - here.y};
+    springs.separation = separationsOf(left, here);
     springs.inverse_length = inverseSquareRoot(squaredLength(springs.separation));
-    if constexpr (kDamped) {
-      const PlaneVector<Pack> approach{rightNeighbours(here.vx, next.vx) - here.vx,
-                                       rightNeighbours(here.vy, next.vy) - here.vy};
-      springs.dot = dotProduct(approach, springs.separation);
-    }
+    if constexpr (kDamped) springs.dot = dotProduct(approachesOf(left, here), springs.separation);
     return springs;
   }
 
   /// Second half of a stage: forces, slope, and the state of the next stage or the end of the step.
+  /// \tparam kInner whether there is a block to the right
   template <std::ptrdiff_t kStage, bool kInner>
   [[gnu::always_inline]] void finish(std::ptrdiff_t block) {
-    const double* const from = springsOf(kStage) + inRing(block);
+    double* const carried = forcesOf(kStage);
+    PlaneVector<Pack> next_forces{Pack::load(carried), Pack::load(carried + kLanes)};
+    finish<kStage, Memory::kRings, kInner>(block, next_forces);
+    next_forces.x.store(carried);
+    next_forces.y.store(carried + kLanes);
+  }
+
+  template <std::ptrdiff_t kStage, Memory kMemory, bool kInner>
+  [[gnu::always_inline]] void finish(std::ptrdiff_t block, PlaneVector<Pack>& next_forces) {
+    double* const record = recordOf<kMemory>(kStage, block);
+    double* const next_record = recordOf<kMemory>(kStage + 1, block);
+    const double* const from = record + kSpringsAt;
     Springs springs{
         {Pack::load(from), Pack::load(from + kLanes)}, Pack::load(from + 2 * kLanes), {}};
     if constexpr (kDamped) springs.dot = Pack::load(from + 3 * kLanes);
     const PlaneVector<Pack> forces = forcesFrom<kStage, kInner>(springs, block);
-    double* const carried = forcesOf(kStage);
-    const PlaneVector<Pack> before{Pack::load(carried), Pack::load(carried + kLanes)};
-    forces.x.store(carried);
-    forces.y.store(carried + kLanes);
-    const BlockPlace<const double> at = stateOf(kStage, block);
+    const BlockPlace<const double> at = stateOf<kStage, kMemory>(block);
     const Block here{
         {}, {}, Pack::load(at.first + 2 * at.pitch), Pack::load(at.first + 3 * at.pitch)};
-    const Block slope = slopeOf<kGravity, kInner>(chain_, here, before, forces, block);
-    const BlockPlace<double> place{state_ + block * kLanes, chain_.pitch};
-    Block sum = kStage == 0 ? load({place.first, place.pitch})
-                            : load({sumsOf(kStage) + inRing(block), kLanes});
+    const Block slope = slopeOf<kGravity, kInner>(chain_, here, forces, next_forces, block);
+    next_forces = forces;
+    const BlockPlace<double> place = placeOf(state_, chain_.pitch, block);
+    Block sum = kStage == 0 ? load({place.first, place.pitch}) : load({record + kSumAt, kLanes});
     if constexpr (kTableau.b[kStage] != 0.0) {
       sum = plusWeighted(sum, weights_.after[kStages - 1][kStage], slope);
     }
     if constexpr (kStage + 1 == kStages) {
       store(sum, place);
     } else {
-      store(sum, {sumsOf(kStage + 1) + inRing(block), kLanes});
+      store(sum, {next_record + kSumAt, kLanes});
       Block result = load({place.first, place.pitch});
-      result = plusEarlierSlopes<kStage>(result, block, std::make_index_sequence<kStage>());
+      result =
+          plusEarlierSlopes<kStage, kMemory>(result, block, std::make_index_sequence<kStage>());
       if constexpr (kTableau.a[kStage + 1][kStage] != 0.0) {
         result = plusWeighted(result, weights_.after[kStage][kStage], slope);
       }
-      store(result, {statesOf(kStage + 1) + inRing(block), kLanes});
-      if constexpr (keepsSlope(kStage)) store(slope, {slopesOf(kStage) + inRing(block), kLanes});
+      store(result, {next_record, kLanes});
+      if constexpr (keepsSlope(kStage)) store(slope, {slopeAt<kMemory>(kStage, block), kLanes});
     }
   }
 
@@ -259,45 +301,49 @@ class Conveyor {
     } else {
       forces = undampedSpringForce(chain_.spring, springs.separation, springs.inverse_length);
     }
-    const std::ptrdiff_t springs_left = chain_.size - 1 - block * kLanes;
-    if (!kInner && springs_left < kLanes) {
-      forces = {only(forces.x, 0, springs_left), only(forces.y, 0, springs_left)};
-    }
-    return forces;
+    return kInner ? forces : onlySprings(forces, chain_, block);
   }
 
-  template <std::ptrdiff_t kStage, std::size_t... kEarlier>
+  template <std::ptrdiff_t kStage, Memory kMemory, std::size_t... kEarlier>
   [[gnu::always_inline]] Block plusEarlierSlopes(Block result,
                                                  [[maybe_unused]] std::ptrdiff_t block,
                                                  std::index_sequence<kEarlier...> /*stages*/) {
-    ((result = plusEarlierSlope<kStage, kEarlier>(result, block)), ...);
+    ((result = plusEarlierSlope<kStage, kMemory, kEarlier>(result, block)), ...);
     return result;
   }
 
-  template <std::ptrdiff_t kStage, std::size_t kEarlier>
+  template <std::ptrdiff_t kStage, Memory kMemory, std::size_t kEarlier>
   [[gnu::always_inline]] Block plusEarlierSlope(const Block& result, std::ptrdiff_t block) {
     if constexpr (kTableau.a[kStage + 1][kEarlier] == 0.0) return result;
-    const Block slope = load({slopesOf(kEarlier) + inRing(block), kLanes});
+    const Block slope = load({slopeAt<kMemory>(kEarlier, block), kLanes});
     return plusWeighted(result, weights_.after[kStage][kEarlier], slope);
   }
 
-  /// Workspace of a stage: ring buffers of blocks, then the spring forces of the previous block.
-  static constexpr std::ptrdiff_t kRingNumbers = kRing * kBlockNumbers;
-  double* statesOf(std::ptrdiff_t stage) const {
-    return workspace_ + stage * (4 * kRingNumbers + 2 * kLanes);
+  /// Workspace of a block: its state at a stage, the sum up to there, its springs, and slopes.
+  static constexpr std::ptrdiff_t kSumAt = kBlockNumbers;
+  static constexpr std::ptrdiff_t kSpringsAt = 2 * kBlockNumbers;
+  static constexpr std::ptrdiff_t kSlopesAt = 3 * kBlockNumbers;
+  template <Memory kMemory>
+  double* recordOf(std::ptrdiff_t stage, std::ptrdiff_t block) const {
+    constexpr bool kWhole = kMemory == Memory::kWhole;
+    constexpr std::ptrdiff_t kSlopes = !keepsSlopes() ? 0 : kWhole ? kStages : 1;
+    constexpr std::ptrdiff_t kNumbers = kSlopesAt + kSlopes * kBlockNumbers;
+    double* const first = workspace_ + 2 * kLanes * kStages;
+    if (kWhole) return first + (block + 1) * kNumbers;
+    return first + (stage * kRing + (block & (kRing - 1))) * kNumbers;
   }
-  double* sumsOf(std::ptrdiff_t stage) const { return statesOf(stage) + kRingNumbers; }
-  double* springsOf(std::ptrdiff_t stage) const { return statesOf(stage) + 2 * kRingNumbers; }
-  double* slopesOf(std::ptrdiff_t stage) const { return statesOf(stage) + 3 * kRingNumbers; }
-  double* forcesOf(std::ptrdiff_t stage) const { return statesOf(stage) + 4 * kRingNumbers; }
-  static std::ptrdiff_t inRing(std::ptrdiff_t block) {
-    return (block & (kRing - 1)) * kBlockNumbers;
+  template <Memory kMemory>
+  double* slopeAt(std::ptrdiff_t stage, std::ptrdiff_t block) const {
+    return recordOf<kMemory>(stage, block) + kSlopesAt +
+           (kMemory == Memory::kWhole ? stage * kBlockNumbers : 0);
   }
+  /// The forces of the springs of the block to the right.
+  double* forcesOf(std::ptrdiff_t stage) const { return workspace_ + 2 * kLanes * stage; }
 
-  [[gnu::always_inline]] BlockPlace<const double> stateOf(std::ptrdiff_t stage,
-                                                          std::ptrdiff_t block) const {
-    if (stage == 0) return {state_ + block * kLanes, chain_.pitch};
-    return {statesOf(stage) + inRing(block), kLanes};
+  template <std::ptrdiff_t kStage, Memory kMemory>
+  [[gnu::always_inline]] BlockPlace<const double> stateOf(std::ptrdiff_t block) const {
+    if constexpr (kStage == 0) return placeOf<const double>(state_, chain_.pitch, block);
+    return {recordOf<kMemory>(kStage, block), kLanes};
   }
 
   const KernelChain chain_;  ///< copy: through a reference it would be reloaded after every store

@@ -15,7 +15,7 @@ class DissipatedEnergy {
  public:
   DissipatedEnergy() = default;
   explicit DissipatedEnergy(Eigen::Index particles)
-      : springs_(particles - 1), numbers_(StateBuffer::paddedSize(particles)) {}
+      : springs_(particles - 1), numbers_(StateBuffer::pitchFor(particles)) {}
 
   double* data() { return numbers_.data(); }
   void reset() { std::fill_n(numbers_.data(), springs_, 0.0); }

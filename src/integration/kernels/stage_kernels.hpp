@@ -19,9 +19,9 @@ constexpr double kNoLength = 1e-12;
 
 [[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
                                                   SlopeSum sum, std::ptrdiff_t block) {
-  Block result = load({state + block * kLanes, pitch});
+  Block result = load(placeOf(state, pitch, block));
   for (std::ptrdiff_t k = 0; k < sum.count; ++k) {
-    const Block slope = load({sum.terms[k].slope + block * kLanes, pitch});
+    const Block slope = load(placeOf(sum.terms[k].slope, pitch, block));
     result = plusWeighted(result, sum.terms[k].weight, slope);
   }
   return result;
@@ -33,16 +33,17 @@ void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum 
                 double* slope) {
   const KernelChain chain = callers_chain;
   const std::ptrdiff_t blocks = blocksOf(chain.size);
-  Block here = combinedBlock(chain.pitch, state, sum, 0);
-  PlaneVector<Pack> left{};
-  for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-    const std::ptrdiff_t next_block = block + 1 < blocks ? block + 1 : block;
-    const Block next = combinedBlock(chain.pitch, state, sum, next_block);
-    const PlaneVector<Pack> right = forcesFromRight<kDamped>(chain, here, next, block);
-    store(slopeOf<true>(chain, here, left, right, block), {slope + block * kLanes, chain.pitch});
-    left = right;
-    here = next;
+  Block here = combinedBlock(chain.pitch, state, sum, blocks - 1);
+  PlaneVector<Pack> next_forces{};
+  for (std::ptrdiff_t block = blocks - 1; block >= 0; --block) {
+    const Block left = combinedBlock(chain.pitch, state, sum, block - 1);
+    const PlaneVector<Pack> forces = springForces<kDamped>(chain, left, here, block);
+    store(slopeOf<true>(chain, here, forces, next_forces, block),
+          placeOf(slope, chain.pitch, block));
+    next_forces = forces;
+    here = left;
   }
+  store({}, placeOf(slope, chain.pitch, -1));
 }
 
 void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, double* slope) {
@@ -51,8 +52,8 @@ void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, dou
 }
 
 void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out) {
-  for (std::ptrdiff_t block = 0; block < pitch / kLanes; ++block) {
-    store(combinedBlock(pitch, state, sum, block), {out + block * kLanes, pitch});
+  for (std::ptrdiff_t block = -1; block < (pitch - kFirstMoving) / kLanes; ++block) {
+    store(combinedBlock(pitch, state, sum, block), placeOf(out, pitch, block));
   }
 }
 
@@ -61,14 +62,10 @@ void addDissipation(const KernelChain& callers_chain, const double* state, doubl
   const KernelChain chain = callers_chain;
   const std::ptrdiff_t blocks = blocksOf(chain.size);
   for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-    const Block here = load({state + block * kLanes, chain.pitch});
-    const Block next =
-        block + 1 < blocks ? load({state + (block + 1) * kLanes, chain.pitch}) : here;
-    const PlaneVector<Pack> separation{rightNeighbours(here.x, next.x) - here.x,
-                                       rightNeighbours(here.y, next.y) - here.y};
-    const PlaneVector<Pack> approach{rightNeighbours(here.vx, next.vx) - here.vx,
-                                     rightNeighbours(here.vy, next.vy) - here.vy};
-    addDissipation(weight, elongationRate(separation, approach), dissipated + block * kLanes);
+    const Block left = load(placeOf(state, chain.pitch, block - 1));
+    const Block here = load(placeOf(state, chain.pitch, block));
+    const Pack rate = elongationRate(separationsOf(left, here), approachesOf(left, here));
+    addDissipation(weight, rate, dissipated + block * kLanes);
   }
 }
 
@@ -80,13 +77,12 @@ void addWeighted(std::ptrdiff_t count, double weight, const double* from, double
 
 void compensatedSum(std::ptrdiff_t pitch, const double* state, const double* change, SlopeSum sum,
                     double* out, double* lost) {
-  for (std::ptrdiff_t block = 0; block < pitch / kLanes; ++block) {
-    const std::ptrdiff_t first = block * kLanes;
-    const Block from = load({state + first, pitch});
+  for (std::ptrdiff_t block = -1; block < (pitch - kFirstMoving) / kLanes; ++block) {
+    const Block from = load(placeOf(state, pitch, block));
     const Block step = combinedBlock(pitch, change, sum, block);
     const Block to = from + step;
-    store(to, {out + first, pitch});
-    store(step - (to - from), {lost + first, pitch});
+    store(to, placeOf(out, pitch, block));
+    store(step - (to - from), placeOf(lost, pitch, block));
   }
 }
 
@@ -96,7 +92,7 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
   for (std::ptrdiff_t block = 0; block < blocksOf(size); ++block) {
     Block change{};
     for (std::ptrdiff_t k = 0; k < sum.count; ++k) {
-      const Block slope = load({sum.terms[k].slope + block * kLanes, pitch});
+      const Block slope = load(placeOf(sum.terms[k].slope, pitch, block));
       change = plusWeighted(change, sum.terms[k].weight, slope);
     }
     position.add(change.x);
@@ -107,26 +103,24 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
   return {position.result(), velocity.result()};
 }
 
-/// Returns the separations of the particles of a block from their right neighbours.
+/// Returns the separations of the particles of a block from their left neighbours.
 [[gnu::always_inline]] inline PlaneVector<Pack> separations(const double* state,
                                                             std::ptrdiff_t pitch,
-                                                            std::ptrdiff_t block,
-                                                            std::ptrdiff_t next) {
-  const auto difference = [block, next](const double* column) {
-    const Pack here = Pack::load(column + block * kLanes);
-    return rightNeighbours(here, Pack::load(column + next * kLanes)) - here;
+                                                            std::ptrdiff_t block) {
+  const auto difference = [](const double* column) {
+    const Pack here = Pack::load(column);
+    return here - leftNeighbours(Pack::load(column - kLanes), here);
   };
-  return {difference(state), difference(state + pitch)};
+  const double* first = placeOf(state, pitch, block).first;
+  return {difference(first), difference(first + pitch)};
 }
 
 bool springsChangeMuch(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
                        const double* to) {
   Pack much;
-  const std::ptrdiff_t blocks = blocksOf(size);
-  for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-    const std::ptrdiff_t next = block + 1 < blocks ? block + 1 : block;
-    const PlaneVector<Pack> before = separations(from, pitch, block, next);
-    const PlaneVector<Pack> after = separations(to, pitch, block, next);
+  for (std::ptrdiff_t block = 0; block < blocksOf(size); ++block) {
+    const PlaneVector<Pack> before = separations(from, pitch, block);
+    const PlaneVector<Pack> after = separations(to, pitch, block);
     const PlaneVector<Pack> change{after.x - before.x, after.y - before.y};
     const Pack along = absolute(before.x * change.x + before.y * change.y);
     const Pack square = before.x * before.x + before.y * before.y;

@@ -1,33 +1,44 @@
 // States and slopes in the layout of the vector kernels.
 #pragma once
 
+#include "integration/kernels/chain_kernels.hpp"
 #include <spring_pendulum/model/aligned_numbers.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
+
 namespace spring_pendulum {
 
-/// N rows with the columns x, y, vx, vy (or their derivatives), like `State`. Every column begins
-/// on a cache line and is padded with zeros to `pitch()` rows, so that kernels may read and write
-/// whole vectors. Column c of particle i is `data()[c * pitch() + i]`.
+/// N rows with the columns x, y, vx, vy (or their derivatives), like `State`. In every column the
+/// first moving particle begins a cache line and zeros surround the N rows, so that kernels may read
+/// and write whole vectors. Column c of particle i is `particle(i)[c * pitch()]`.
 class StateBuffer {
  public:
   StateBuffer() = default;
   explicit StateBuffer(Eigen::Index particles)
-      : size_(particles), pitch_(paddedSize(particles)), numbers_(4 * pitch_) {}
+      : size_(particles), pitch_(pitchFor(particles)), numbers_(4 * pitch_) {}
 
-  /// Returns `particles` rounded up to a multiple of the longest vector, 8 doubles.
-  static Eigen::Index paddedSize(Eigen::Index particles) { return (particles + 7) / 8 * 8; }
+  /// Returns `count` rounded up to a multiple of the longest vector, 8 doubles.
+  static Eigen::Index paddedSize(Eigen::Index count) { return (count + 7) / 8 * 8; }
+  /// Returns the length of a column: a vector that ends with the fixed particle, then vectors of
+  /// moving particles, at least one.
+  static Eigen::Index pitchFor(Eigen::Index particles) {
+    return kFirstMoving + std::max<Eigen::Index>(paddedSize(particles - 1), 8);
+  }
 
   Eigen::Index size() const { return size_; }
   Eigen::Index pitch() const { return pitch_; }
   double* data() { return numbers_.data(); }
   const double* data() const { return numbers_.data(); }
 
+  double* particle(Eigen::Index i) { return data() + kFirstMoving - 1 + i; }
+  const double* particle(Eigen::Index i) const { return data() + kFirstMoving - 1 + i; }
+
   /// The N×4 matrix without the padding.
-  auto values() { return Map(data(), size_, 4, Eigen::OuterStride<>(pitch_)); }
-  auto values() const { return ConstMap(data(), size_, 4, Eigen::OuterStride<>(pitch_)); }
+  auto values() { return Map(particle(0), size_, 4, Eigen::OuterStride<>(pitch_)); }
+  auto values() const { return ConstMap(particle(0), size_, 4, Eigen::OuterStride<>(pitch_)); }
 
  private:
   using Map = Eigen::Map<State::Matrix, Eigen::Unaligned, Eigen::OuterStride<>>;

@@ -194,42 +194,55 @@ template <Index n>
 /// Stores d_0, d_1 = w, L_0, 1/L_0 and d_0/L_0 of all springs, from the state.
 inline void beginSeries(const TaylorWorkspace& work, const double* state) {
   const Index blocks = blocksOf(work.size);
-  Block here = load({state, work.pitch});
+  Block left = load(placeOf(state, work.pitch, -1));
   for (Index block = 0; block < blocks; ++block) {
-    const Block next = block + 1 < blocks ? load({state + (block + 1) * kLanes, work.pitch}) : here;
-    const PlaneVector<Pack> separation{rightNeighbours(here.x, next.x) - here.x,
-                                       rightNeighbours(here.y, next.y) - here.y};
+    const Block here = load(placeOf(state, work.pitch, block));
+    const PlaneVector<Pack> separation = separationsOf(left, here);
     const Pack square = squaredLength(separation);
     // 1/L_0 = 0 makes all forces of the springs in the padding 0.
     const Index springs = work.size - 1 - block * kLanes;
     const Pack inverse = only(inverseSquareRoot(square), 0, springs);
     SpringSeries spring(work, block);
     spring.setSeparation(0, separation);
-    spring.setSeparation(1, {rightNeighbours(here.vx, next.vx) - here.vx,
-                             rightNeighbours(here.vy, next.vy) - here.vy});
+    spring.setSeparation(1, approachesOf(left, here));
     spring.setLength(0, square * inverse);
     spring.setDirection({separation.x * inverse, separation.y * inverse});
     spring.setInverseLength(inverse);
-    here = next;
+    left = here;
   }
 }
 
-/// Returns coefficient n + 2 of the separations of a block. It is computed from the spring forces
-/// directly, not from the accelerations, because the next order waits for it.
+/// Returns coefficient n + 2 of the separations of a block. It is computed from the forces of the
+/// springs and their neighbours directly, not from the accelerations, because the next order waits
+/// for it.
 template <Index n>
 [[gnu::always_inline]] inline PlaneVector<Pack> separationCoefficient(
     const TaylorWorkspace& work, Index block, const PlaneVector<Pack>& left,
-    const PlaneVector<Pack>& here, const PlaneVector<Pack>& next) {
+    const PlaneVector<Pack>& here, const PlaneVector<Pack>& right) {
   constexpr double kShare = 1.0 / ((n + 1) * (n + 2));
+  const Pack left_inverse_mass = kShare * Pack::load(work.left_inverse_masses + block * kLanes);
   const Pack inverse_mass = kShare * Pack::load(work.inverse_masses + block * kLanes);
-  const Pack next_inverse_mass = kShare * Pack::load(work.next_inverse_masses + block * kLanes);
-  const Pack both = inverse_mass + next_inverse_mass;
-  PlaneVector<Pack> result{fused(next_inverse_mass, rightNeighbours(here.x, next.x),
-                                 fused(inverse_mass, left.x, -(both * here.x))),
-                           fused(next_inverse_mass, rightNeighbours(here.y, next.y),
-                                 fused(inverse_mass, left.y, -(both * here.y)))};
+  const Pack both = left_inverse_mass + inverse_mass;
+  PlaneVector<Pack> result{
+      fused(inverse_mass, right.x, fused(left_inverse_mass, left.x, -(both * here.x))),
+      fused(inverse_mass, right.y, fused(left_inverse_mass, left.y, -(both * here.y)))};
   if (n == 0 && block == 0) result.y = result.y - only(Pack::all(kShare * work.gravity), 0, 1);
   return result;
+}
+
+/// Stores coefficient n of the accelerations of a block.
+/// \param right forces of the right neighbours of the springs `here`
+template <Index n>
+[[gnu::always_inline]] inline void setAccelerations(const TaylorWorkspace& work, Index block,
+                                                    const PlaneVector<Pack>& here,
+                                                    const PlaneVector<Pack>& right) {
+  const Index first = block * kLanes;
+  double* accelerations = work.accelerations + n * 2 * work.pitch + first;
+  const Pack inverse_mass = Pack::load(work.inverse_masses + first);
+  Pack y = (right.y - here.y) * inverse_mass;
+  if (n == 0) y = y - only(Pack::all(work.gravity), 0, work.size - 1 - first);
+  ((right.x - here.x) * inverse_mass).store(accelerations);
+  y.store(accelerations + work.pitch);
 }
 
 /// Computes coefficient n of all accelerations and, if a later order needs it, n + 2 of all
@@ -239,33 +252,25 @@ template <Index n, Index kBlocks>
 [[gnu::always_inline]] inline void addOrder(const TaylorWorkspace& work) {
   const bool wanted = n + 1 < work.order;  // whether another order needs the separations
   const Index blocks = kBlocks > 0 ? kBlocks : blocksOf(work.size);
-  double* accelerations = work.accelerations + n * 2 * work.pitch;
-  PlaneVector<Pack> previous{};       // forces in the previous block
-  PlaneVector<Pack> previous_left{};  // forces of their left neighbours
-  for (Index block = 0; block < blocks; ++block) {
-    const Index first = block * kLanes;
-    const PlaneVector<Pack> here = springCoefficients<n>(work, SpringSeries(work, block));
-    const PlaneVector<Pack> left{leftNeighbours(previous.x, here.x),
-                                 leftNeighbours(previous.y, here.y)};
-    if (block > 0 && wanted) {
-      SpringSeries(work, block - 1)
-          .setSeparation(n + 2,
-                         separationCoefficient<n>(work, block - 1, previous_left, previous, here));
+  PlaneVector<Pack> forces{};
+  PlaneVector<Pack> left{};  // forces of their left neighbours
+  const auto finish = [&](Index block, const PlaneVector<Pack>& next) {
+    const PlaneVector<Pack> right{rightNeighbours(forces.x, next.x),
+                                  rightNeighbours(forces.y, next.y)};
+    if (wanted) {
+      SpringSeries(work, block)
+          .setSeparation(n + 2, separationCoefficient<n>(work, block, left, forces, right));
     }
-    const Pack inverse_mass = Pack::load(work.inverse_masses + first);
-    const Pack x = (here.x - left.x) * inverse_mass;
-    Pack y = (here.y - left.y) * inverse_mass;
-    if (n == 0) y = y - only(Pack::all(work.gravity), block == 0 ? 1 : 0, work.size - first);
-    x.store(accelerations + first);
-    y.store(accelerations + work.pitch + first);
-    previous = here;
-    previous_left = left;
+    setAccelerations<n>(work, block, forces, right);
+  };
+  // Descending would save the last call, but long chains then took up to 1.5 times longer.
+  for (Index block = 0; block < blocks; ++block) {
+    const PlaneVector<Pack> next = springCoefficients<n>(work, SpringSeries(work, block));
+    if (block > 0) finish(block - 1, next);
+    left = {leftNeighbours(forces.x, next.x), leftNeighbours(forces.y, next.y)};
+    forces = next;
   }
-  if (wanted) {
-    SpringSeries(work, blocks - 1)
-        .setSeparation(
-            n + 2, separationCoefficient<n>(work, blocks - 1, previous_left, previous, previous));
-  }
+  finish(blocks - 1, {});
 }
 
 template <Index kBlocks, Index... n>
@@ -309,13 +314,14 @@ void taylorState(const TaylorWorkspace& callers_work, const double* state, const
                  const TaylorWeights& weights, double* out) {
   const TaylorWorkspace work = callers_work;
   const double time = weights.start_velocity;
+  store(load(placeOf(base, work.pitch, -1)), placeOf(out, work.pitch, -1));
   for (Index block = 0; block < blocksOf(work.size); ++block) {
     const Block change = weightedSum(work, weights, block);
-    const Block start = load({state + block * kLanes, work.pitch});
-    const Block from = load({base + block * kLanes, work.pitch});
+    const Block start = load(placeOf(state, work.pitch, block));
+    const Block from = load(placeOf(base, work.pitch, block));
     store({from.x + fused(time, start.vx, change.x), from.y + fused(time, start.vy, change.y),
            from.vx + change.vx, from.vy + change.vy},
-          {out + block * kLanes, work.pitch});
+          placeOf(out, work.pitch, block));
   }
 }
 

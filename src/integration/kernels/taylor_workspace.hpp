@@ -14,10 +14,10 @@ inline constexpr std::ptrdiff_t kLargestTaylorOrder = 14;
 struct TaylorWorkspace {
   SpringLaw spring;
   double gravity = 0.0;                         ///< m/s²
-  const double* inverse_masses = nullptr;       ///< of each particle, 1/kg; 0 if fixed or padding
-  const double* next_inverse_masses = nullptr;  ///< of each particle's right neighbour, 1/kg
+  const double* inverse_masses = nullptr;       ///< of the moving particles, 1/kg; 0 if padding
+  const double* left_inverse_masses = nullptr;  ///< of their left neighbours, 1/kg; 0 if fixed
   std::ptrdiff_t size = 0;                      ///< N >= 1 particles
-  std::ptrdiff_t pitch = 0;                     ///< length of a column, a multiple of 8, >= N
+  std::ptrdiff_t pitch = 0;                     ///< length of a column, as in `StateBuffer`
   std::ptrdiff_t order = 0;                     ///< K in 2..14, number of force coefficients
 
   /// Groups of 8 springs, each with `springRows(order)` rows of 4 × 8 doubles. Row n <= 12 holds

@@ -22,16 +22,17 @@ TaylorExpansion::TaylorExpansion(const Chain& chain, int order) {
   work_.spring = chain.spring();
   work_.gravity = chain.gravity();
   work_.size = chain.size();
-  work_.pitch = StateBuffer::paddedSize(chain.size());
+  work_.pitch = StateBuffer::pitchFor(chain.size());
   work_.order = order;
+  const std::ptrdiff_t moving = chain.size() - 1;
   inverse_masses_ = AlignedNumbers(work_.pitch);
-  std::copy_n(chain.inverseMasses().data(), chain.size(), inverse_masses_.data());
-  next_inverse_masses_ = AlignedNumbers(work_.pitch);
-  std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, next_inverse_masses_.data());
+  std::copy_n(chain.inverseMasses().data() + 1, moving, inverse_masses_.data());
+  left_inverse_masses_ = AlignedNumbers(work_.pitch);
+  std::copy_n(chain.inverseMasses().data(), moving, left_inverse_masses_.data());
   springs_ = AlignedNumbers(TaylorWorkspace::springNumbers(work_.pitch, order));
   accelerations_ = AlignedNumbers(TaylorWorkspace::accelerationNumbers(work_.pitch, order));
   work_.inverse_masses = inverse_masses_.data();
-  work_.next_inverse_masses = next_inverse_masses_.data();
+  work_.left_inverse_masses = left_inverse_masses_.data();
   work_.springs = springs_.data();
   work_.accelerations = accelerations_.data();
 }

@@ -19,7 +19,7 @@ class TaylorExpansion {
 
  private:
   AlignedNumbers inverse_masses_;
-  AlignedNumbers next_inverse_masses_;
+  AlignedNumbers left_inverse_masses_;
   AlignedNumbers springs_;
   AlignedNumbers accelerations_;
   TaylorWorkspace work_;

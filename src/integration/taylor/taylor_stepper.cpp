@@ -56,8 +56,8 @@ bool TaylorStepper::fallsFreely(Eigen::Index spring) const {
 void TaylorStepper::skipFreeEnd() {
   Eigen::Index first = work_.size - 1;
   while (first > 1 && fallsFreely(first - 1)) --first;
-  work_.size =
-      std::min<Eigen::Index>(chain_.size(), StateBuffer::paddedSize(first + work_.order + 2));
+  const Eigen::Index moving = StateBuffer::paddedSize(first + work_.order + 1);
+  work_.size = std::min<Eigen::Index>(chain_.size(), 1 + moving);
 }
 
 void TaylorStepper::expand() {

@@ -60,8 +60,10 @@ std::vector<const Method*> methods() {
   return rows;
 }
 constexpr Eigen::Index kShortChains[] = {1, 2, 3, 7, 8, 9, 11, 64, 1000};
-/// Other numbers of blocks: those kept in registers, and around the size where the conveyor starts.
-constexpr Eigen::Index kOtherShortChains[] = {4, 5, 12, 13, 16, 17, 31, 32, 33, 40, 65, 100};
+/// Other numbers of blocks, around the largest chains that the kernels keep in registers and those
+/// that they advance stage by stage.
+constexpr Eigen::Index kOtherShortChains[] = {4,  5,  12, 13, 16, 17,  18,  31,  32,
+                                              33, 34, 40, 65, 66, 129, 130, 257, 258};
 constexpr Eigen::Index kLongChain = 100003;
 constexpr int kSteps = 12;
 constexpr int kStepsOfLongChain = 3;

@@ -17,7 +17,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr Eigen::Index kSizes[] = {1, 2, 3, 7, 8, 9, 11, 16, 17, 64, 1000};
+constexpr Eigen::Index kSizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 11, 16, 17, 64, 1000};
 
 State randomState(Eigen::Index size, unsigned seed) {
   std::mt19937 random(seed);
@@ -107,16 +107,16 @@ TEST(ChainKernels, DissipationHasTheBitsOfThePlainCode) {
     for (const Eigen::Index size : kSizes) {
       const Chain chain = randomChain(size, SpringLaw{}, true, 9.81);
       const State state = randomState(size, 1);
-      StateBuffer z(size), dissipated(size);
+      StateBuffer z(size);
+      AlignedNumbers dissipated(z.pitch());
       z.values() = state.values();
-      dissipated.values().setConstant(0.1);
+      dissipated.view().setConstant(0.1);
       kernels->addDissipation(KernelConstants(chain).chain(), z.data(), 0.3, dissipated.data());
       for (Eigen::Index i = 0; i + 1 < size; ++i) {
         const State::Matrix& s = state.values();
         const double rate = elongationRate<double>({s(i + 1, 0) - s(i, 0), s(i + 1, 1) - s(i, 1)},
                                                    {s(i + 1, 2) - s(i, 2), s(i + 1, 3) - s(i, 3)});
-        EXPECT_EQ(dissipated.values()(i, 0), std::fma(0.3, rate * rate, 0.1))
-            << kernels->name << ", " << size;
+        EXPECT_EQ(dissipated[i], std::fma(0.3, rate * rate, 0.1)) << kernels->name << ", " << size;
       }
     }
   }
@@ -177,6 +177,7 @@ TEST(ChainKernels, LargestChangeFindsEveryPlaceAndRemembersWhatIsNotFinite) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const ChainKernels* kernels : supportedChainKernels()) {
     for (Eigen::Index place = 0; place < 4 * 11; ++place) {
+      if (place % 11 == 0) continue;  // the fixed particle
       StateBuffer k(11);
       const auto set = [&](double value) { k.values()(place % 11, place / 11) = value; };
       const auto result = [&] {
