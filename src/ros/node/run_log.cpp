@@ -92,7 +92,7 @@ void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles
 }
 
 void RunLog::finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,
-                    const Publisher& publisher) {
+                    const Publisher& publisher) const {
   if (said_frames_ == totals.frames) return;
   ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
 }

@@ -34,7 +34,7 @@ class RunLog {
 
   /// Logs the closing line of a run that did not reach its end, or continued after it.
   void finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,
-              const Publisher& publisher);
+              const Publisher& publisher) const;
 
  private:
   void sayChoice(const PendulumRun& run);

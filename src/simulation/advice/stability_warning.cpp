@@ -54,7 +54,7 @@ std::string stabilityWarning(const Chain& chain, const Scenario& scenario) {
 }
 
 std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario) {
-  const std::string warning = stabilityWarning(chain, scenario);
+  std::string warning = stabilityWarning(chain, scenario);
   const Method& method = scenario.method;
   if (!warning.empty() || !method.hasFixedStep()) return warning;
   const FrameSteps step = frameSteps(scenario);
