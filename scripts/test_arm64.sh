@@ -26,7 +26,6 @@ rm -f "$folder"/objects/*.o
 (cd "$project" && ls src/model/*.cpp src/integration/*.cpp src/integration/*/*.cpp \
   src/integration/kernels/instruction_sets/baseline.cpp \
   test/support/method_bits.cpp) |
-  grep -v -e model/numbers |  # parses text, needs another library
   xargs -P "$(nproc)" -I{} bash -c 'compile_one {}'
 aarch64-linux-gnu-g++ -static "$folder"/objects/*.o -pthread -o "$folder/method_bits"
 
