@@ -110,8 +110,8 @@ Pair timeEnergySkip(Eigen::Index size, int rounds) {
   };
   Carried with(chain, integrator(false));
   Carried without(chain, integrator(true));
-  Judge plain(chain, with.state(), false);
-  Judge balanced(chain, without.state(), true);
+  Judge plain(chain, with.state(), JudgeOptions{false});
+  Judge balanced(chain, without.state(), JudgeOptions{true});
   const auto run = [](Carried& carried, Judge& judge) {
     for (std::int64_t call = 0; call < carried.calls(); ++call) {
       carried.frame();
