@@ -41,9 +41,11 @@ class Conveyor {
         blocks_(blocksOf(chain.size)) {}
 
   /// Whether the chain has so few blocks that its code is unrolled.
-  bool isShort() const { return blocks_ <= 8; }
+  bool isShort() const { return blocks_ <= kShortBlocks; }
 
-  void advanceShort(std::ptrdiff_t steps) { shortSteps(steps, std::make_index_sequence<8>()); }
+  void advanceShort(std::ptrdiff_t steps) {
+    shortSteps(steps, std::make_index_sequence<kShortBlocks>());
+  }
 
   // Inlined, so that the compiler keeps constants in registers instead of reading them again after
   // every store.
@@ -57,11 +59,14 @@ class Conveyor {
   /// Layout of the workspace: a record per block of the chain, or a ring of records per stage.
   enum class Memory { kWhole, kRings };
 
+  /// Blocks of the longest chain whose code is unrolled.
+  static constexpr std::ptrdiff_t kShortBlocks = 8;
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
   /// Ticks between the halves of a stage, so that about four halves of other stages run meanwhile.
   static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
   /// The same distance, in blocks, where one stage runs alone.
   static constexpr std::ptrdiff_t kLead = 4;
+  static_assert(kShortBlocks + 1 > kLead, "wholeStage needs more than kLead blocks");
   static constexpr std::ptrdiff_t kBlocksBetweenStages = kLag + 2;
   /// Ticks until the last stage finishes its first block.
   static constexpr std::ptrdiff_t kFill = kBlocksBetweenStages * (kStages - 1) + kLag;
