@@ -10,11 +10,15 @@
 #include "simulation/interruptible.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
+#include <boost/filesystem/exception.hpp>
 #include <fmt/format.h>
 
+#include <ros/network.h>
 #include <ros/ros.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -100,14 +104,36 @@ int runNode() {
   return run.verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 
+/// roscpp aborts at an address of the ROS master that it cannot parse.
+void checkMasterUri(int argc, char** argv) {
+  const char* const variable = std::getenv("ROS_MASTER_URI");
+  std::string uri = variable != nullptr ? variable : "http://localhost:11311";
+  const std::string argument = "__master:=";
+  for (int i = 1; i < argc; ++i) {
+    const std::string text = argv[i];
+    if (text.compare(0, argument.size(), argument) == 0) uri = text.substr(argument.size());
+  }
+  std::string host;
+  std::uint32_t port = 0;
+  if (ros::network::splitURI(uri, host, port) && !host.empty() && port > 0 && port < 65536) return;
+  throw InputError(fmt::format("ROS_MASTER_URI: must be http://HOST:PORT, got '{}'", uri));
+}
+
 /// Starts ROS, which takes the arguments with ":=" away.
-/// \throws InputError if the name of the node is invalid, or if another argument is given
+/// \throws InputError if the master's address or the node's name is invalid, or if another argument
+/// is given
+/// \throws FileError if ROS cannot create its log folder
 void initRos(int argc, char** argv) {
+  checkMasterUri(argc, argv);
   try {
     // The handler of roscpp would end ROS before the files are closed and the closing line is logged.
     ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
   } catch (const ros::InvalidNameException& error) {
     throw InputError(error.what());
+  } catch (const boost::filesystem::filesystem_error& error) {
+    throw FileError(fmt::format(
+        "{}: the log folder of ROS could not be created: {}; set ROS_HOME to a writable folder",
+        error.path1().string(), error.code().message()));
   }
   if (argc <= 1) return;
   throw InputError(fmt::format(
@@ -123,7 +149,7 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffered, also in a file
   try {
     initRos(argc, argv);
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");
     return failure.status;

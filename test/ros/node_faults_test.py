@@ -93,6 +93,31 @@ class Node(unittest.TestCase):
                 node.kill()
                 node.communicate()
 
+    def test_refuses_an_invalid_address_of_the_master(self):
+        valid = 'http://127.0.0.1:1'
+        for uri in ('', '127.0.0.1:1', 'https://127.0.0.1:1', 'http://127.0.0.1', 'http://127.0.0.1:x',
+                    'http://127.0.0.1:65536', 'http://:1'):
+            refusal = "ROS_MASTER_URI: must be http://HOST:PORT, got '%s'\n" % uri
+            for variable, arguments in ((uri, []), (valid, ['__master:=' + uri])):
+                with self.subTest(variable=variable, arguments=arguments):
+                    self.assertEqual(self.fail_to_start({'ROS_MASTER_URI': variable}, arguments),
+                                     (2, refusal))
+
+    def test_names_a_log_folder_that_cannot_be_created(self):
+        with Folder() as folder:
+            open(folder + '/file', 'w').close()
+            status, output = self.fail_to_start(
+                {'HOME': folder + '/file', 'ROS_HOME': None, 'ROS_LOG_DIR': None})
+            self.assertEqual(status, 1)
+            self.assertRegex(output, r'^%s/file/.ros/?: the log folder of ROS could not be created: '
+                             r'Not a directory.*; set ROS_HOME to a writable folder\n$' % folder)
+
+    def fail_to_start(self, changes, arguments=()):
+        environment = {k: v for k, v in dict(os.environ, **changes).items() if v is not None}
+        done = subprocess.run([program('pendulum_node'), *arguments], text=True, timeout=60,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
+        return done.returncode, done.stdout
+
     def test_a_signal_ends_it_inside_a_frame(self):
         for parameters in ({'method': 'Taylor-8', 'frame_interval': 1e6},
                            {'steps_per_frame': 2000000000}):
