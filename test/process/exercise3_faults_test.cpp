@@ -141,7 +141,7 @@ TEST(Exercise3Faults, ReaderOfTheClosingLineGoneAway) {
 TEST(Exercise3Faults, NoFileDescriptorLeft) {
   const TemporaryFolder folder;
   folder.write("particle.txt", kTwoParticles);
-  for (const rlim_t limit : {4, 5, 6}) {  // three are open already, and one loads the libraries
+  for (const rlim_t limit : {4U, 5U, 6U}) {  // three are open already, and one loads the libraries
     Command command = exercise3(folder, {"Runge-Kutta-4", "--output", "out", "--energy", "e.csv"});
     command.prepare = [limit] {
       for (int file = 3; file < 1024; ++file) close(file);  // what the test itself inherited

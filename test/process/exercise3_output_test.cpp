@@ -70,7 +70,7 @@ TEST_F(LongRun, KilledAtAnyTimeLeavesOnlyWholeFrames) {
     const std::string killed = "killed" + std::to_string(attempt);
     Process process(command(killed, kEndless));
     process.waitForFile(folder_.path(killed + "/" + frame(5 * attempt)));
-    usleep(100 * attempt);  // in another phase of writing each time
+    usleep(100U * static_cast<unsigned>(attempt));  // in another phase of writing each time
     process.sendSignal(SIGKILL);
     ASSERT_EQ(process.wait().status, 128 + SIGKILL);
     expectWholeFrames(killed, "complete");
