@@ -107,23 +107,23 @@ std::deque<Method> builtInMethods() {
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
        "the fastest for tolerances down to 1e-6 m, unless particles are very light", nullptr,
-       makeTaylor<TaylorStepper>, false, 630},
+       makeTaylor<TaylorStepper>, false, 690},
       {"Taylor-12", 12, 12, StepControl::kErrorControlled, kTaylor12RealStabilityLimit,
        3.3793773141575327,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
        "the fastest for tighter tolerances, unless particles are very light", nullptr,
-       makeTaylor<TaylorStepper>, false, 820},
+       makeTaylor<TaylorStepper>, false, 880},
       {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
        "for light particles (k_d/m of 1e2/s to 1e4/s) and coarse "
        "tolerances",
-       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 920},
+       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 980},
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
        "for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there", nullptr,
-       makeTaylor<StabilizedTaylorStepper>, false, 1500},
+       makeTaylor<StabilizedTaylorStepper>, false, 1050},
       {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
        "doi:10.1016/S0377-0427(99)00134-X",
@@ -134,7 +134,7 @@ std::deque<Method> builtInMethods() {
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
        "chooses among the Taylor methods and Radau-9 as the motion requires, and reports its "
        "choice",
-       nullptr, makeAuto, false, 2700},
+       nullptr, makeAuto, false, 2250},
   };
 }
 

@@ -43,8 +43,7 @@ struct Convolutions {
 class SpringSeries {
  public:
   [[gnu::always_inline]] SpringSeries(const TaylorWorkspace& work, Index block)
-      : first_(work.springs +
-               block * kLanes / kGroup * TaylorWorkspace::springRows(work.order) * kRow +
+      : first_(work.springs + block * kLanes / kGroup * TaylorWorkspace::kSpringRows * kRow +
                block * kLanes % kGroup) {}
 
   [[gnu::always_inline]] PlaneVector<Pack> separation(Index n) const {
@@ -77,7 +76,7 @@ class SpringSeries {
  private:
   static constexpr Index kRow = 4 * kGroup;
   [[gnu::always_inline]] double* row(Index n) const {
-    return first_ + (n + (n < 0 ? 15 : n > 12 ? 2 : 0)) * kRow;
+    return first_ + (n < 0 ? n + TaylorWorkspace::kSpringRows : n) * kRow;
   }
   [[gnu::always_inline]] Pack at(Index n, Index quantity) const {
     return Pack::load(row(n) + quantity * kGroup);

@@ -20,23 +20,18 @@ struct TaylorWorkspace {
   std::ptrdiff_t pitch = 0;                     ///< length of a column, as in `StateBuffer`
   std::ptrdiff_t order = 0;                     ///< K in 2..14, number of force coefficients
 
-  /// Groups of 8 springs, each with `springRows(order)` rows of 4 × 8 doubles. Row n <= 12 holds
-  /// coefficient n of the separation (x, y), the length L and the quotient u = T/L. Row 13 holds
-  /// the direction d_0/L_0 (x, y) and 1/L_0. Row 14 holds partial sums of the next odd order.
-  /// Coefficients 13 and 14, which orders above 12 need, follow in rows 15 and 16.
+  /// Groups of 8 springs, each with `kSpringRows` rows of 4 × 8 doubles. Row n <= 14 holds
+  /// coefficient n of the separation (x, y), the length L and the quotient u = T/L. Row 15 holds
+  /// the direction d_0/L_0 (x, y) and 1/L_0. Row 16 holds partial sums of the next odd order.
   double* springs = nullptr;
   /// K × 2 columns: coefficient n of the accelerations (x, y).
   double* accelerations = nullptr;
 
-  /// Returns the number of rows of a group. A row has 256 bytes, so 16 rows would give a row the
-  /// same address modulo 4 KiB in every group, which slows down loads and stores (4 KiB aliasing).
-  /// Measured: the series of 101 particles took 10 % longer with 16 rows than with 15.
-  [[gnu::always_inline]] static std::ptrdiff_t springRows(std::ptrdiff_t order) {
-    return order <= 12 ? 15 : 31;
-  }
-  static std::ptrdiff_t springNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
-    return pitch * 4 * springRows(order);
-  }
+  /// A row has 256 bytes, so 16 rows would give a row the same address modulo 4 KiB in every group,
+  /// which slows down loads and stores (4 KiB aliasing). Measured: the series of 101 particles took
+  /// 10 % longer with 16 rows than with 15.
+  static constexpr std::ptrdiff_t kSpringRows = kLargestTaylorOrder + 3;
+  static std::ptrdiff_t springNumbers(std::ptrdiff_t pitch) { return pitch * 4 * kSpringRows; }
   static std::ptrdiff_t accelerationNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
     return pitch * 2 * order;
   }

@@ -29,7 +29,7 @@ TaylorExpansion::TaylorExpansion(const Chain& chain, int order) {
   std::copy_n(chain.inverseMasses().data() + 1, moving, inverse_masses_.data());
   left_inverse_masses_ = AlignedNumbers(work_.pitch);
   std::copy_n(chain.inverseMasses().data(), moving, left_inverse_masses_.data());
-  springs_ = AlignedNumbers(TaylorWorkspace::springNumbers(work_.pitch, order));
+  springs_ = AlignedNumbers(TaylorWorkspace::springNumbers(work_.pitch));
   accelerations_ = AlignedNumbers(TaylorWorkspace::accelerationNumbers(work_.pitch, order));
   work_.inverse_masses = inverse_masses_.data();
   work_.left_inverse_masses = left_inverse_masses_.data();
