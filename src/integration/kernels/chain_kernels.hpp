@@ -96,6 +96,14 @@ struct LargestChange {
   double velocity;  ///< of the vx and vy columns
 };
 
+/// How much springs change within a step. Much is a change along the old direction by at least 0.9
+/// of the old length or, if that was 0, to at least 1e-12 m. NaN counts as much.
+enum class SpringChange {
+  kLittle,
+  kUnclear,  ///< little until the end of the step, but perhaps much before
+  kMuch,     ///< much until the end of the step, at least for one spring
+};
+
 /// The kernels of one instruction set. Outputs must not overlap inputs.
 struct ChainKernels {
   std::string_view name;  ///< "baseline", "avx2", "avx512"
@@ -118,11 +126,9 @@ struct ChainKernels {
   /// Returns the largest absolute values of a sum over the first `size` particles.
   LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);
 
-  /// Whether any spring between the first `size` particles changes much between two states: along
-  /// its old direction by at least 0.9 of its old length or, if its length was 0, to at least
-  /// 1e-12 m. True if a state contains NaN.
-  bool (*springsChangeMuch)(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
-                            const double* to);
+  /// Returns how much the springs between the first `size` particles change in a step of h s.
+  SpringChange (*springChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, double h,
+                               const double* from, const double* to);
 
   /// dissipated += weight * rate² for the N - 1 springs of a chain, with their elongation rates in
   /// `state` and weight = k_d times a time, kg. Later elements of the column are undefined.

@@ -103,8 +103,9 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
   return {position.result(), velocity.result()};
 }
 
-/// Returns the separations of the particles of a block from their left neighbours.
-[[gnu::always_inline]] inline PlaneVector<Pack> separations(const double* state,
+/// Returns the differences of two columns, such as x and y, of the particles of a block from their
+/// left neighbours.
+[[gnu::always_inline]] inline PlaneVector<Pack> differences(const double* state,
                                                             std::ptrdiff_t pitch,
                                                             std::ptrdiff_t block) {
   const auto difference = [](const double* column) {
@@ -115,25 +116,43 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
   return {difference(first), difference(first + pitch)};
 }
 
-bool springsChangeMuch(std::ptrdiff_t size, std::ptrdiff_t pitch, const double* from,
-                       const double* to) {
+SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, const double* from,
+                          const double* to) {
+  const Pack::Native one = Pack::all(1.0).lanes;
+  // 1 where the value is not below the limit, also for NaN; else 0.
+  const auto reaches = [&](Pack value, Pack limit) {
+    return Pack{value.lanes < limit.lanes ? Pack::Native{} : one};
+  };
   Pack much;
+  Pack unclear;
   for (std::ptrdiff_t block = 0; block < blocksOf(size); ++block) {
-    const PlaneVector<Pack> before = separations(from, pitch, block);
-    const PlaneVector<Pack> after = separations(to, pitch, block);
+    const PlaneVector<Pack> before = differences(from, pitch, block);
+    const PlaneVector<Pack> after = differences(to, pitch, block);
+    const PlaneVector<Pack> rate_before = differences(from + 2 * pitch, pitch, block);
+    const PlaneVector<Pack> rate_after = differences(to + 2 * pitch, pitch, block);
+    const auto along = [&](const PlaneVector<Pack>& a) {
+      return fused(before.x, a.x, before.y * a.y);
+    };
     const PlaneVector<Pack> change{after.x - before.x, after.y - before.y};
-    const Pack along = absolute(before.x * change.x + before.y * change.y);
+    const Pack at_end = along(change);
+    const Pack slowing = along({rate_before.x - rate_after.x, rate_before.y - rate_after.y});
+    const Pack in_middle = fused(0.125 * h, slowing, 0.5 * at_end);
     const Pack square = before.x * before.x + before.y * before.y;
     const Pack grown = change.x * change.x + change.y * change.y;
-    const Pack::Native one = Pack::all(1.0).lanes;
-    const Pack::Native with_length = along.lanes < (kMuch * square).lanes ? Pack::Native{} : one;
-    const Pack::Native without = grown.lanes < kNoLength * kNoLength ? Pack::Native{} : one;
-    const Pack counted = {square.lanes == 0.0 ? without : with_length};
-    much = much + only(counted, 0, size - 1 - block * kLanes);
+    const Pack without = reaches(grown, Pack::all(kNoLength * kNoLength));
+    const Pack with_length = reaches(absolute(at_end), kMuch * square);
+    const Pack counted{square.lanes == 0.0 ? without.lanes : with_length.lanes};
+    const std::ptrdiff_t springs = size - 1 - block * kLanes;
+    much = much + only(counted, 0, springs);
+    unclear = unclear + only(reaches(absolute(in_middle), 0.5 * kMuch * square), 0, springs);
   }
-  double sum = 0.0;
-  for (int lane = 0; lane < kLanes; ++lane) sum += much.lanes[lane];
-  return sum > 0.0;
+  const auto any = [](Pack marked) {
+    double sum = 0.0;
+    for (int lane = 0; lane < kLanes; ++lane) sum += marked.lanes[lane];
+    return sum > 0.0;
+  };
+  if (any(much)) return SpringChange::kMuch;
+  return any(unclear) ? SpringChange::kUnclear : SpringChange::kLittle;
 }
 
 }  // namespace

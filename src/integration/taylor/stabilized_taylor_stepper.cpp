@@ -85,8 +85,8 @@ double StabilizedTaylorStepper::attempt(double h) {
                         change_.data());
   setEnd(change_, {});
   // The series is invalid once the ends of a spring meet; see TaylorStepper::step.
-  if (h > kShortestStep &&
-      kernels().springsChangeMuch(work.size, work.pitch, begin().data(), end().data())) {
+  if (h > kShortestStep && kernels().springChange(work.size, work.pitch, h, begin().data(),
+                                                  end().data()) == SpringChange::kMuch) {
     return std::numeric_limits<double>::infinity();
   }
   const double error = kernels().taylorLargestSum(work, errorOf(*polynomial_, h)).position;

@@ -88,14 +88,16 @@ double TaylorStepper::longestAccurateStep() {
   return std::clamp(root(allowed_rate_ * (order + 1) / next, order), kShortestStep, kLongestStep);
 }
 
-// The invalid series can return within the step, so the end alone does not show that ends met.
+// A spring that shrinks to a negative length in the series can have its old length again at the end
+// of the step. The middle of the step shows it.
 bool TaylorStepper::springsChangeMuch(double h) {
-  const auto differ = [this](const StateBuffer& later) {
-    return kernels_.springsChangeMuch(work_.size, work_.pitch, begin_.data(), later.data());
+  const auto changeUntil = [this](double time, const StateBuffer& later) {
+    return kernels_.springChange(work_.size, work_.pitch, time, begin_.data(), later.data());
   };
-  if (differ(end_)) return true;
+  const SpringChange change = changeUntil(h, end_);
+  if (change != SpringChange::kUnclear) return change == SpringChange::kMuch;
   sumAt(0.5 * h, inside_);
-  return differ(inside_);
+  return changeUntil(0.5 * h, inside_) == SpringChange::kMuch;
 }
 
 double TaylorStepper::step() {

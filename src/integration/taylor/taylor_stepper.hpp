@@ -68,7 +68,7 @@ class TaylorStepper final : public DenseOutputStepper {
   void sumSeries(double h, std::ptrdiff_t terms);
   void sumAt(double time, StateBuffer& out) const;
   double longestAccurateStep();
-  /// Whether a spring changes its direction, or its length by much, within the step of h s to `end_`.
+  /// Whether a spring changes much (see `SpringChange`) within the step of h s to `end_`.
   bool springsChangeMuch(double h);
 
   Chain chain_;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
   return {name,          stageSlope,        combine,        addWeighted,   compensatedSum,
-          largestChange, springsChangeMuch, addDissipation, advanceKernel, taylorSeries,
+          largestChange, springChange, addDissipation, advanceKernel, taylorSeries,
           taylorState,   taylorLargestSum,  taylorLargest};
 }
 
