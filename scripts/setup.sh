@@ -7,7 +7,7 @@
 #   test-ros   packages for the tests of the node: rostest, a virtual display
 #   film       packages for scripts/film.sh
 #   lint       clang-format, clang-tidy, catkin_lint
-#   sanitize   clang's sanitizers and fuzzer, coverage
+#   sanitize   clang's sanitizers and fuzzer, valgrind, coverage
 #   releases   packages for scripts/test_releases.sh
 #   arm64      a cross compiler for 64-bit ARM, and qemu
 #   benchmark  solvers to compare with, all optional
@@ -33,7 +33,7 @@ packages_of() {
            imagemagick ;;
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;
-    sanitize) echo clang libclang-rt-dev gcovr ;;
+    sanitize) echo clang libclang-rt-dev valgrind gcovr ;;
     releases) echo debootstrap git ;;
     arm64) echo g++-aarch64-linux-gnu qemu-user ;;
     benchmark)
