@@ -210,5 +210,5 @@ class Rviz(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('rviz')
+    rospy.init_node('rviz_test')
     rostest.rosrun('spring_pendulum', 'rviz', Rviz)
