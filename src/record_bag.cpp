@@ -7,7 +7,9 @@
 #include "io/program/standard_streams.hpp"
 #include "model/numbers.hpp"
 #include "ros/bag_recorder.hpp"
+#include "simulation/advice/stability_warning.hpp"
 #include "simulation/integrator_settings.hpp"
+#include "simulation/memory.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include "simulation/tolerance.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
@@ -62,6 +64,9 @@ int record(int argc, const char* const* argv) {
   PendulumRun run(scenario, readParticleFile(scenario.particles),
                   display.track_energy || !scenario.energy.empty(),
                   display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0);
+  const std::string memory = memoryRemark(scenario, run.chain().size());
+  if (!memory.empty()) printError(memory + "\n");
+  printWarning(stabilityWarning(run.chain(), scenario));
   const BagSummary summary = recordBag(run, display, bag);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   printClosingLine(fmt::format(

@@ -3,16 +3,12 @@
 #include "io/files/output_file.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/run_files.hpp"
-#include "io/program/closing.hpp"
 #include "io/program/interruption.hpp"
-#include "io/program/standard_streams.hpp"
 #include "ros/messages/marker_builder.hpp"
 #include "ros/messages/stamps.hpp"
 #include "ros/messages/state_builder.hpp"
 #include "ros/node/publisher.hpp"
-#include "simulation/advice/stability_warning.hpp"
 #include "simulation/interruptible.hpp"
-#include "simulation/memory.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <boost/make_shared.hpp>
@@ -142,11 +138,8 @@ std::vector<Option> bagOptions(BagOptions& o) {
 
 BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to) {
   const Scenario& scenario = run.scenario();
-  const std::string memory = memoryRemark(scenario, run.chain().size());
-  if (!memory.empty()) printError(memory + "\n");
   OutputFile file(to.path, {scenario.particles, to.config});
   RunFiles files(scenario, to.config);
-  printWarning(stabilityWarning(run.chain(), scenario));
   BagSummary summary;
   summary.path = file.path();
   auto bag = std::make_unique<rosbag::Bag>();

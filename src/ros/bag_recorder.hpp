@@ -28,10 +28,10 @@ struct BagSummary {
   std::string path;          ///< absolute
 };
 
-/// Records a run, and prints a warning if its step size is unstable. Stamps are simulated time,
-/// starting at `Stamps::simulatedStart()`. The same scenario and options give the same bytes. The
-/// bag is complete or absent, like every OutputFile; when appending, a longer copy replaces the bag
-/// at the end. After a signal, the bag ends with the last message before it.
+/// Records a run. Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same
+/// scenario and options give the same bytes. The bag is complete or absent, like every OutputFile;
+/// when appending, a longer copy replaces the bag at the end. After a signal, the bag ends with the
+/// last message before it.
 /// \throws FileError naming the bag
 BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to);
 
