@@ -38,10 +38,8 @@ std::string helpFor(const Option& option) {
   if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
   if (option.placeholder().empty()) return help;
   const std::string value = option.text();
-  const bool names_unit = option.placeholder() == "SECONDS" || option.placeholder() == "METRES";
-  const std::string_view unit = names_unit ? "" : option.unit;
-  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value, unit.empty() ? "" : " ",
-                     unit);
+  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,
+                     option.unit.empty() ? "" : " ", option.unit);
 }
 
 void addWithValue(po::options_description& description, const std::string& name,

@@ -46,23 +46,21 @@ class Range {
 struct Number {
   double* value;
   Range accepted;
-  std::string_view name = "X";  ///< placeholder
 
   bool assign(std::string_view text) const;
   std::string text() const;
   std::string range() const;
-  std::string placeholder() const { return std::string(name); }
+  static std::string placeholder() { return "X"; }
 };
 
 struct Count {
   std::int64_t* value;
   Range accepted;
-  std::string_view name = "N";  ///< placeholder
 
   bool assign(std::string_view text) const;
   std::string text() const;
   std::string range() const;
-  std::string placeholder() const { return std::string(name); }
+  static std::string placeholder() { return "N"; }
 };
 
 struct Flag {
