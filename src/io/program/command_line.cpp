@@ -1,5 +1,6 @@
 #include "io/program/command_line.hpp"
 
+#include "io/files/paths.hpp"
 #include "io/formats/option_file.hpp"
 #include "model/spelling.hpp"
 #include "simulation/options/scenario_options.hpp"
@@ -13,8 +14,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace spring_pendulum {
@@ -156,6 +159,16 @@ void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& op
   }
 }
 
+/// The reader of particle files does not know the option.
+void refuseMissingDefault(const OptionSet& options, const Scenario& scenario) {
+  namespace fs = std::filesystem;
+  std::error_code error;  // other errors are left to the reader
+  const fs::file_type type = fs::status(scenario.particles, error).type();
+  if (options.isGiven("particles") || type != fs::file_type::not_found) return;
+  throw FileError(fmt::format("{}: no such file; give a particle file with --particles",
+                              fullPath(scenario.particles)));
+}
+
 /// \returns the path of the file; empty: none
 std::string readConfig(const std::vector<po::option>& given, OptionSet& options) {
   std::string path;
@@ -189,6 +202,7 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   }
   checkScenario(scenario);
   refuseUnused(keys, options, scenario);
+  refuseMissingDefault(options, scenario);
   return {has(given, "check"), has(given, "report-skips"), "", config};
 }
 
