@@ -65,15 +65,15 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
       std::max<std::int64_t>(summary.frames - 1 - slept, 0) * scenario.steps_per_frame;
   const std::string report = integrator.report();
   printClosingLine(fmt::format(
-      "{}{}: {}, {}{}, {}{}, {} integrating, {} writing{}, {} reference run, {}, verdict: {}",
+      "{}{}: {}, {}{}, {}{}, {} integrating{}, {} reference run, {}, verdict: {}",
       scenario.method.get().name, report.empty() ? "" : " (" + report + ")",
       counted(chain.size(), "particle"), counted(summary.frames, "frame"),
       slept > 0 ? fmt::format(" ({} at rest, not integrated)", slept) : "",
       scenario.method.get().hasFixedStep() ? counted(steps, "step") + ", " : "",
       counted(integrator.forceEvaluations(), "force evaluation"),
       durationText(std::max(summary.seconds - files.secondsWaited() - monitor.seconds(), 0.0)),
-      durationText(files.secondsWriting()), files.destination(), durationText(monitor.seconds()),
-      monitor.measurements(), toString(monitor.verdict().kind)));
+      writingText(files), durationText(monitor.seconds()), monitor.measurements(),
+      toString(monitor.verdict().kind)));
 }
 
 int run(const Scenario& scenario, const Switches& switches) {

@@ -214,10 +214,20 @@ TEST(Exercise3, CommandLineWinsOverTheFile) {
   const Result from_file = run(exercise3(folder, {"--config", "run.yaml"}));
   EXPECT_EQ(from_file.status, 0) << from_file.errors;
   EXPECT_THAT(from_file.output, StartsWith("Euler: 2 particles, 5 frames, 40 steps, "));
+  EXPECT_THAT(from_file.output, testing::Not(HasSubstr("writing")));
   const Result result =
       run(exercise3(folder, {"--config", "run.yaml", "Runge-Kutta-2", "--frames", "7"}));
   EXPECT_THAT(result.output, StartsWith("Runge-Kutta-2: 2 particles, 7 frames, 60 steps, "));
   EXPECT_THAT(listFolder(folder.path()), testing::ElementsAre("particle.txt", "run.yaml"));
+}
+
+TEST(Exercise3, NamesTheOptionIfTheDefaultParticleFileIsMissing) {
+  const TemporaryFolder folder;
+  const Result result = run(exercise3(folder, {"Euler"}));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors, folder.path("particle.txt") +
+                               ": no such file; give a particle file with --particles\n");
+  EXPECT_TRUE(listFolder(folder.path()).empty());
 }
 
 TEST(Exercise3, TwoDashesEndTheOptions) {

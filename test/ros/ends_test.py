@@ -129,7 +129,7 @@ class Ends(unittest.TestCase):
         with PendulumNode(frames=11, particles=HORIZONTAL) as node:
             self.assertEqual(node.wait(), 0, node.output())
             for part in ('Runge-Kutta-4: 11 particles, 11 frames, 100 steps, 400 force evaluations',
-                         's integrating', 's writing 0 frames', 'energy error ', 'verdict: ok'):
+                         's integrating, 0 marker', 'energy error ', 'verdict: ok'):
                 self.assertIn(part, node.lines('INFO')[-1])
 
 

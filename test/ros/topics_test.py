@@ -143,7 +143,7 @@ class Topics(unittest.TestCase):
             with PendulumNode(frames=50, cwd=folder) as node:
                 self.assertEqual(node.wait(), 0, node.output())
                 self.assertIn('0 marker and 0 state messages built', node.output())
-                self.assertIn('writing 0 frames', node.output())
+                self.assertNotIn('writing', node.output())
             self.assertEqual(os.listdir(folder), [])
         state = self.listen('state', PendulumState)
         with PendulumNode(frames=50, wait_for_subscribers=1) as node:

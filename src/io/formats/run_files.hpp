@@ -35,7 +35,6 @@ class RunFiles {
   std::string description() const;
   /// " to /home/me/frames (500 earlier frames removed)", empty without frames
   std::string destination() const;
-  std::int64_t framesWritten() const { return frames_ ? next_frame_ : 0; }
   /// Wall-clock time spent writing frames, s. Valid after `finish`.
   double secondsWriting() const { return frames_ ? frames_->secondsWriting() : 0.0; }
   /// Wall-clock time that the run waited for the frame writer, s.

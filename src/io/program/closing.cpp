@@ -19,6 +19,12 @@ std::string durationText(double seconds) {
   return fmt::format("{:.3g} ms", std::round(seconds * 1e5) / 100.0);
 }
 
+std::string writingText(const RunFiles& files) {
+  const std::string destination = files.destination();
+  if (destination.empty()) return "";
+  return fmt::format(", {} writing{}", durationText(files.secondsWriting()), destination);
+}
+
 void printClosingLine(const std::string& text) {
   printOutput(onOneLine(text) + "\n");
   flushOutput();

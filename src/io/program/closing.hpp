@@ -1,6 +1,7 @@
 // What a program prints when a run begins badly or has ended.
 #pragma once
 
+#include "io/formats/run_files.hpp"
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
@@ -12,6 +13,9 @@ namespace spring_pendulum {
 
 /// Returns a wall-clock time with three significant digits: "1.25 s", "3.07 ms", "0.04 ms".
 std::string durationText(double seconds);
+
+/// Returns ", 3.07 ms writing to /home/me/frames"; empty if the run writes no frames.
+std::string writingText(const RunFiles& files);
 
 /// Prints one line to standard output, before anything that is printed to standard error later.
 /// \throws FileError if it can't be written

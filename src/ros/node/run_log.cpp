@@ -40,15 +40,14 @@ std::string closingLine(const PendulumRun& run, const Totals& totals, const RunF
                         const Publisher& publisher) {
   const std::string report = run.integrator().report();
   return fmt::format(
-      "{}{}: {}, {}, {}{}, {} integrating, {} writing {}, {} marker and {} state messages built, "
+      "{}{}: {}, {}, {}{}, {} integrating{}, {} marker and {} state messages built, "
       "{}, verdict: {}",
       run.scenario().method.get().name, report.empty() ? "" : " (" + report + ")",
       counted(run.chain().size(), "particle"), counted(totals.frames, "frame"),
       run.scenario().method.get().hasFixedStep() ? counted(totals.steps, "step") + ", " : "",
       counted(run.integrator().forceEvaluations(), "force evaluation"),
-      durationText(totals.seconds), durationText(files.secondsWriting()),
-      counted(files.framesWritten(), "frame"), publisher.markersBuilt(), publisher.statesBuilt(),
-      run.measurements(), run.verdict().text);
+      durationText(totals.seconds), writingText(files), publisher.markersBuilt(),
+      publisher.statesBuilt(), run.measurements(), run.verdict().text);
 }
 
 void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {
