@@ -133,13 +133,14 @@ void TaylorStepper::sumAt(double time, StateBuffer& out) const {
                        out.data());
   const Eigen::Index falling = chain_.size() - work_.size;
   if (falling == 0) return;
-  // The arithmetic of the kernel for a free fall, where only the first coefficient is not zero.
+  // The arithmetic of the kernel for a free fall, where only the first coefficient is not zero. All
+  // these particles fall at the same speed.
   const double speed = time * -chain_.gravity();
   const double drop = time * time / 2.0 * -chain_.gravity();
   const auto from = begin_.values().bottomRows(falling);
   auto to = out.values().bottomRows(falling);
   to.col(0) = from.col(0);
-  for (Eigen::Index i = 0; i < falling; ++i) to(i, 1) = from(i, 1) + fused(time, from(i, 3), drop);
+  to.col(1).array() = from.col(1).array() + fused(time, from(0, 3), drop);
   to.col(2) = from.col(2);
   to.col(3).array() = from.col(3).array() + speed;
 }
