@@ -40,7 +40,7 @@ struct EngineOptions {
 };
 
 /// `advance` sets the velocity of the first particle, which is fixed, to 0.
-class ExplicitRungeKutta : public Integrator {
+class ExplicitRungeKutta final : public Integrator {
  public:
   /// \param tableau any; `PlainRungeKutta` runs those without a kernel (see fast_tableaus.hpp)
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
