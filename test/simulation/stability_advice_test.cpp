@@ -54,8 +54,8 @@ TEST(LargestPassingStep, IsWithinOnePercentBelowTheLimit) {
 
 TEST(LargestPassingStep, LiesBelowAGapAndAboveNone) {
   // From 0.05 to 0.0525 s a step fails, and from 0.06 s on.
-  const auto hasGap = [](double s) { return s < 0.06 && !(s > 0.05 && s < 0.0525); };
-  const double step = largestPassingStep(0.01, 1e-5, 10.0, hasGap);
+  const auto has_gap = [](double s) { return s < 0.06 && !(s > 0.05 && s < 0.0525); };
+  const double step = largestPassingStep(0.01, 1e-5, 10.0, has_gap);
   EXPECT_GT(1.0101 * step, 0.05);
   EXPECT_LE(step, 0.05);
   EXPECT_EQ(largestPassingStep(0.01, 1e-5, 10.0, [](double) { return false; }), 0.0);

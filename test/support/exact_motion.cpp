@@ -32,7 +32,7 @@ struct Spring {
 };
 
 struct Model {
-  explicit Model(const Chain& chain, Pair anchor)
+  explicit Model(const Chain& chain, const Pair& anchor)
       : size(chain.size() - 1),
         stiffness(chain.spring().stiffness),
         damping(chain.spring().damping),
