@@ -21,7 +21,9 @@ using Files = std::map<std::string, std::string>;  // text by name
 
 Files filesIn(const std::string& folder) {
   Files files;
-  for (const std::string& name : listFolder(folder)) files[name] = readFile(folder + "/" + name);
+  for (const std::string& name : listFolder(folder)) {
+    files[name] = readFile(std::filesystem::path(folder) / name);
+  }
   return files;
 }
 
@@ -65,7 +67,7 @@ class FaultInjection : public testing::TestWithParam<std::string> {
 
   /// A run with a fault at one of its calls.
   /// \returns the name of the call; empty if there are not as many
-  std::string disturb(const TemporaryFolder& folder, int call, Result& result) const {
+  static std::string disturb(const TemporaryFolder& folder, int call, Result& result) {
     const TemporaryFolder outside;
     Command disturbed = command(folder);
     disturbed.environment = {{"LD_PRELOAD", FAULT_INJECTION},

@@ -25,7 +25,7 @@ std::vector<State::Matrix> frames(PendulumRun& run, bool in_between) {
   std::vector<State::Matrix> states{run.state().values()};
   while (!run.isOver()) {
     run.advance(in_between);
-    if (run.atFrame()) states.push_back(run.state().values());
+    if (run.atFrame()) states.emplace_back(run.state().values());
   }
   return states;
 }
