@@ -12,6 +12,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <map>
 
 #include <support/temporary_folder.hpp>
@@ -47,6 +48,17 @@ TEST(Markers, LongChainsAreThinnedAndKeepBothEnds) {
     EXPECT_EQ(markers[0].points.size(), 2 * (points.size() - 1));
     EXPECT_EQ(markers[0].colors.size(), markers[0].points.size());
     EXPECT_EQ(particles > 10, markers[4].text.find("particles drawn") != std::string::npos);
+  }
+}
+
+TEST(Markers, GridHasFewLinesFarFromTheOrigin) {
+  for (const double left : {0.0, 1e17, -1e17, 1e100}) {
+    Particles scene = horizontal(2);
+    scene.state.x() << left, left + std::max(16.0, 1e-15 * left);
+    const PendulumRun run(Scenario{}, scene, false, 0.0);
+    const auto grid = markersOf(run, NodeOptions{}).markers[5].points;
+    EXPECT_GT(grid.size(), 40U) << left;
+    EXPECT_LT(grid.size(), 400U) << left;
   }
 }
 

@@ -165,11 +165,15 @@ void MarkerBuilder::drawGrid() {
   const double left = distance * std::floor((box.left - kGridReach * size) / distance);
   const double bottom = distance * std::floor((box.bottom - 0.5 * size) / distance);
   const double right = box.right + kGridReach * size, top = box.top + 0.5 * size;
-  for (double x = left; x <= right; x += distance) {
+  // Counted in integers: far from the origin, x + distance rounds to x.
+  const double columns = (right - left) / distance, rows = (top - bottom) / distance;
+  for (int column = 0; column <= columns; ++column) {
+    const double x = left + column * distance;
     grid.points.push_back(pointAt(x, y, bottom));
     grid.points.push_back(pointAt(x, y, top));
   }
-  for (double z = bottom; z <= top; z += distance) {
+  for (int row = 0; row <= rows; ++row) {
+    const double z = bottom + row * distance;
     grid.points.push_back(pointAt(left, y, z));
     grid.points.push_back(pointAt(right, y, z));
   }
