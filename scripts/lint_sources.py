@@ -114,13 +114,16 @@ def circle(graph):
 
 def file_errors(files):
     ros = re.compile(r'#include <(ros|rosbag|[a-z_]+_msgs)/')
+    exported = re.compile(r'^#pragma GCC visibility push\(default\)\nnamespace spring_pendulum \{$.*'
+                          r'^\}  // namespace spring_pendulum\n#pragma GCC visibility pop$',
+                          re.DOTALL | re.MULTILINE)
     for path in files:
         text = (PROJECT / path).read_text()
         lines = text.count('\n')
         if lines > MOST_LINES:
             yield f'{path}: {lines} lines, allowed are {MOST_LINES}'
-        if path.parts[0] == 'include' and re.search(r'^namespace spring_pendulum \{', text, re.MULTILINE):
-            yield f'{path}: public, must open its namespace with SPRING_PENDULUM_API'
+        if path.parts[0] == 'include' and 'namespace spring_pendulum {' in text and not exported.search(text):
+            yield f'{path}: public, must export its namespace with #pragma GCC visibility'
         here = place(path)
         if here and here[0] != 'ros' and ros.search(text):
             yield f'{path}: includes ROS, which only src/ros may'

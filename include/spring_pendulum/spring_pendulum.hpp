@@ -13,7 +13,6 @@
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
 #include <spring_pendulum/model/errors.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>

@@ -9,12 +9,11 @@
 // ed., Springer 1993, section II.1.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
-
 #include <array>
 #include <cstddef>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Coefficients of an explicit method with at most `kMaxStages` stages. All entries of `a` on and
 /// above the diagonal are 0.
@@ -59,3 +58,4 @@ inline constexpr ButcherTableau kClassicalRungeKuttaTableau{
     4, {{{}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}}}, {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}};
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

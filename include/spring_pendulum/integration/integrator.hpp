@@ -1,13 +1,13 @@
 // The interface of all integration methods.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
 #include <string>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Settings of a method.
 struct IntegratorOptions {
@@ -67,3 +67,4 @@ class Integrator {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -5,7 +5,6 @@
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/export.hpp>
 
 #include <deque>
 #include <functional>
@@ -13,7 +12,8 @@
 #include <string>
 #include <string_view>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 enum class StepControl { kFixed, kErrorControlled };
 
@@ -72,3 +72,4 @@ std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain&
                                            const IntegratorOptions& options = {});
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

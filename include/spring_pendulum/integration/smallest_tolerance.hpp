@@ -2,10 +2,10 @@
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Estimates the smallest position error in m that any method can reach within a few seconds of
 /// motion from `start`: a hundred times the rounding error of the largest coordinate, of the
@@ -15,3 +15,4 @@ namespace SPRING_PENDULUM_API spring_pendulum {
 double smallestTolerance(const Chain& chain, const State& start);
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -5,7 +5,6 @@
 // digits.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
@@ -13,7 +12,8 @@
 #include <string>
 #include <vector>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 class FrameFolder;
 
@@ -60,3 +60,4 @@ class FrameWriter {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

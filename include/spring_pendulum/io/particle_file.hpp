@@ -6,13 +6,13 @@
 #pragma once
 
 #include <spring_pendulum/model/aligned_numbers.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <string>
 #include <string_view>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// N >= 1 particles at rest.
 struct Particles {
@@ -29,3 +29,4 @@ Particles readParticleFile(const std::string& path);
 Particles parseParticles(std::string_view text, std::string_view name);
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

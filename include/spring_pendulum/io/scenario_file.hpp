@@ -1,13 +1,13 @@
 // A scenario from a YAML file: lines `key: value`, see config/pendulum.yaml.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
 #include <string_view>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Reads a scenario. Keys that are not in the file keep their defaults. Keys that the method does
 /// not use, like `time_step` for an error-controlled method, are checked but have no effect.
@@ -20,3 +20,4 @@ Scenario readScenarioFile(const std::string& path);
 Scenario parseScenario(std::string_view text, std::string_view name);
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -5,13 +5,12 @@
 // allocates and frees all shared memory itself; Eigen accesses it through Eigen::Map.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
-
 #include <Eigen/Core>
 
 #include <cstddef>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// An array of doubles aligned to a cache line.
 class AlignedNumbers {
@@ -54,3 +53,4 @@ class AlignedNumbers {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

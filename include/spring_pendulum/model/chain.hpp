@@ -3,12 +3,12 @@
 #pragma once
 
 #include <spring_pendulum/model/aligned_numbers.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// A chain of N >= 1 particles P_1..P_N and N-1 equal springs. P_1 is fixed; its mass is not used.
 /// Validated by the constructor, immutable afterwards.
@@ -44,3 +44,4 @@ class Chain {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstddef>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Returns the force in N of spring i (between particles i and i+1, counted from 0) on particle i.
 /// \throws InputError if the chain has no such spring or the size of the state is not that of the
@@ -23,3 +23,4 @@ PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::p
 void computeSlope(const Chain& chain, const State& state, State& slope);
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Energies of one state, J. Each sum has a fixed order, so the bits are the same on every machine.
 struct Energy {
@@ -25,3 +25,4 @@ Energy computeEnergy(const Chain& chain, const State& state);
 double dissipatedPower(const Chain& chain, const State& state);
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

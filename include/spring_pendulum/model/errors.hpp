@@ -1,11 +1,10 @@
 // The two kinds of errors. Each message is one line: what is wrong, where, and what would be right.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
-
 #include <stdexcept>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Wrong use or bad input: a value out of its range, a malformed line, an unknown name. Exit
 /// status 2.
@@ -21,3 +20,4 @@ class FileError : public std::runtime_error {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -2,11 +2,10 @@
 // they do the same arithmetic in the same order, with the same fused multiply-adds.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
-
 #include <cmath>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Kelvin-Voigt element: a linear spring and a linear dashpot in parallel.
 struct SpringLaw {
@@ -94,3 +93,4 @@ template <typename Value>
 }
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

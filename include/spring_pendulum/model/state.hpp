@@ -2,13 +2,13 @@
 #pragma once
 
 #include <spring_pendulum/model/aligned_numbers.hpp>
-#include <spring_pendulum/model/export.hpp>
 
 #include <Eigen/Core>
 
 #include <cstddef>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Positions (m) and velocities (m/s) of N particles as a structure of arrays: an N×4 matrix whose
 /// columns x, y, vx, vy are each contiguous. Plain data without time and without invariants.
@@ -68,3 +68,4 @@ class State {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

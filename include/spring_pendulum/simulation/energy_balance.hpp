@@ -8,12 +8,12 @@
 
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/energy.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <optional>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// The energy in J available to a motion: the difference between the larger of E(0) and 0 (all
 /// springs unstretched and all particles at the height of P_1) and the minimum, the chain hanging
@@ -73,3 +73,4 @@ class EnergyBalance {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

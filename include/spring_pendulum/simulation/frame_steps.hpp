@@ -2,10 +2,10 @@
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 struct FrameSteps {
   double time_step = 0.0;  ///< s
@@ -25,3 +25,4 @@ inline FrameSteps frameSteps(const Scenario& scenario) {
 }
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

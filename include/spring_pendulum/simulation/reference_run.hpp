@@ -16,14 +16,14 @@
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Length in m to which position errors are related: the sum of the rest lengths, but at least a
 /// tenth of the length of the chain at the start (for springs with rest length 0).
@@ -108,3 +108,4 @@ class ReferenceRun {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

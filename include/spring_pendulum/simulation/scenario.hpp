@@ -2,14 +2,14 @@
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <string>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Action after a divergence. A run never continues with numbers that are not finite.
 enum class OnDivergence { kStop, kContinue };
@@ -47,3 +47,4 @@ struct Scenario {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

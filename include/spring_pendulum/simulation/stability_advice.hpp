@@ -11,13 +11,13 @@
 
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// Step sizes in s; 0 if the smallest affordable one fails, infinite if all pass.
 struct StepLimits {
@@ -44,3 +44,4 @@ std::string describeStability(const Chain& chain, const State& start, const Scen
 std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario);
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

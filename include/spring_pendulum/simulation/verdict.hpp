@@ -7,7 +7,6 @@
 // only the dissipated energy is wrong.
 #pragma once
 
-#include <spring_pendulum/model/export.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 
@@ -15,7 +14,8 @@
 #include <string>
 #include <string_view>
 
-namespace SPRING_PENDULUM_API spring_pendulum {
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
 
 /// In order of severity.
 enum class VerdictKind {
@@ -120,3 +120,4 @@ class Judge {
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop
