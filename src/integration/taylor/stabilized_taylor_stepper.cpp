@@ -3,6 +3,7 @@
 #include "model/chain_modes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace spring_pendulum {
@@ -12,8 +13,18 @@ namespace {
 constexpr double kUsedStability = 0.97;
 
 /// Step size in s below which the error is limited per time instead of per step. Such short steps
-/// are taken where a light particle vibrates, and their many errors add up.
-constexpr double kLeastTimePerError = 1e-3;
+/// are taken where a light particle vibrates, and their many errors add up. Order 4 estimates its
+/// errors so cautiously that it needs the limit at shorter steps only.
+double leastTimePerError(int order) {
+  return order == 4 ? 1e-3 : 5e-3;
+}
+
+/// Time in s over which a velocity error counts as a position error: 1/rate of the fastest mode, at
+/// most 1 s.
+double timeOfVelocityError(const Chain& chain, double fastest_rate) {
+  const double fastest_vibration = std::sqrt(chain.spring().stiffness * largestSpringMode(chain));
+  return 1.0 / std::max({fastest_rate, fastest_vibration, 1.0});
+}
 
 double longestStep(const StabilizedPolynomial& polynomial, double rate) {
   return kUsedStability * polynomial.real_stability_limit / rate;
@@ -47,7 +58,9 @@ TaylorWeights errorOf(const StabilizedPolynomial& polynomial, double time) {
 StabilizedTaylorStepper::StabilizedTaylorStepper(const Chain& chain, int order, double tolerance,
                                                  const ChainKernels& kernels)
     : ErrorEstimatingStepper(chain, kShareOfTolerance * tolerance, order, kernels),
+      least_time_per_error_(leastTimePerError(order)),
       fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
+      time_of_velocity_error_(timeOfVelocityError(chain, fastest_rate_)),
       polynomials_(stabilizedPolynomials(order)),
       polynomial_(polynomials_.begin()),
       expansion_(chain, (polynomials_.end() - 1)->terms),
@@ -89,8 +102,9 @@ double StabilizedTaylorStepper::attempt(double h) {
                                                   end().data()) == SpringChange::kMuch) {
     return std::numeric_limits<double>::infinity();
   }
-  const double error = kernels().taylorLargestSum(work, errorOf(*polynomial_, h)).position;
-  return error * std::max(1.0, kLeastTimePerError / h);
+  const LargestChange error = kernels().taylorLargestSum(work, errorOf(*polynomial_, h));
+  return std::max(time_of_velocity_error_ * error.velocity, error.position) *
+         std::max(1.0, least_time_per_error_ / h);
 }
 
 void StabilizedTaylorStepper::interpolate(double fraction, State& state) const {
