@@ -104,6 +104,12 @@ enum class SpringChange {
   kMuch,     ///< much until the end of the step, at least for one spring
 };
 
+/// Largest absolute values of acceleration coefficients K-1, K-2, K-3 and K-4 of a Taylor series of
+/// order K; NaN if an element is not finite.
+struct LastCoefficients {
+  double size[4];
+};
+
 /// The kernels of one instruction set. Outputs must not overlap inputs.
 struct ChainKernels {
   std::string_view name;  ///< "baseline", "avx2", "avx512"
@@ -148,8 +154,8 @@ struct ChainKernels {
   /// Returns the largest absolute values in a weighted sum of the acceleration coefficients.
   LargestChange (*taylorLargestSum)(const TaylorWorkspace& work, const TaylorWeights& weights);
 
-  /// Returns the largest absolute value of acceleration coefficient n; NaN if one is not finite.
-  double (*taylorLargest)(const TaylorWorkspace& work, std::ptrdiff_t n);
+  /// Returns the sizes of the last acceleration coefficients.
+  LastCoefficients (*lastCoefficients)(const TaylorWorkspace& work);
 };
 
 /// Returns the kernels of every instruction set of this processor, the fastest first. The last is

@@ -337,14 +337,18 @@ LargestChange taylorLargestSum(const TaylorWorkspace& work, const TaylorWeights&
   return {position.result(), velocity.result()};
 }
 
-double taylorLargest(const TaylorWorkspace& work, std::ptrdiff_t n) {
-  Largest largest;
-  const double* row = work.accelerations + n * 2 * work.pitch;
-  for (Index block = 0; block < blocksOf(work.size); ++block) {
-    largest.add(Pack::load(row + block * kLanes));
-    largest.add(Pack::load(row + work.pitch + block * kLanes));
+LastCoefficients lastCoefficients(const TaylorWorkspace& work) {
+  Largest largest[4];
+  const double* last = work.accelerations + (work.order - 1) * 2 * work.pitch;
+  for (Index first = 0; first < blocksOf(work.size) * kLanes; first += kLanes) {
+#pragma GCC unroll 4
+    for (Index back = 0; back < 4; ++back) {
+      const double* row = last - back * 2 * work.pitch + first;
+      largest[back].add(Pack::load(row));
+      largest[back].add(Pack::load(row + work.pitch));
+    }
   }
-  return largest.result();
+  return {{largest[0].result(), largest[1].result(), largest[2].result(), largest[3].result()}};
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "model/checks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -72,17 +71,17 @@ void TaylorStepper::expand() {
 // separately, because all odd ones vanish for an undamped chain released at rest.
 double TaylorStepper::longestAccurateStep() {
   const auto order = static_cast<int>(work_.order);
-  std::array<double, 4> size{};  // largest values of coefficients K-1, K-2, K-3, K-4
-  for (std::size_t back = 0; back < size.size(); ++back) {
-    size[back] = kernels_.taylorLargest(work_, order - 1 - static_cast<int>(back));
-    if (!std::isfinite(size[back])) return 0.0;
+  const LastCoefficients last = kernels_.lastCoefficients(work_);
+  const auto& size = last.size;
+  for (const double value : size) {
+    if (!std::isfinite(value)) return 0.0;
   }
   const double ratio = std::sqrt(
       std::max(size[2] > 0.0 ? size[0] / size[2] : 0.0, size[3] > 0.0 ? size[1] / size[3] : 0.0));
   const double growth = ratio > 0.0 ? ratio : kUnknownGrowth;
   // next = max(size[0] growth, size[1] growth², size[2] growth³, size[3] growth⁴)
   double next = 0.0;
-  for (std::size_t back = size.size(); back-- > 0;) next = growth * std::max(next, size[back]);
+  for (std::size_t back = 4; back-- > 0;) next = growth * std::max(next, size[back]);
   statistics_.fastest_rate = order * ratio;
   if (next < kNoMotion) return kLongestStep;
   return std::clamp(root(allowed_rate_ * (order + 1) / next, order), kShortestStep, kLongestStep);

@@ -12,9 +12,9 @@ namespace spring_pendulum {
 namespace {
 
 constexpr ChainKernels kernelsNamed(std::string_view name) {
-  return {name,          stageSlope,        combine,        addWeighted,   compensatedSum,
-          largestChange, springChange, addDissipation, advanceKernel, taylorSeries,
-          taylorState,   taylorLargestSum,  taylorLargest};
+  return {name,          stageSlope,       combine,         addWeighted,   compensatedSum,
+          largestChange, springChange,     addDissipation,  advanceKernel, taylorSeries,
+          taylorState,   taylorLargestSum, lastCoefficients};
 }
 
 }  // namespace
