@@ -148,7 +148,7 @@ std::string RunMonitor::toleranceRemark() const {
   }
   return fmt::format(
       "sensitive from t = {:.6g} s on: by then small changes have grown by a factor of {:.2g}, "
-      "so no method can keep a tolerance of {:.3g} m",
+      "so no method can promise a tolerance of {:.3g} m",
       exceeded_time_, exceeded_growth_, tolerance_);
 }
 

@@ -155,7 +155,7 @@ TEST(RunMonitor, SensitiveMotionIsNotBlamedOnTheRun) {
   const RunMonitor monitor = monitorAfter(scenario, scene, 20.0);
   EXPECT_EQ(monitor.verdict().kind, VerdictKind::kSensitive);
   EXPECT_THAT(monitor.verdict().text, HasSubstr("sensitive from t = "));
-  EXPECT_THAT(monitor.toleranceRemark(), HasSubstr("no method can keep a tolerance of 1e-08 m"));
+  EXPECT_THAT(monitor.toleranceRemark(), HasSubstr("no method can promise a tolerance of 1e-08 m"));
 }
 
 // A light particle buckles between heavy ones at 2.8 s. At 7.2 s, perturbations of the start have
