@@ -135,6 +135,7 @@ void initRos(int argc, char** argv) {
         "{}: the log folder of ROS could not be created: {}; set ROS_HOME to a writable folder",
         error.path1().string(), error.code().message()));
   }
+  if (ros::this_node::getName() == "/") throw InputError("the name of the node must not be empty");
   if (argc <= 1) return;
   throw InputError(fmt::format(
       "unexpected argument '{}': the node takes parameters, for example _frames:=100", argv[1]));

@@ -120,7 +120,8 @@ class Parameters(unittest.TestCase):
         for arguments, message in (
                 (['--frames', '3'], "unexpected argument '--frames': the node takes parameters, for example "
                                     '_frames:=100\n'),
-                (['__name:=7th'], 'Character [7] is not valid as the first character in Graph Resource Name')):
+                (['__name:=7th'], 'Character [7] is not valid as the first character in Graph Resource Name'),
+                (['__name:='], 'the name of the node must not be empty\n')):
             done = subprocess.run([program('pendulum_node'), *arguments], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr[:len(message)]), (2, message))
             self.assertEqual(done.stderr.count('\n'), 1, done.stderr)

@@ -78,11 +78,15 @@ FrameFolder::~FrameFolder() {
 void FrameFolder::open() {
   std::error_code error;
   std::filesystem::create_directories(given_path_, error);
+  // For a link that leads nowhere, older standard libraries report that it is not a folder.
+  std::error_code ignored;
+  const bool leads_nowhere = std::filesystem::is_symlink(given_path_, ignored) &&
+                             !std::filesystem::exists(given_path_, ignored);
+  if (error == std::errc::file_exists || (error && leads_nowhere)) {
+    throw FileError(path_ + ": could not be created: it is a link to a folder that does not exist");
+  }
   if (error == std::errc::not_a_directory) {
     throw FileError(path_ + ": could not be created: it is a file or lies in one; give a folder");
-  }
-  if (error == std::errc::file_exists) {
-    throw FileError(path_ + ": could not be created: it is a link to a folder that does not exist");
   }
   if (error) throw FileError(fmt::format("{}: could not be created: {}", path_, error.message()));
   descriptor_ = FileDescriptor(::open(given_path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
