@@ -39,7 +39,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
   try {
     Scenario scenario;
-    scenario.particles = "/";  // anything that exists
     OptionSet options(scenarioOptions(scenario));
     const Switches switches = parseCommandLine(static_cast<int>(pointers.size()), pointers.data(),
                                                {"Exercise3", "", ""}, options, scenario);

@@ -77,7 +77,7 @@ void printSummary(const Scenario& scenario, const Summary& summary, const Chain&
 }
 
 int run(const Scenario& scenario, const Switches& switches) {
-  const Particles particles = readParticleFile(scenario.particles);
+  const Particles particles = readParticles(scenario);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   RunMonitor monitor(scenario, chain, particles.state, !scenario.energy.empty());
   const std::string memory = memoryRemark(scenario, chain.size());

@@ -28,7 +28,7 @@ namespace {
 
 /// Prints the output of --report-skips and --check.
 void report(const Scenario& scenario, bool track_energy, const Switches& switches) {
-  const Particles particles = readParticleFile(scenario.particles);
+  const Particles particles = readParticles(scenario);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   checkTolerance(scenario, chain, particles.state);
   const auto integrator =
@@ -61,7 +61,7 @@ int record(int argc, const char* const* argv) {
   if (switches.check) return kDone;
   bag.config = switches.config;
   catchInterruptions();
-  PendulumRun run(scenario, readParticleFile(scenario.particles),
+  PendulumRun run(scenario, readParticles(scenario),
                   display.track_energy || !scenario.energy.empty(),
                   display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0);
   const std::string memory = memoryRemark(scenario, run.chain().size());

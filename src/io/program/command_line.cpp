@@ -159,16 +159,6 @@ void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& op
   }
 }
 
-/// The reader of particle files does not know the option.
-void refuseMissingDefault(const OptionSet& options, const Scenario& scenario) {
-  namespace fs = std::filesystem;
-  std::error_code error;  // other errors are left to the reader
-  const fs::file_type type = fs::status(scenario.particles, error).type();
-  if (options.isGiven("particles") || type != fs::file_type::not_found) return;
-  throw FileError(fmt::format("{}: no such file; give a particle file with --particles",
-                              fullPath(scenario.particles)));
-}
-
 /// \returns the path of the file; empty: none
 std::string readConfig(const std::vector<po::option>& given, OptionSet& options) {
   std::string path;
@@ -202,8 +192,18 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   }
   checkScenario(scenario);
   refuseUnused(keys, options, scenario);
-  refuseMissingDefault(options, scenario);
   return {has(given, "check"), has(given, "report-skips"), "", config};
+}
+
+Particles readParticles(const Scenario& scenario) {
+  namespace fs = std::filesystem;
+  std::error_code error;  // other errors are left to the reader
+  const bool is_missing = fs::status(scenario.particles, error).type() == fs::file_type::not_found;
+  if (is_missing && scenario.particles == Scenario{}.particles) {
+    throw FileError(fmt::format("{}: no such file; give a particle file with --particles",
+                                fullPath(scenario.particles)));
+  }
+  return readParticleFile(scenario.particles);
 }
 
 }  // namespace spring_pendulum

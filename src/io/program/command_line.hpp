@@ -3,6 +3,7 @@
 #pragma once
 
 #include "simulation/options/option_set.hpp"
+#include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
@@ -30,5 +31,10 @@ struct Switches {
 /// \throws InputError, and FileError for --config
 Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
                           OptionSet& options, const Scenario& scenario);
+
+/// Reads the particle file of a scenario. If the default file does not exist, the error names the
+/// option --particles.
+/// \throws InputError and FileError, see readParticleFile
+Particles readParticles(const Scenario& scenario);
 
 }  // namespace spring_pendulum
