@@ -114,8 +114,8 @@ TEST(ChainKernels, DissipationHasTheBitsOfThePlainCode) {
       kernels->addDissipation(KernelConstants(chain).chain(), z.data(), 0.3, dissipated.data());
       for (Eigen::Index i = 0; i + 1 < size; ++i) {
         const State::Matrix& s = state.values();
-        const double rate = elongationRate<double>({s(i + 1, 0) - s(i, 0), s(i + 1, 1) - s(i, 1)},
-                                                   {s(i + 1, 2) - s(i, 2), s(i + 1, 3) - s(i, 3)});
+        const auto rate = elongationRate<double>({s(i + 1, 0) - s(i, 0), s(i + 1, 1) - s(i, 1)},
+                                                 {s(i + 1, 2) - s(i, 2), s(i + 1, 3) - s(i, 3)});
         EXPECT_EQ(dissipated[i], std::fma(0.3, rate * rate, 0.1)) << kernels->name << ", " << size;
       }
     }
@@ -132,7 +132,7 @@ TEST(ChainKernels, KnowATableauByItsCoefficients) {
 }
 
 TEST(ChainKernels, NamedInstructionSetLeavesOutFasterOnes) {
-  const std::vector<const ChainKernels*> all = supportedChainKernels();
+  const std::vector<const ChainKernels*>& all = supportedChainKernels();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::vector<const ChainKernels*> found = chainKernelsUpTo(all[i]->name);
     EXPECT_EQ(found,
