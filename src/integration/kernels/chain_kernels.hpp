@@ -100,7 +100,7 @@ struct LargestChange {
 /// of the old length or, if that was 0, to at least 1e-12 m. NaN counts as much.
 enum class SpringChange {
   kLittle,
-  kUnclear,  ///< little until the end of the step, but perhaps much before
+  kUnclear,  ///< little until the end of the step, but perhaps much until its middle
   kMuch,     ///< much until the end of the step, at least for one spring
 };
 

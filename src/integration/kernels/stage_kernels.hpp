@@ -136,6 +136,7 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
     const PlaneVector<Pack> change{after.x - before.x, after.y - before.y};
     const Pack at_end = along(change);
     const Pack slowing = along({rate_before.x - rate_after.x, rate_before.y - rate_after.y});
+    // The cubic through positions and velocities of both ends estimates the change until the middle.
     const Pack in_middle = fused(0.125 * h, slowing, 0.5 * at_end);
     const Pack square = before.x * before.x + before.y * before.y;
     const Pack grown = change.x * change.x + change.y * change.y;
@@ -144,6 +145,7 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
     const Pack counted{square.lanes == 0.0 ? without.lanes : with_length.lanes};
     const std::ptrdiff_t springs = size - 1 - block * kLanes;
     much = much + only(counted, 0, springs);
+    // Half the limit, because the estimate is coarse.
     unclear = unclear + only(reaches(absolute(in_middle), 0.5 * kMuch * square), 0, springs);
   }
   const auto any = [](Pack marked) {
