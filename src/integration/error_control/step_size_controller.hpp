@@ -13,8 +13,8 @@
 
 namespace spring_pendulum {
 
-/// Returns the k-th root of x with a relative error below 1e-8. The bits are the same on every
-/// machine, as only + - * / are used.
+/// Returns the k-th root of x with a relative error below 2e-5, enough for a step size. The
+/// bits are the same on every machine, as only + - * / are used.
 /// \param x at least 0; treated as 1e-300 if it is smaller and not 0
 /// \param k 1..32
 double root(double x, int k);
