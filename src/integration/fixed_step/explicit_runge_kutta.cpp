@@ -57,7 +57,8 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
   for (Share& share : shares_) {
     share.left.resize(largest_border_, 4);
     share.right.resize(largest_border_, 4);
-    share.block = StateBuffer(roundedUp(longest_block) + 2 * largest_border_);
+    share.block =
+        StateBuffer(one_block ? chain.size() : roundedUp(longest_block) + 2 * largest_border_);
     if (tracks_dissipation_) share.dissipated = AlignedNumbers(share.block.pitch());
     share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
   }
@@ -98,17 +99,26 @@ void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t st
     weights_.dissipation[i] = time_step * tableau_.b[i] * constants_.chain().spring.damping;
   }
   const auto stages = static_cast<std::int64_t>(stages_);
-  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has at least one stage
-  const std::int64_t at_once = largest_border_ == 0 ? steps : largest_border_ / stages;
-  const int threads = threadsFor(std::min(steps, at_once));
   force_evaluations_ += steps * stages;
+  if (largest_border_ == 0) return stepWhole(state, steps);
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has at least one stage
+  const std::int64_t at_once = largest_border_ / stages;
+  const int threads = threadsFor(std::min(steps, at_once));
   for (; steps > 0; steps -= pass_.steps) {
     pass_.state = &state;
     pass_.steps = std::min(steps, at_once);
-    pass_.border = largest_border_ == 0 ? 0 : roundedUp(pass_.steps * stages);
+    pass_.border = roundedUp(pass_.steps * stages);
     divide(threads);
     workers_->run(threads);
   }
+}
+
+void ExplicitRungeKutta::stepWhole(State& state, std::int64_t steps) {
+  Share& share = shares_.front();
+  share.block.values() = state.values();
+  kernel_(constants_.chain(), weights_, steps, share.block.data(), dissipated_.data(),
+          share.workspace.data());
+  state.values() = share.block.values();
 }
 
 int ExplicitRungeKutta::threadsFor(std::int64_t steps) const {

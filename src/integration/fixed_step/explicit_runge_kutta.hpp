@@ -71,6 +71,8 @@ class ExplicitRungeKutta final : public Integrator {
     Eigen::Index border = 0;
   };
 
+  /// Takes the steps of a chain that is one block.
+  void stepWhole(State& state, std::int64_t steps);
   int threadsFor(std::int64_t steps) const;
   void divide(int threads);
   void workOn(Share& share);

@@ -17,6 +17,7 @@
 #include "integration/kernels/block.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/fast_tableaus.hpp"
+#include "integration/kernels/weights_of.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 
 #include <cstddef>
@@ -40,8 +41,8 @@ class Conveyor {
         workspace_(workspace),
         blocks_(blocksOf(chain.size)) {}
 
-  /// Whether the chain has so few blocks that its code is unrolled.
-  bool isShort() const { return blocks_ <= kShortBlocks; }
+  /// Whether a chain has so few blocks that its code is unrolled.
+  static bool isShort(const KernelChain& chain) { return blocksOf(chain.size) <= kShortBlocks; }
 
   void advanceShort(std::ptrdiff_t steps) {
     shortSteps(steps, std::make_index_sequence<kShortBlocks>());
@@ -59,13 +60,11 @@ class Conveyor {
   /// Layout of the workspace: a record per block of the chain, or a ring of records per stage.
   enum class Memory { kWhole, kRings };
 
-  /// Blocks of the longest chain whose code is unrolled.
-  static constexpr std::ptrdiff_t kShortBlocks = 8;
+  static constexpr std::ptrdiff_t kShortBlocks = 8;  ///< of the longest chain that is unrolled
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
   /// Ticks between the halves of a stage, so that about four halves of other stages run meanwhile.
   static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
-  /// The same distance, in blocks, where one stage runs alone.
-  static constexpr std::ptrdiff_t kLead = 4;
+  static constexpr std::ptrdiff_t kLead = 4;  ///< the same in blocks, where one stage runs alone
   static_assert(kShortBlocks + 1 > kLead, "wholeStage needs more than kLead blocks");
   static constexpr std::ptrdiff_t kBlocksBetweenStages = kLag + 2;
   /// Ticks until the last stage finishes its first block.
@@ -352,7 +351,7 @@ class Conveyor {
   }
 
   const KernelChain chain_;  ///< copy: through a reference it would be reloaded after every store
-  const StepWeights weights_;
+  const WeightsOf<kTableau> weights_;
   double* const state_;
   double* const dissipated_;
   double* const workspace_;
@@ -362,12 +361,13 @@ class Conveyor {
 template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kDissipation>
 void advance(const KernelChain& chain, const StepWeights& weights, std::ptrdiff_t steps,
              double* state, double* dissipated, double* workspace) {
-  Conveyor<kTableau, kDamped, kGravity, kDissipation> conveyor(chain, weights, state, dissipated,
-                                                               workspace);
-  if (!conveyor.isShort()) return conveyor.advance(steps);
   // Adding a gravity of 0 changes no bit and costs little time; this saves a compiled variant.
-  Conveyor<kTableau, kDamped, true, kDissipation>(chain, weights, state, dissipated, workspace)
-      .advanceShort(steps);
+  using Short = Conveyor<kTableau, kDamped, true, kDissipation>;
+  if (Short::isShort(chain)) {
+    return Short(chain, weights, state, dissipated, workspace).advanceShort(steps);
+  }
+  Conveyor<kTableau, kDamped, kGravity, kDissipation>(chain, weights, state, dissipated, workspace)
+      .advance(steps);
 }
 
 template <const ButcherTableau& kTableau>
