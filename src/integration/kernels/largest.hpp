@@ -3,30 +3,33 @@
 
 #include "integration/kernels/instruction_sets/pack.hpp"
 
+#include <cstdint>
+#include <cstring>
+
 namespace spring_pendulum {
 namespace {
 
-/// A maximum of absolute values that becomes NaN if a value is not finite. A comparison alone would
-/// ignore NaN.
+/// A maximum of absolute values that becomes NaN if a value is not finite. It compares the bits of
+/// the numbers as integers: those of infinity and NaN are larger than those of finite numbers. A
+/// comparison of the numbers would ignore NaN.
 class Largest {
  public:
-  void add(Pack value) {
-    largest_ = larger(largest_, absolute(value));
-    not_finite_ = not_finite_ + (value - value);
+  [[gnu::always_inline]] void add(Pack value) {
+    const Pack::Bits bits = absoluteBits(value);
+    largest_ = bits > largest_ ? bits : largest_;
   }
-  double result() const {
-    double result = 0.0;
-    double not_finite = 0.0;
+  [[gnu::always_inline]] double result() const {
+    std::int64_t largest = 0;
     for (int lane = 0; lane < kLanes; ++lane) {
-      result = largest_.lanes[lane] > result ? largest_.lanes[lane] : result;
-      not_finite += not_finite_.lanes[lane];
+      if (largest_[lane] > largest) largest = largest_[lane];
     }
-    return result + not_finite;
+    double result = 0.0;
+    std::memcpy(&result, &largest, sizeof(result));
+    return result + (result - result);
   }
 
  private:
-  Pack largest_;
-  Pack not_finite_;
+  Pack::Bits largest_{};
 };
 
 }  // namespace

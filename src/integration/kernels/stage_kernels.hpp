@@ -118,13 +118,10 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
 
 SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, const double* from,
                           const double* to) {
-  const Pack::Native one = Pack::all(1.0).lanes;
-  // 1 where the value is not below the limit, also for NaN; else 0.
-  const auto reaches = [&](Pack value, Pack limit) {
-    return Pack{value.lanes < limit.lanes ? Pack::Native{} : one};
-  };
-  Pack much;
-  Pack unclear;
+  // Lanes are all ones where the condition holds, also for NaN; else 0.
+  const auto reaches = [](Pack value, Pack limit) { return ~(value.lanes < limit.lanes); };
+  Pack::Bits much{};
+  Pack::Bits unclear{};
   for (std::ptrdiff_t block = 0; block < blocksOf(size); ++block) {
     const PlaneVector<Pack> before = differences(from, pitch, block);
     const PlaneVector<Pack> after = differences(to, pitch, block);
@@ -140,18 +137,17 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
     const Pack in_middle = fused(0.125 * h, slowing, 0.5 * at_end);
     const Pack square = before.x * before.x + before.y * before.y;
     const Pack grown = change.x * change.x + change.y * change.y;
-    const Pack without = reaches(grown, Pack::all(kNoLength * kNoLength));
-    const Pack with_length = reaches(absolute(at_end), kMuch * square);
-    const Pack counted{square.lanes == 0.0 ? without.lanes : with_length.lanes};
-    const std::ptrdiff_t springs = size - 1 - block * kLanes;
-    much = much + only(counted, 0, springs);
+    const Pack::Bits without = reaches(grown, Pack::all(kNoLength * kNoLength));
+    const Pack::Bits with_length = reaches(absolute(at_end), kMuch * square);
+    const Pack::Bits springs = laneNumbers().lanes < static_cast<double>(size - 1 - block * kLanes);
+    much |= springs & (square.lanes == 0.0 ? without : with_length);
     // Half the limit, because the estimate is coarse.
-    unclear = unclear + only(reaches(absolute(in_middle), 0.5 * kMuch * square), 0, springs);
+    unclear |= springs & reaches(absolute(in_middle), 0.5 * kMuch * square);
   }
-  const auto any = [](Pack marked) {
-    double sum = 0.0;
-    for (int lane = 0; lane < kLanes; ++lane) sum += marked.lanes[lane];
-    return sum > 0.0;
+  const auto any = [](Pack::Bits marked) {
+    std::int64_t all = 0;
+    for (int lane = 0; lane < kLanes; ++lane) all |= marked[lane];
+    return all != 0;
   };
   if (any(much)) return SpringChange::kMuch;
   return any(unclear) ? SpringChange::kUnclear : SpringChange::kLittle;

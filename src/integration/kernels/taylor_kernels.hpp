@@ -14,7 +14,7 @@ namespace spring_pendulum {
 namespace {
 
 using Index = std::ptrdiff_t;
-constexpr Index kGroup = 8;  ///< springs of one group in memory, for every instruction set
+constexpr std::size_t kGroup = 8;  ///< springs of one group in memory, for every instruction set
 
 // Pseudo-orders that select the two rows without coefficients.
 constexpr Index kDirection = -2;
@@ -43,8 +43,7 @@ struct Convolutions {
 class SpringSeries {
  public:
   [[gnu::always_inline]] SpringSeries(const TaylorWorkspace& work, Index block)
-      : first_(work.springs + block * kLanes / kGroup * TaylorWorkspace::kSpringRows * kRow +
-               block * kLanes % kGroup) {}
+      : SpringSeries(work.springs, static_cast<std::size_t>(block * kLanes)) {}
 
   [[gnu::always_inline]] PlaneVector<Pack> separation(Index n) const {
     return {at(n, 0), at(n, 1)};
@@ -74,7 +73,10 @@ class SpringSeries {
   }
 
  private:
-  static constexpr Index kRow = 4 * kGroup;
+  static constexpr std::size_t kRow = 4 * kGroup;
+  [[gnu::always_inline]] SpringSeries(double* springs, std::size_t spring)
+      : first_(springs + spring / kGroup * (TaylorWorkspace::kSpringRows * kRow) +
+               spring % kGroup) {}
   [[gnu::always_inline]] double* row(Index n) const {
     return first_ + (n < 0 ? n + TaylorWorkspace::kSpringRows : n) * kRow;
   }
@@ -256,11 +258,13 @@ template <Index n, Index kBlocks>
   const auto finish = [&](Index block, const PlaneVector<Pack>& next) {
     const PlaneVector<Pack> right{rightNeighbours(forces.x, next.x),
                                   rightNeighbours(forces.y, next.y)};
+    // In this order no store follows the new separations that the compiler could take for a change
+    // of them, so a single block keeps them in registers.
+    setAccelerations<n>(work, block, forces, right);
     if (wanted) {
       SpringSeries(work, block)
           .setSeparation(n + 2, separationCoefficient<n>(work, block, left, forces, right));
     }
-    setAccelerations<n>(work, block, forces, right);
   };
   // Descending would save the last call, but long chains then took up to 1.5 times longer.
   for (Index block = 0; block < blocks; ++block) {
@@ -338,17 +342,19 @@ LargestChange taylorLargestSum(const TaylorWorkspace& work, const TaylorWeights&
 }
 
 LastCoefficients lastCoefficients(const TaylorWorkspace& work) {
-  Largest largest[4];
-  const double* last = work.accelerations + (work.order - 1) * 2 * work.pitch;
-  for (Index first = 0; first < blocksOf(work.size) * kLanes; first += kLanes) {
-#pragma GCC unroll 4
-    for (Index back = 0; back < 4; ++back) {
-      const double* row = last - back * 2 * work.pitch + first;
-      largest[back].add(Pack::load(row));
-      largest[back].add(Pack::load(row + work.pitch));
+  const Index end = blocksOf(work.size) * kLanes;
+  const auto size_of = [&](Index n) {
+    const double* x = work.accelerations + n * 2 * work.pitch;
+    const double* y = x + work.pitch;
+    Largest largest;
+    for (Index first = 0; first < end; first += kLanes) {
+      largest.add(Pack::load(x + first));
+      largest.add(Pack::load(y + first));
     }
-  }
-  return {{largest[0].result(), largest[1].result(), largest[2].result(), largest[3].result()}};
+    return largest.result();
+  };
+  const Index last = work.order - 1;
+  return {{size_of(last), size_of(last - 1), size_of(last - 2), size_of(last - 3)}};
 }
 
 }  // namespace

@@ -38,12 +38,13 @@ struct TaylorWorkspace {
 };
 
 /// Weights of the acceleration coefficients 0..count-1 in the position and velocity sums, and of
-/// the initial velocities in the position sum.
+/// the initial velocities in the position sum. Weights from `count` on are undefined; otherwise they
+/// would be set to 0 in every step.
 struct TaylorWeights {
   std::ptrdiff_t count = 0;
-  double start_velocity = 0.0;                ///< s
-  double position[kLargestTaylorOrder] = {};  ///< s^(n+2)
-  double velocity[kLargestTaylorOrder] = {};  ///< s^(n+1)
+  double start_velocity = 0.0;           ///< s
+  double position[kLargestTaylorOrder];  ///< s^(n+2)
+  double velocity[kLargestTaylorOrder];  ///< s^(n+1)
 };
 
 }  // namespace spring_pendulum

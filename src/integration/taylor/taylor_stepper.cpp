@@ -56,7 +56,9 @@ void TaylorStepper::skipFreeEnd() {
   Eigen::Index first = work_.size - 1;
   while (first > 1 && fallsFreely(first - 1)) --first;
   const Eigen::Index moving = StateBuffer::paddedSize(first + work_.order + 1);
-  work_.size = std::min<Eigen::Index>(chain_.size(), 1 + moving);
+  const Eigen::Index size = std::min<Eigen::Index>(chain_.size(), 1 + moving);
+  // A store would delay the kernel, which loads the whole workspace at once.
+  if (size != work_.size) work_.size = size;
 }
 
 void TaylorStepper::expand() {
@@ -90,13 +92,13 @@ double TaylorStepper::longestAccurateStep() {
 // A spring that shrinks to a negative length in the series can have its old length again at the end
 // of the step. The middle of the step shows it.
 bool TaylorStepper::springsChangeMuch(double h) {
-  const auto changeUntil = [this](double time, const StateBuffer& later) {
+  const auto change_until = [this](double time, const StateBuffer& later) {
     return kernels_.springChange(work_.size, work_.pitch, time, begin_.data(), later.data());
   };
-  const SpringChange change = changeUntil(h, end_);
+  const SpringChange change = change_until(h, end_);
   if (change != SpringChange::kUnclear) return change == SpringChange::kMuch;
   sumAt(0.5 * h, inside_);
-  return changeUntil(0.5 * h, inside_) == SpringChange::kMuch;
+  return change_until(0.5 * h, inside_) == SpringChange::kMuch;
 }
 
 double TaylorStepper::step() {

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #if defined(__FMA__)
@@ -37,6 +38,7 @@ constexpr int kLanes = 2;
 /// acts on each double and is rounded as for a single double.
 struct Pack {
   using Native [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+  using Bits [[gnu::vector_size(kLanes * sizeof(double))]] = std::int64_t;
 
   [[gnu::always_inline]] static Pack load(const double* aligned) {
     return {*reinterpret_cast<const Native*>(aligned)};
@@ -102,13 +104,13 @@ struct Pack {
   return {square.lanes > 0.0 ? 1.0 / root.lanes : Pack::Native{}};
 }
 
-[[gnu::always_inline]] inline Pack absolute(Pack a) {
-  return {a.lanes < 0.0 ? -a.lanes : a.lanes};
+/// Returns the bits of the absolute values.
+[[gnu::always_inline]] inline Pack::Bits absoluteBits(Pack a) {
+  return reinterpret_cast<Pack::Bits>(a.lanes) & std::int64_t{0x7fffffffffffffff};
 }
 
-/// Returns the larger lanes; those of `a` where either is NaN.
-[[gnu::always_inline]] inline Pack larger(Pack a, Pack b) {
-  return {b.lanes > a.lanes ? b.lanes : a.lanes};
+[[gnu::always_inline]] inline Pack absolute(Pack a) {
+  return {reinterpret_cast<Pack::Native>(absoluteBits(a))};
 }
 
 /// Returns `kLanes` lanes of the concatenation of a and b, from lane `kFirst` on.
