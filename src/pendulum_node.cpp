@@ -10,7 +10,7 @@
 #include "simulation/interruptible.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
-#include <boost/filesystem/exception.hpp>
+#include <boost/filesystem.hpp>  // before Boost 1.72, exception.hpp lacks filesystem_error
 #include <fmt/format.h>
 
 #include <ros/network.h>

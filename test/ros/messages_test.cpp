@@ -13,6 +13,7 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include <support/temporary_folder.hpp>
@@ -24,6 +25,11 @@ Particles horizontal(Eigen::Index particles) {
   Particles scene{Eigen::VectorXd::Ones(particles), State(particles)};
   for (Eigen::Index i = 0; i < particles; ++i) scene.state.x()[i] = static_cast<double>(i);
   return scene;
+}
+
+/// Older releases of ROS generate messages without operator==.
+std::array<float, 4> rgba(const std_msgs::ColorRGBA& color) {
+  return {color.r, color.g, color.b, color.a};
 }
 
 visualization_msgs::MarkerArray markersOf(const PendulumRun& run, const NodeOptions& options) {
@@ -84,8 +90,8 @@ TEST(Markers, OneColourForTheWholeChainOnRequest) {
   NodeOptions options;
   options.color = "#ff8000";
   const auto markers = markersOf(run, options).markers;
-  for (const auto& color : markers[0].colors) EXPECT_EQ(color, *parseColor("#ff8000"));
-  EXPECT_EQ(markers[4].color, *parseColor("#ff8000"));
+  for (const auto& color : markers[0].colors) EXPECT_EQ(rgba(color), rgba(*parseColor("#ff8000")));
+  EXPECT_EQ(rgba(markers[4].color), rgba(*parseColor("#ff8000")));
 }
 
 TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
