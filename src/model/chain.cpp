@@ -1,4 +1,5 @@
 #include "model/checks.hpp"
+#include "model/numbers.hpp"
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -15,12 +16,13 @@ Chain::Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
   requireFiniteAtLeastZero("damping", spring.damping, "N·s/m");
   requireFiniteAtLeastZero("rest_length", spring.rest_length, "m");
   if (!std::isfinite(gravity)) {
-    throw InputError(fmt::format("gravity must be a finite number in m/s², got {}", gravity));
+    throw InputError(
+        fmt::format("gravity must be a finite number in m/s², got {}", numberText(gravity)));
   }
   for (std::ptrdiff_t i = 1; i < masses_.size(); ++i) {
     if (std::isfinite(masses_[i]) && masses_[i] > 0.0 && std::isfinite(1.0 / masses_[i])) continue;
     throw InputError(fmt::format("mass of particle {} must be above 0 kg and 1/mass finite, got {}",
-                                 i + 1, masses_[i]));
+                                 i + 1, numberText(masses_[i])));
   }
   inverse_masses_ = masses_.view().cwiseInverse();
   inverse_masses_[0] = 0.0;

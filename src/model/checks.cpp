@@ -1,5 +1,7 @@
 #include "model/checks.hpp"
 
+#include "model/numbers.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -22,12 +24,14 @@ void requireAdvance(std::ptrdiff_t particles, const State& state, double time_st
 
 void requireFiniteAtLeastZero(const char* name, double value, const char* unit) {
   if (std::isfinite(value) && value >= 0.0) return;
-  throw InputError(fmt::format("{} must be finite and at least 0 {}, got {}", name, unit, value));
+  throw InputError(
+      fmt::format("{} must be finite and at least 0 {}, got {}", name, unit, numberText(value)));
 }
 
 void requireFinitePositive(const char* name, double value, const char* unit) {
   if (std::isfinite(value) && value > 0.0) return;
-  throw InputError(fmt::format("{} must be finite and above 0 {}, got {}", name, unit, value));
+  throw InputError(
+      fmt::format("{} must be finite and above 0 {}, got {}", name, unit, numberText(value)));
 }
 
 void requireAtLeastZero(const char* name, std::ptrdiff_t value) {

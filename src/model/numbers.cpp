@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -90,6 +91,16 @@ char* writeNumber(double value, char* text) {
   const bool whole = end - text > 2 && end[-2] == '.' && end[-1] == '0';
   return whole ? end - 2 : end;
 #endif
+}
+
+std::string numberText(double value) {
+  std::array<char, kLongestNumber> text;
+  return {text.data(), writeNumber(value, text.data())};
+}
+
+std::string roundedText(double value, int digits) {
+  const auto rounded = parseNumber(fmt::format("{:.{}e}", value, digits - 1));
+  return fmt::format("{:.{}g}", rounded.value_or(value), std::max(digits, 3));
 }
 
 }  // namespace spring_pendulum

@@ -29,4 +29,11 @@ constexpr std::size_t kLongestNumber = 24;
 /// Writes the fewest digits that read back as the same double, and returns the end of the text.
 char* writeNumber(double value, char* text);
 
+/// Returns the text of writeNumber(). With "{}", {fmt} before release 8 writes 2 as 2.0.
+std::string numberText(double value);
+
+/// Returns a number rounded to a few significant digits: "0.00024", "1.5e-07", "150". With {:.2g},
+/// {fmt} 6 writes 0.00024 as 0.0024.
+std::string roundedText(double value, int digits);
+
 }  // namespace spring_pendulum

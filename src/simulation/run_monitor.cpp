@@ -1,6 +1,7 @@
 #include "simulation/run_monitor.hpp"
 
 #include "model/chain_modes.hpp"
+#include "model/numbers.hpp"
 #include "simulation/integrator_settings.hpp"
 #include "simulation/memory.hpp"
 
@@ -126,16 +127,18 @@ std::string RunMonitor::measurements() const {
   const PositionError& error = judge_.positionError();
   std::string text = "position error not measured";
   if (error.measured_until > 0.0 || error.measured_until == judge_.entry().time) {
-    text = error.largest > error.uncertainty
-               ? fmt::format("largest position error {:.2g} m at t = {:.6g} s", error.largest,
-                             error.largest_time)
-               : fmt::format("largest position error below {:.1g} m", error.uncertainty);
+    text =
+        error.largest > error.uncertainty
+            ? fmt::format("largest position error {} m at t = {:.6g} s",
+                          roundedText(error.largest, 2), error.largest_time)
+            : fmt::format("largest position error below {} m", roundedText(error.uncertainty, 1));
     if (error.measured_until < judge_.entry().time) {
       text += fmt::format(" (measured until t = {:.6g} s)", error.measured_until);
     }
   }
   text += judge_.entry().relative_residual
-              ? fmt::format(", largest energy error {:.2g} times the energy scale", worst_residual_)
+              ? fmt::format(", largest energy error {} times the energy scale",
+                            roundedText(worst_residual_, 2))
               : ", energy balance not checked";
   return text;
 }
@@ -147,9 +150,9 @@ std::string RunMonitor::toleranceRemark() const {
                        exceeded_time_);
   }
   return fmt::format(
-      "sensitive from t = {:.6g} s on: by then small changes have grown by a factor of {:.2g}, "
+      "sensitive from t = {:.6g} s on: by then small changes have grown by a factor of {}, "
       "so no method can promise a tolerance of {:.3g} m",
-      exceeded_time_, exceeded_growth_, tolerance_);
+      exceeded_time_, roundedText(exceeded_growth_, 2), tolerance_);
 }
 
 }  // namespace spring_pendulum

@@ -1,5 +1,6 @@
 #include "simulation/tolerance.hpp"
 
+#include "model/numbers.hpp"
 #include <spring_pendulum/integration/smallest_tolerance.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -14,7 +15,7 @@ void checkTolerance(const Scenario& scenario, const Chain& chain, const State& s
   throw InputError(
       fmt::format("tolerance: must be at least {:.1e} m for this scene, because of the rounding "
                   "errors of its positions; got {}",
-                  1.05 * least, scenario.tolerance));
+                  1.05 * least, numberText(scenario.tolerance)));
 }
 
 }  // namespace spring_pendulum

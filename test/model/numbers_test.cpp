@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace spring_pendulum {
@@ -73,11 +73,6 @@ TEST(Numbers, AreTheSameWithBothParsers) {
   EXPECT_GT(numbers, 80000);  // 94,000 or so
 }
 
-std::string written(double value) {
-  std::array<char, kLongestNumber> text;
-  return {text.data(), writeNumber(value, text.data())};
-}
-
 TEST(Numbers, AreWrittenWithTheFewestCharacters) {
   const double infinity = std::numeric_limits<double>::infinity();
   const std::pair<double, const char*> rows[] = {
@@ -88,7 +83,18 @@ TEST(Numbers, AreWrittenWithTheFewestCharacters) {
       {1e16, "1e+16"},    {9007199254740993.0, "9007199254740992"},
       {5e-324, "5e-324"}, {-1.7976931348623157e308, "-1.7976931348623157e+308"},
       {infinity, "inf"},  {std::nan(""), "nan"}};
-  for (const auto& [value, text] : rows) EXPECT_EQ(written(value), text);
+  for (const auto& [value, text] : rows) EXPECT_EQ(numberText(value), text);
+}
+
+TEST(Numbers, AreRoundedToAFewDigits) {
+  const std::tuple<double, int, const char*> rows[] = {
+      {0.000177, 2, "0.00018"}, {0.00026, 1, "0.0003"},
+      {0.0095, 1, "0.009"},     {0.0995, 2, "0.1"},
+      {9.96, 2, "10"},          {151.0, 2, "150"},
+      {-3.14159, 2, "-3.1"},    {2.46e-9, 2, "2.5e-09"},
+      {1.46e5, 2, "1.5e+05"},   {0.0, 2, "0"},
+      {std::nan(""), 2, "nan"}, {std::numeric_limits<double>::infinity(), 1, "inf"}};
+  for (const auto& [value, digits, text] : rows) EXPECT_EQ(roundedText(value, digits), text);
 }
 
 TEST(Numbers, AreCountedInSingularAndPlural) {
@@ -107,7 +113,7 @@ TEST(Numbers, AreWrittenTheSameEverywhere) {
     double value = 0.0;
     std::memcpy(&value, &bits, sizeof(double));
     if (!std::isfinite(value)) continue;
-    const std::string text = written(value);
+    const std::string text = numberText(value);
     ASSERT_TRUE(sameBits(*parseNumber(text), value)) << text;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
   }

@@ -83,9 +83,10 @@ class ParticleParser {
 
   void checkMovingParticle(const Row& row) const {
     const double mass = row[2];
-    if (!(mass > 0.0)) refuse(fmt::format("mass must be positive, got {} kg", mass));
+    if (!(mass > 0.0)) refuse(fmt::format("mass must be positive, got {} kg", numberText(mass)));
     if (!std::isfinite(1.0 / mass))
-      refuse(fmt::format("mass must be large enough for 1/mass to be finite, got {} kg", mass));
+      refuse(fmt::format("mass must be large enough for 1/mass to be finite, got {} kg",
+                         numberText(mass)));
     const double dx = row[0] - rows_.back()[0];
     const double dy = row[1] - rows_.back()[1];
     const double square = dx * dx + dy * dy;

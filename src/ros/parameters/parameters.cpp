@@ -1,5 +1,6 @@
 #include "ros/parameters/parameters.hpp"
 
+#include "model/numbers.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
@@ -18,7 +19,7 @@ std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
     case XmlRpcValue::TypeInt:
       return fmt::format("{}", static_cast<int>(value));
     case XmlRpcValue::TypeDouble:
-      return fmt::format("{}", static_cast<double>(value));
+      return numberText(static_cast<double>(value));
     case XmlRpcValue::TypeString:
       return static_cast<std::string>(value);
     default:

@@ -1,5 +1,6 @@
 #include "model/chain_modes.hpp"
 #include "model/checks.hpp"
+#include "model/numbers.hpp"
 #include "simulation/advice/trial.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
@@ -97,13 +98,13 @@ std::string errorText(const Trial& trial) {
   const std::string position =
       std::isnan(error.largest)
           ? "position error unknown"
-          : fmt::format("largest position error {:.2g} m at t = {:.4g} s{}", error.largest,
-                        error.largest_time,
+          : fmt::format("largest position error {} m at t = {:.4g} s{}",
+                        roundedText(error.largest, 2), error.largest_time,
                         trial.measured
                             ? ""
                             : fmt::format(" (measured until t = {:.4g} s)", error.measured_until));
-  return fmt::format("{}, largest energy error {:.2g} times the energy scale", position,
-                     trial.energy_error);
+  return fmt::format("{}, largest energy error {} times the energy scale", position,
+                     roundedText(trial.energy_error, 2));
 }
 
 std::string linearText(const Method& method, const Chain& chain, double duration) {
@@ -227,8 +228,8 @@ std::string describeStability(const Chain& chain, const State& start, const Scen
   }
   std::string text = fmt::format("{} with a {} of {} {} over {:.4g} s: {}\n{}\n", method.name,
                                  fixed ? "step size" : "tolerance",
-                                 fixed ? scenario.time_step : scenario.tolerance, fixed ? "s" : "m",
-                                 duration, trial.verdict.text, errorText(trial));
+                                 numberText(fixed ? scenario.time_step : scenario.tolerance),
+                                 fixed ? "s" : "m", duration, trial.verdict.text, errorText(trial));
   if (fixed) {
     const StepLimits limits = findStepLimits(method, chain, start, scenario.time_step, duration,
                                              frameSteps(scenario).timeOfFrame(1));
@@ -250,7 +251,7 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Sc
     text = fmt::format("largest stable step for {}: {}{}", method.name, stepText(step),
                        tried > 0.0 ? "" : " (linear estimate)");
   } else {
-    text = fmt::format("try a tolerance below {} m", scenario.tolerance);
+    text = fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
   }
   const Method& other = findMethod("Auto");
   if (&other == &method) return text;

@@ -1,6 +1,7 @@
 #include "simulation/advice/stability_warning.hpp"
 
 #include "model/chain_modes.hpp"
+#include "model/numbers.hpp"
 #include "simulation/advice/trial.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
@@ -47,10 +48,12 @@ std::string stabilityWarning(const Chain& chain, const Scenario& scenario) {
   if (!isClearlyUnstable(method, chain, scenario)) return {};
   const FrameSteps step = frameSteps(scenario);
   const double limit = linearStepLimit(method, chain, step.timeOfFrame(scenario.frames - 1));
-  return fmt::format(
-      "{} may be unstable with a time step of {} s; {}or use Auto", method.name, scenario.time_step,
-      limit > 0.0 ? fmt::format("largest stable step: about {:.2g} s (linear estimate); ", limit)
-                  : "");
+  return fmt::format("{} may be unstable with a time step of {} s; {}or use Auto", method.name,
+                     numberText(scenario.time_step),
+                     limit > 0.0
+                         ? fmt::format("largest stable step: about {} s (linear estimate); ",
+                                       roundedText(limit, 2))
+                         : "");
 }
 
 std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario) {
@@ -65,7 +68,7 @@ std::string stabilityWarning(const Chain& chain, const State& start, const Scena
       bench.run(method, scenario.tolerance, step, frames, false, VerdictKind::kGainedEnergy);
   if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
   return fmt::format("{} is unstable with a time step of {} s ({}); {}", method.name,
-                     scenario.time_step, trial.verdict.text,
+                     numberText(scenario.time_step), trial.verdict.text,
                      remedyForDivergence(chain, start, scenario));
 }
 

@@ -48,7 +48,7 @@ bool Number::assign(std::string_view text) const {
 }
 
 std::string Number::text() const {
-  return fmt::format("{}", *value);
+  return numberText(*value);
 }
 
 std::string Number::range() const {
