@@ -120,7 +120,7 @@ std::string Option::text() const {
 }
 
 std::string Option::range() const {
-  const std::string accepted = std::visit([](const auto& kind) { return kind.range(); }, value);
+  std::string accepted = std::visit([](const auto& kind) { return kind.range(); }, value);
   if (unit.empty()) return accepted;
   const bool ends_with_limit = accepted.back() >= '0' && accepted.back() <= '9';
   return fmt::format("{} {}{}", accepted, ends_with_limit ? "" : "in ", unit);
