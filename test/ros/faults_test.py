@@ -141,7 +141,7 @@ class Faults(unittest.TestCase):
                 calls = {}
                 for name, kind in names.items():
                     rospy.wait_for_service('/pendulum/' + name, timeout=30)
-                    calls[name] = rospy.ServiceProxy('/pendulum/' + name, kind, persistent=True)
+                    calls[name] = rospy.ServiceProxy('/pendulum/' + name, kind)
                 for _ in range(1000):
                     name = random.choice(list(names))
                     arguments = [random.random() < 0.5] if name == 'pause' else []
