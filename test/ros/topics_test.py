@@ -227,13 +227,15 @@ class Topics(unittest.TestCase):
                 file.writelines('%g 0 1\n' % (0.01 * i) for i in range(100000))
             markers, state = (self.listen('markers', MarkerArray), self.listen('state', PendulumState))
             with PendulumNode(particles=folder + '/long.txt', frames=3, rest_length=0.01,
-                              time_step=0.0001, wait_for_subscribers=2) as node:
+                              time_step=0.0001, wait_for_subscribers=2, at_end='hold') as node:
+                shown = markers.wait_for(2)[-1].markers
+                positions = state.wait_for(2)[-1].positions
+                node.interrupt()
                 self.assertEqual(node.wait(), 0, node.output())
-        shown = markers.wait_for(2)[-1].markers
         self.assertLessEqual(len(shown[1].points), 10000)
         self.assertGreater(len(shown[1].points), 5000)
         self.assertIn('of 100000 particles drawn', shown[4].text)
-        self.assertEqual(len(state.wait_for(2)[-1].positions), 100000)
+        self.assertEqual(len(positions), 100000)
 
 
 if __name__ == '__main__':
