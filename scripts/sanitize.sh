@@ -13,9 +13,6 @@ configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_BUILD_TYPE=De
   -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRING_PENDULUM_SANITIZE="$sanitizers"
 compile "$folder"
 cd "$folder"
-# Left out with the thread sanitizer, which slows the kernels down: accuracy measurements that repeat
-# shorter tests on larger scenes. They would take half of the time.
-long='WithinAFactorOfTwo/(feather|alternating)|NeverComesBeforeAStableRun|RandomScenes\.KeepTheTolerance'
-long+='|OnLongAndLightChains|TenMillionSteps|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat'
-if [ "$sanitizers" = thread ]; then set -- -E "$long" "$@"; fi
+# The thread sanitizer slows the kernels down.
+if [ "$sanitizers" = thread ]; then set -- -E "$long_tests" "$@"; fi
 exec ctest --output-on-failure -j "$(nproc)" -L 'unit' "$@"

@@ -8,6 +8,7 @@
 #   film       packages for scripts/film.sh
 #   lint       clang-format, clang-tidy, catkin_lint
 #   sanitize   clang's sanitizers and fuzzer, valgrind, coverage
+#   compilers  clang, for scripts/compilers.sh
 #   releases   packages for scripts/test_releases.sh
 #   arm64      a cross compiler for 64-bit ARM, and qemu
 #   benchmark  solvers to compare with, all optional
@@ -34,6 +35,7 @@ packages_of() {
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev valgrind gcovr ;;
+    compilers) echo clang ;;
     releases) echo debootstrap git ;;
     arm64) echo g++-aarch64-linux-gnu qemu-user ;;
     benchmark)

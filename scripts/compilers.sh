@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Builds the core and its tests with other compilers and configurations, and runs the tests except the
+# long accuracy measurements.
+# Usage: scripts/compilers.sh [COMPILER:CONFIGURATION ...]   (default: clang++:Release)
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+[ $# -gt 0 ] || set -- clang++:Release
+"$project/scripts/setup.sh" core test compilers
+for run in "$@"; do
+  compiler=${run%:*} configuration=${run#*:}
+  command -v "$compiler" > /dev/null || die "there is no $compiler: install its package"
+  folder=$build-$compiler-$configuration
+  say "building with $compiler $configuration into $folder"
+  configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_BUILD_TYPE="$configuration"
+  compile "$folder"
+  (cd "$folder" && ctest --output-on-failure -j "$(nproc)" -L 'unit|process' -E "$long_tests")
+done
