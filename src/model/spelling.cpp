@@ -8,6 +8,8 @@
 namespace spring_pendulum {
 namespace {
 
+constexpr std::size_t kLongestQuote = 40;
+
 /// Only letters in lower case and digits. Names are ASCII.
 std::string simplified(std::string_view name) {
   std::string text;
@@ -45,6 +47,18 @@ bool abbreviates(const std::string& name, const std::string& known) {
 
 }  // namespace
 
+std::string onOneLine(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return line;
+}
+
+std::string inQuotes(std::string_view text) {
+  const bool is_long = text.size() > kLongestQuote;
+  return "'" + onOneLine(text.substr(0, kLongestQuote)) + (is_long ? "...'" : "'");
+}
+
 std::string closestName(std::string_view name, const std::vector<std::string>& known) {
   const std::string given = simplified(name.substr(0, 100));
   std::string closest, abbreviated;
@@ -68,7 +82,7 @@ std::string closestName(std::string_view name, const std::vector<std::string>& k
 std::string unknownName(std::string_view kind, std::string_view name,
                         const std::vector<std::string>& known) {
   const std::string meant = closestName(name, known);
-  return fmt::format("unknown {} '{}'; {} {}s: {}", kind, name,
+  return fmt::format("unknown {} {}; {} {}s: {}", kind, inQuotes(name),
                      meant.empty() ? "known" : fmt::format("did you mean '{}'? Known", meant), kind,
                      fmt::join(known, ", "));
 }

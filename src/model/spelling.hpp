@@ -1,4 +1,4 @@
-// Error messages for names that are not known, with a suggestion.
+// Error messages: quoted text, and suggestions for names that are not known.
 #pragma once
 
 #include <string>
@@ -6,6 +6,12 @@
 #include <vector>
 
 namespace spring_pendulum {
+
+/// Returns text with '?' for each control character.
+std::string onOneLine(std::string_view text);
+
+/// Returns text in quotes for a message of one line: without control characters, truncated if long.
+std::string inQuotes(std::string_view text);
 
 /// Returns the name that was probably meant: another spelling ("runge_kutta4"), a typing error
 /// ("Oiler") or an abbreviation ("rk4") of exactly one of the `known` names. Else empty.

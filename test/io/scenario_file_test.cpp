@@ -95,6 +95,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"frames: *five\n", "run.yaml:1: invalid YAML ("},
         BadText{"frames: 5\n---\ngravity: 1\n", "run.yaml:2: must be a single YAML document"},
         BadText{", 5]\n: &x {c: *x}\n", "run.yaml:"},  // YAML::LoadAll never ends on this
+        BadText{"output: \"a\nframes: 5\n", "run.yaml: a quotation mark is not closed"},
+        BadText{"output: 'a\nframes: 5", "run.yaml: a quotation mark is not closed"},
+        BadText{std::string("frames: 5\noutput: a\0n\n", 22),
+                "run.yaml:2: has a control character"},
+        BadText{"output: \"a\\0b\"\n", "run.yaml:1: output: must be a folder, got 'a?b'"},
+        BadText{"frames: 5\n\x04gravity: 1\n", "run.yaml:2: has a control character"},
+        BadText{std::string("\xff\xfe"
+                            "f\0:\0",
+                            6),
+                "run.yaml:1: has a control character"},
+        BadText{"frames: " + std::string(100000, '9') + "\n",
+                "run.yaml:1: frames: must be a whole number of at least 1, got '" +
+                    std::string(40, '9') + "...'"},
         BadText{std::string(20000, '['), "run.yaml"}));
 
 TEST(ScenarioFile, UnknownKeyListsTheKnownOnes) {

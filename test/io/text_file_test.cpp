@@ -22,11 +22,5 @@ TEST(TextFile, LosesItsByteOrderMarkAndNothingElse) {
   EXPECT_EQ(readTextFile(folder.write("empty", "")), "");
 }
 
-TEST(TextFile, IsQuotedOnOneLine) {
-  EXPECT_EQ(spring_pendulum::quoted("a\tb\nc\x7f"), "'a?b?c?'");
-  EXPECT_EQ(spring_pendulum::quoted(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
-  EXPECT_EQ(spring_pendulum::quoted(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
-}
-
 }  // namespace
 }  // namespace spring_pendulum

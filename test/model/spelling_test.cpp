@@ -35,11 +35,18 @@ TEST(Spelling, FindsTheMethodThatWasMeant) {
   for (const auto& [given, meant] : rows) EXPECT_EQ(closestName(given, methods), meant) << given;
 }
 
+TEST(Spelling, QuotesOnOneLine) {
+  EXPECT_EQ(inQuotes("a\tb\nc\x7f"), "'a?b?c?'");
+  EXPECT_EQ(inQuotes(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
+  EXPECT_EQ(inQuotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+}
+
 TEST(Spelling, TellsTheKnownNames) {
   EXPECT_EQ(unknownName("key", "framse", {"frames", "sleep"}),
             "unknown key 'framse'; did you mean 'frames'? Known keys: frames, sleep");
   EXPECT_EQ(unknownName("key", "mass", {"frames", "sleep"}),
             "unknown key 'mass'; known keys: frames, sleep");
+  EXPECT_LT(unknownName("key", std::string(100000, 'x'), {"frames"}).size(), 100U);
 }
 
 }  // namespace

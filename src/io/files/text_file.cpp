@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <fcntl.h>
@@ -16,7 +15,6 @@ namespace spring_pendulum {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::size_t kLongestQuote = 40;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
   throw FileError(fmt::format("{}: could not be read: {}", fullPath(path), reason));
@@ -53,18 +51,6 @@ std::string readTextFile(const std::string& path) {
     text.erase(0, kByteOrderMark.size());
   }
   return text;
-}
-
-std::string onOneLine(std::string_view text) {
-  std::string line(text);
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return line;
-}
-
-std::string quoted(std::string_view text) {
-  const bool is_long = text.size() > kLongestQuote;
-  return "'" + onOneLine(text.substr(0, kLongestQuote)) + (is_long ? "...'" : "'");
 }
 
 }  // namespace spring_pendulum

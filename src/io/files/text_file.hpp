@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 namespace spring_pendulum {
 
@@ -10,11 +9,5 @@ namespace spring_pendulum {
 /// devices, so it never blocks.
 /// \throws FileError with the file and the reason
 std::string readTextFile(const std::string& path);
-
-/// Returns text with '?' for each control character.
-std::string onOneLine(std::string_view text);
-
-/// Returns text in quotes for a message of one line: without control characters, truncated if long.
-std::string quoted(std::string_view text);
 
 }  // namespace spring_pendulum

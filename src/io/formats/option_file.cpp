@@ -7,6 +7,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -97,16 +98,35 @@ class OptionHandler : public YAML::EventHandler {
   std::set<std::string_view> keys_;
 };
 
+/// yaml-cpp takes a NUL for an escape character. YAML allows none of these characters.
+void refuseControlCharacters(std::string_view text, std::string_view name) {
+  const auto is_control = [](unsigned char c) {
+    return c < 0x20 && c != '\t' && c != '\n' && c != '\r';
+  };
+  const char* const end = text.data() + text.size();
+  const char* const found = std::find_if(text.data(), end, is_control);
+  if (found == end) return;
+  throw InputError(fmt::format("{}:{}: has a control character; must be UTF-8 text", name,
+                               1 + std::count(text.data(), found, '\n')));
+}
+
 }  // namespace
 
 void parseOptions(std::string_view text, std::string_view name, OptionSet& options) {
-  std::istringstream stream{std::string(text)};
+  refuseControlCharacters(text, name);
+  // Without an explicit end of the document, yaml-cpp accepts a quotation mark that is not closed,
+  // and the rest of the file would be the value.
+  const bool ends_line = text.empty() || text.back() == '\n';
+  std::istringstream stream{fmt::format("{}{}...\n", text, ends_line ? "" : "\n")};
   try {
     YAML::Parser parser(stream);
     OptionHandler handler(name, options);
     // The second call only checks that there is no second document.
     if (parser.HandleNextDocument(handler)) parser.HandleNextDocument(handler);
   } catch (const YAML::Exception& error) {
+    if (error.msg == YAML::ErrorMsg::DOC_IN_SCALAR) {
+      throw InputError(fmt::format("{}: a quotation mark is not closed", name));
+    }
     throw InputError(fmt::format("{}: invalid YAML ({}); must be lines 'key: value'",
                                  placeOf(name, error.mark), error.msg));
   }

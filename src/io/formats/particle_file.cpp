@@ -1,5 +1,6 @@
 #include "io/files/text_file.hpp"
 #include "model/numbers.hpp"
+#include "model/spelling.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/model/errors.hpp>
 
@@ -74,7 +75,7 @@ class ParticleParser {
     const std::optional<double> value = parseNumber(word);
     if (!value) {
       const bool has_comma = word.find(',') != std::string_view::npos;
-      refuse(fmt::format("{} is not a number; {}", quoted(word),
+      refuse(fmt::format("{} is not a number; {}", inQuotes(word),
                          has_comma ? "use a decimal point, and spaces between numbers"
                                    : "write a finite number such as 0.5 or -2e-3"));
     }

@@ -130,7 +130,7 @@ std::vector<std::string_view> setOptions(const std::vector<po::option>& given, O
   for (const po::option& argument : given) {
     if (argument.string_key.empty()) {  // a positional argument
       const std::string& method = argument.value.front();
-      if (has_method) throw InputError(fmt::format("'{}': give only one METHOD", method));
+      if (has_method) throw InputError(fmt::format("{}: give only one METHOD", inQuotes(method)));
       has_method = true;
       options.set(options.find(kMethodKey, ""), method, "METHOD");
       continue;

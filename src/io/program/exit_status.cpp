@@ -1,7 +1,7 @@
 #include "io/program/exit_status.hpp"
 
-#include "io/files/text_file.hpp"
 #include "io/program/standard_streams.hpp"
+#include "model/spelling.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <new>

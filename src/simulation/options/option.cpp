@@ -1,6 +1,7 @@
 #include "simulation/options/option.hpp"
 
 #include "model/numbers.hpp"
+#include "model/spelling.hpp"
 #include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
@@ -77,7 +78,7 @@ bool Flag::assign(std::string_view text) const {
 }
 
 bool Text::assign(std::string_view text) const {
-  if (!accepts(text)) return false;
+  if (text.find('\0') != std::string_view::npos || !accepts(text)) return false;
   *value = text;
   return true;
 }
@@ -110,9 +111,9 @@ std::string Choice::placeholder() const {
 void Option::assign(std::string_view text) const {
   if (std::visit([&](const auto& kind) { return kind.assign(text); }, value)) return;
   if (!isText() && hasDecimalComma(text)) {
-    throw InputError(fmt::format("'{}' is not a number; use a decimal point", text));
+    throw InputError(fmt::format("{} is not a number; use a decimal point", inQuotes(text)));
   }
-  throw InputError(fmt::format("must be {}, got '{}'", range(), text));
+  throw InputError(fmt::format("must be {}, got {}", range(), inQuotes(text)));
 }
 
 std::string Option::text() const {
