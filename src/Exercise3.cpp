@@ -80,20 +80,21 @@ int run(const Scenario& scenario, const Switches& switches) {
   const Particles particles = readParticles(scenario);
   const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
   RunMonitor monitor(scenario, chain, particles.state, !scenario.energy.empty());
-  const std::string memory = memoryRemark(scenario, chain.size());
-  if (!memory.empty()) printError(memory + "\n");
   const bool tracks_dissipation = monitor.tracksDissipation();
   SleepingIntegrator integrator(
       makeInterruptible(scenario, chain, particles.state, tracks_dissipation,
                         [] { return interruption() != 0; }),
       chain, scenario.sleep);
   if (switches.report_skips) printOutput(skippedWork(scenario, integrator, tracks_dissipation));
+  const std::string memory = memoryRemark(scenario, chain.size());
   if (switches.check) {
+    printRemark(memory);
     printOutput(describeStability(chain, particles.state, scenario));
     return kDone;
   }
   catchInterruptions();
   RunFiles files(scenario, switches.config);
+  printRemark(memory);
   printWarning(stabilityWarning(chain, scenario));
   State state = particles.state;
   const Summary summary = simulate(scenario, state, integrator, monitor, files);

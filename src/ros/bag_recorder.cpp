@@ -16,6 +16,7 @@
 
 #include <rosbag/bag.h>
 
+#include <cerrno>
 #include <memory>
 #include <tf2_msgs/TFMessage.h>
 
@@ -136,17 +137,21 @@ std::vector<Option> bagOptions(BagOptions& o) {
   };
 }
 
-BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to) {
+BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to,
+                     const std::function<void()>& started) {
   const Scenario& scenario = run.scenario();
   OutputFile file(to.path, {scenario.particles, to.config});
   RunFiles files(scenario, to.config);
   BagSummary summary;
   summary.path = file.path();
   auto bag = std::make_unique<rosbag::Bag>();
+  bool has_earlier = false;
   try {
-    const bool has_earlier = to.append && file.copyEarlier();
+    has_earlier = to.append && file.copyEarlier();
+    errno = 0;
     bag->open(file.unfinishedPath(),
               has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
+    started();
     BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
     recordRun(run, recorder, files);
     bag->close();
@@ -154,7 +159,9 @@ BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOpti
   } catch (const rosbag::BagException& error) {
     // The text of a BagIOException has neither the file nor the reason.
     const bool is_io = dynamic_cast<const rosbag::BagIOException*>(&error) != nullptr;
-    const std::string reason = is_io ? "could not be written: " + messageForErrno() : error.what();
+    std::string reason = is_io ? "could not be written: " + messageForErrno() : error.what();
+    if (is_io && has_earlier && errno == 0)
+      reason = "is not a complete bag, so nothing can be appended to it";
     static_cast<void>(
         bag.release());  // its destructor would close again and throw, which ends the program
     throw FileError(fmt::format("{}: {}", file.path(), reason));

@@ -5,6 +5,7 @@
 #include "ros/pendulum_run.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,10 @@ struct BagSummary {
 /// scenario and options give the same bytes. The bag is complete or absent, like every OutputFile;
 /// when appending, a longer copy replaces the bag at the end. After a signal, the bag ends with the
 /// last message before it.
+/// \param started called when nothing about the files can be refused any more, before the run
 /// \throws FileError naming the bag
-BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to);
+BagSummary recordBag(
+    PendulumRun& run, const NodeOptions& options, const BagOptions& to,
+    const std::function<void()>& started = [] {});
 
 }  // namespace spring_pendulum

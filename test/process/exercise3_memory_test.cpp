@@ -63,6 +63,21 @@ TEST_F(Exercise3Memory, OfAutoIsThatOfTwoMethodsAlsoWhereItTriesAll) {
   EXPECT_LT(peakMemory(folder_, "Auto", "light.txt", 0.005), 1.1 * expectedMemory(scenario, kLong));
 }
 
+TEST_F(Exercise3Memory, IsSaidBeforeARunThatIsNotRefused) {
+  Scenario scenario;
+  scenario.reference = ReferenceUse::kAlways;  // takes its memory after frame 0
+  const std::vector<std::string> options{"Runge-Kutta-4", "--particles", "long.txt",
+                                         "--frames",      "1",           "--reference",
+                                         "always",        "--output"};
+  std::vector<std::string> good = options, bad = options;
+  good.emplace_back("frames");
+  bad.emplace_back("long.txt");
+  EXPECT_EQ(run(exercise3(folder_, good)).errors, memoryRemark(scenario, kLong) + "\n");
+  EXPECT_EQ(run(exercise3(folder_, bad)).errors,
+            folder_.path("long.txt") +
+                ": could not be created: it is a file or lies in one; give a folder\n");
+}
+
 TEST_F(Exercise3Memory, IsRefusedBeforeTheRunIfThereIsLess) {
   Command command = exercise3(folder_, {"Radau-9", "--particles", "long.txt"});
   command.prepare = [] {

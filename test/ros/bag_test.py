@@ -82,6 +82,20 @@ class Bag(unittest.TestCase):
             self.assertEqual({m.method for m, _ in contents(path, '/rk4/state')},
                              {'Runge-Kutta-4'})
 
+    def test_appends_only_to_a_complete_bag(self):
+        with Folder() as folder:
+            path, _ = record(folder, 'one.bag', '--frames', '2')
+            with open(path, 'rb') as file:
+                whole = file.read()
+            for text in (b'', b'no bag', whole[:5000], whole[:-100]):
+                with open(path, 'wb') as file:
+                    file.write(text)
+                _, output = record(folder, 'one.bag', '--append', '--time-step', '0.5', status=1)
+                self.assertEqual(output, path + ': is not a complete bag, so nothing can be '
+                                 'appended to it\n')
+                with open(path, 'rb') as file:
+                    self.assertEqual(file.read(), text)
+
     def test_rosbag_info_and_play(self):
         with Folder() as folder:
             path, _ = record(folder, 'one.bag', '--frames', '11', '--display-rate', '0')
@@ -142,7 +156,8 @@ class Bag(unittest.TestCase):
         cases = [(('--color', 'red'), 2, "--color: must be #rrggbb"), (('--frames', '0'), 2, 'frames'),
                  (('--at-end', 'loop'), 2, '--at-end'), (('--trail',), 2, '--trail: needs a value'),
                  (('--time-step', '0,5'), 2, 'use a decimal point'), (('Euler',), 2, 'only one METHOD'),
-                 (('--bag', SCENE + '/x.bag'), 1, 'particle.txt')]
+                 (('--bag', SCENE + '/x.bag'), 1, 'particle.txt'),
+                 (('--bag', SCENE + '/x.bag', '--time-step', '0.5'), 1, 'particle.txt')]
         for arguments, status, message in cases:
             with self.subTest(arguments=arguments), Folder() as folder:
                 _, output = record(folder, 'one.bag', *arguments, status=status)

@@ -30,8 +30,12 @@ void printClosingLine(const std::string& text) {
   flushOutput();
 }
 
+void printRemark(const std::string& text) {
+  if (!text.empty()) printError(text + "\n");
+}
+
 void printWarning(const std::string& text) {
-  if (!text.empty()) printError("warning: " + text + "\n");
+  if (!text.empty()) printRemark("warning: " + text);
 }
 
 int conclude(const Scenario& scenario, const Chain& chain, const State& start,

@@ -21,7 +21,8 @@ std::string writingText(const RunFiles& files);
 /// \throws FileError if it can't be written
 void printClosingLine(const std::string& text);
 
-/// Prints one line to standard error; nothing if `text` is empty.
+/// Print one line to standard error; nothing if `text` is empty.
+void printRemark(const std::string& text);
 void printWarning(const std::string& text);
 
 /// Prints the warnings on a run that has ended, or its divergence with a remedy.
