@@ -136,7 +136,7 @@ void ReferenceRun::restart() {
   if (start_.size() == 0) return;  // too long to be measured
   state_ = start_;
   uncertainty_ = rounding_;
-  outputs_ = 0;
+  measurements_ = 0;
   growth_ = measures_growth_ ? 1.0 : std::numeric_limits<double>::quiet_NaN();
   status_ = Status::kMeasuring;
 }
@@ -174,7 +174,6 @@ void ReferenceRun::advance(double time_step, std::int64_t steps, double run_work
 void ReferenceRun::compare() {
   const State& reference = trajectories_.front().state;
   uncertainty_ = kSafety * largestDistance(reference, trajectories_[1].state) + rounding_;
-  if (measures_growth_) measureGrowth();
   if (uncertainty_ <= believed_) {
     state_ = reference;
   } else {
@@ -183,13 +182,14 @@ void ReferenceRun::compare() {
 }
 
 void ReferenceRun::measureGrowth() {
+  if (!measures_growth_ || trajectories_.empty()) return;
   const State& reference = trajectories_.front().state;
   const double change = kChange * tolerance_;
   Trajectory& late = trajectories_[3];
   growth_ = std::max(growth_, largestDistance(reference, trajectories_[2].state) / change);
   growth_ = std::max(growth_, largestDistance(reference, late.state) / change);
-  ++outputs_;
-  if ((outputs_ & (outputs_ - 1)) != 0) return;  // not a power of two
+  ++measurements_;
+  if ((measurements_ & (measurements_ - 1)) != 0) return;  // not a power of two
   late.state = perturbed(reference, change);
   late.integrator->restart();
 }

@@ -76,6 +76,7 @@ RunMonitor::RunMonitor(const Scenario& scenario, const Chain& chain, const State
 void RunMonitor::restart() {
   judge_.restart();
   if (reference_) reference_->restart();
+  evaluations_before_.reset();
   run_work_ = worst_residual_ = exceeded_time_ = exceeded_growth_ = 0.0;
 }
 
@@ -87,7 +88,10 @@ void RunMonitor::follow(double time_step, std::int64_t steps) {
 }
 
 const Verdict& RunMonitor::judge(double time, const State& state, const Integrator& integrator) {
-  run_work_ = work_per_evaluation_ * static_cast<double>(integrator.forceEvaluations());
+  const std::int64_t evaluations = integrator.forceEvaluations();
+  if (!evaluations_before_) evaluations_before_ = evaluations;
+  run_work_ = work_per_evaluation_ * static_cast<double>(evaluations - *evaluations_before_);
+  if (reference_) reference_->measureGrowth();
   judge_.judge(time, state, integrator.dissipatedEnergy(), reference_ ? &*reference_ : nullptr);
   worst_residual_ =
       std::max(worst_residual_, std::abs(judge_.entry().relative_residual.value_or(0.0)));

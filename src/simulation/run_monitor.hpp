@@ -70,7 +70,8 @@ class RunMonitor {
   Judge judge_;
   std::optional<ReferenceRun> reference_;
   double work_per_evaluation_;
-  double run_work_ = 0.0;         ///< work until the last judged frame
+  std::optional<std::int64_t> evaluations_before_;  ///< force evaluations before frame 0
+  double run_work_ = 0.0;                           ///< work until the last judged frame
   double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
   double exceeded_time_ = 0.0;    ///< s, when the error first exceeded ten tolerances; 0: never
   double exceeded_growth_ = 0.0;  ///< growth of perturbations until then

@@ -23,8 +23,10 @@ using testing::HasSubstr;
 /// A monitored run, frame by frame.
 class MonitoredRun {
  public:
-  MonitoredRun(const Scenario& scenario, const test::Scene& scene)
-      : step_(frameSteps(scenario)),
+  /// \param parts of a frame, between which the reference run stops; a power of two
+  MonitoredRun(const Scenario& scenario, const test::Scene& scene, int parts = 1)
+      : parts_(parts),
+        step_(frameSteps(scenario)),
         monitor_(scenario, scene.chain, scene.start, false),
         integrator_(makeIntegrator(scenario.method, scene.chain,
                                    integratorOptions(scenario, monitor_.tracksDissipation()))),
@@ -34,7 +36,7 @@ class MonitoredRun {
 
   void advance() {
     integrator_->advance(state_, step_.time_step, step_.steps);
-    monitor_.follow(step_.time_step, step_.steps);
+    for (int i = 0; i < parts_; ++i) monitor_.follow(step_.time_step / parts_, step_.steps);
     monitor_.judge(step_.timeOfFrame(++frame_), state_, *integrator_);
   }
 
@@ -47,6 +49,7 @@ class MonitoredRun {
   const State& state() const { return state_; }
 
  private:
+  int parts_;
   FrameSteps step_;
   RunMonitor monitor_;
   std::unique_ptr<Integrator> integrator_;
@@ -178,6 +181,52 @@ TEST(RunMonitor, StartsAnewAfterARestart) {
   monitor.restart();
   EXPECT_EQ(monitor.verdict().kind, VerdictKind::kOk);
   EXPECT_TRUE(std::isnan(monitor.positionError().largest));
+}
+
+/// Counts force evaluations as an expensive method does.
+class Expensive final : public Integrator {
+ public:
+  void advance(State&, double, std::int64_t) override { evaluations_ += 2'000'000; }
+  std::int64_t forceEvaluations() const override { return evaluations_; }
+  double dissipatedEnergy() const override { return 0.0; }
+
+ private:
+  std::int64_t evaluations_ = 0;
+};
+
+// The perturbations of the reference run start anew at some frames, not at the states in between.
+TEST(RunMonitor, StatesBetweenTheFramesDoNotMatter) {
+  const test::Scene scene = horizontal();
+  std::vector<double> growth;
+  for (const int parts : {1, 4}) {
+    MonitoredRun run(scenarioOf("Taylor-8"), scene, parts);
+    run.advanceTo(10.0);
+    ASSERT_NE(run.monitor().reference(), nullptr);
+    growth.push_back(run.monitor().reference()->growth());
+  }
+  EXPECT_GT(growth[0], 2.0);
+  EXPECT_EQ(growth[0], growth[1]);
+}
+
+// The reference run may cost as much as the run, but not as much as the earlier rounds of a loop.
+TEST(RunMonitor, MeasuresAsLongAfterARestart) {
+  const test::Scene scene = test::horizontalChain("feather", 50, 1e-6);
+  RunMonitor monitor(scenarioOf("Euler"), scene.chain, scene.start, false);
+  Expensive integrator;
+  State state = scene.start;
+  std::vector<int> frames;
+  for (int round = 0; round < 2; ++round) {
+    monitor.restart();
+    int frame = 0;
+    monitor.judge(0.0, state, integrator);
+    while (monitor.reference() != nullptr) {
+      if (frame == 0) integrator.advance(state, 0.01, 1);
+      monitor.follow(0.01, 1);
+      monitor.judge(0.01 * ++frame, state, integrator);
+    }
+    frames.push_back(frame);
+  }
+  EXPECT_EQ(frames[0], frames[1]);
 }
 
 struct KnownMotion {

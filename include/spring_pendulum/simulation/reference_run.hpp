@@ -61,6 +61,10 @@ class ReferenceRun {
   ///   cost as much or about 0.2 s, whichever is more.
   void advance(double time_step, std::int64_t steps, double run_work);
 
+  /// Measures how much small perturbations have grown, see `growth()`. Called once per frame; calls
+  /// of `advance` between the frames do not matter.
+  void measureGrowth();
+
   /// Returns to the start.
   void restart();
 
@@ -78,7 +82,7 @@ class ReferenceRun {
   /// \throws InputError if the size of the state is not that of the chain
   double errorOf(const State& state) const;
 
-  /// Largest growth factor of a small perturbation so far, of the start or of a later state; a
+  /// Largest measured growth factor of a small perturbation, of the start or of a later state; a
   /// lower bound, as few perturbations are tried. NaN for a fixed-step method.
   double growth() const { return growth_; }
 
@@ -87,7 +91,6 @@ class ReferenceRun {
 
   void makeTrajectories();
   void compare();
-  void measureGrowth();
   void stop(Status status);
   double allowedWork(double run_work) const;
 
@@ -99,7 +102,7 @@ class ReferenceRun {
   double believed_;   ///< m
   double rounding_;   ///< m
   double growth_;
-  std::int64_t outputs_ = 0;  ///< calls of advance
+  std::int64_t measurements_ = 0;  ///< of the growth
   Status status_ = Status::kMeasuring;
   State state_;
   double uncertainty_ = 0.0;
