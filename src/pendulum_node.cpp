@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <string>
 
 namespace spring_pendulum {
@@ -107,16 +108,19 @@ int runNode() {
 /// roscpp aborts at an address of the ROS master that it cannot parse.
 void checkMasterUri(int argc, char** argv) {
   const char* const variable = std::getenv("ROS_MASTER_URI");
+  std::string source = "ROS_MASTER_URI";
   std::string uri = variable != nullptr ? variable : "http://localhost:11311";
   const std::string argument = "__master:=";
   for (int i = 1; i < argc; ++i) {
     const std::string text = argv[i];
-    if (text.compare(0, argument.size(), argument) == 0) uri = text.substr(argument.size());
+    if (text.compare(0, argument.size(), argument) != 0) continue;
+    source = "__master";
+    uri = text.substr(argument.size());
   }
   std::string host;
   std::uint32_t port = 0;
   if (ros::network::splitURI(uri, host, port) && !host.empty() && port > 0 && port < 65536) return;
-  throw InputError(fmt::format("ROS_MASTER_URI: must be http://HOST:PORT, got '{}'", uri));
+  throw InputError(fmt::format("{}: must be http://HOST:PORT, got '{}'", source, uri));
 }
 
 /// Starts ROS, which takes the arguments with ":=" away.
@@ -157,13 +161,14 @@ int main(int argc, char** argv) {
   }
   // Without a master, ROS waits until it is shut down.
   catchInterruptions(ros::requestShutdown);
-  ros::NodeHandle keeps_ros_started;
+  std::optional<ros::NodeHandle> keeps_ros_started;
   try {
+    keeps_ros_started.emplace();
     if (interruption() != 0) return kDone;
     return runNode();
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
-    ROS_FATAL_STREAM(failure.message);
+    logFatal(failure.message);
     return failure.status;
   }
 }

@@ -5,13 +5,39 @@ import os
 import pty
 import signal
 import subprocess
+import threading
 import time
 import unittest
+from xmlrpc.client import ServerProxy
+from xmlrpc.server import SimpleXMLRPCServer
 
 import rostest
 
 from fault_injection import (INJECTION, NO_MASTER, SCENE, files_in, fill, injection, read_report)
 from pendulum_process import Folder, PendulumNode, program, read_frames, wait_until
+
+
+class MasterThatLoses:
+    """Passes all calls on to the master except those of one method for one parameter."""
+
+    def __init__(self, method, parameter):
+        self.server = SimpleXMLRPCServer(('127.0.0.1', 0), logRequests=False)
+        self.server.register_instance(self)
+        self.lost = (method, parameter)
+        self.uri = 'http://127.0.0.1:%d' % self.server.server_address[1]
+
+    def _dispatch(self, method, arguments):
+        if (method, arguments[-1]) == self.lost:
+            raise OSError('lost')
+        return getattr(ServerProxy(os.environ['ROS_MASTER_URI']), method)(*arguments)
+
+    def __enter__(self):
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+        return self.uri
+
+    def __exit__(self, *_):
+        self.server.shutdown()
+        self.server.server_close()
 
 
 class Node(unittest.TestCase):
@@ -97,11 +123,21 @@ class Node(unittest.TestCase):
         valid = 'http://127.0.0.1:1'
         for uri in ('', '127.0.0.1:1', 'https://127.0.0.1:1', 'http://127.0.0.1', 'http://127.0.0.1:x',
                     'http://127.0.0.1:65536', 'http://:1'):
-            refusal = "ROS_MASTER_URI: must be http://HOST:PORT, got '%s'\n" % uri
-            for variable, arguments in ((uri, []), (valid, ['__master:=' + uri])):
+            for source, variable, arguments in (('ROS_MASTER_URI', uri, []),
+                                                ('__master', valid, ['__master:=' + uri])):
                 with self.subTest(variable=variable, arguments=arguments):
-                    self.assertEqual(self.fail_to_start({'ROS_MASTER_URI': variable}, arguments),
-                                     (2, refusal))
+                    self.assertEqual(
+                        self.fail_to_start({'ROS_MASTER_URI': variable}, arguments),
+                        (2, "%s: must be http://HOST:PORT, got '%s'\n" % (source, uri)))
+
+    def test_a_master_that_is_lost_before_the_parameters_are_read_is_an_error(self):
+        for lost in ('hasParam', 'getParam'):
+            with MasterThatLoses(lost, '/pendulum') as uri:
+                with PendulumNode(frames=2, env={'ROS_MASTER_URI': uri}) as node:
+                    self.assertEqual(node.wait(), 1, node.output())
+                    self.assertEqual(node.lines('FATAL'),
+                                     ['[FATAL]: /pendulum: the ROS master at %s did not answer when '
+                                      'the parameters were read' % uri])
 
     def test_names_a_log_folder_that_cannot_be_created(self):
         with Folder() as folder:
@@ -127,6 +163,29 @@ class Node(unittest.TestCase):
                 node.interrupt()
                 self.assertEqual(node.wait(), 0, node.output())
                 self.assertEqual(list(read_frames(folder)), ['frame_0000.txt'])
+
+    def test_ended_by_ros_it_closes_its_files_and_says_so(self):
+        for moved in (False, True):
+            with Folder() as folder, PendulumNode(particles=SCENE, output=folder + '/out',
+                                                  frames=1000000, real_time_factor=1.0) as node:
+                wait_until(lambda: os.path.exists(folder + '/out/frame_0003.txt'), 'frames')
+                if moved:
+                    os.rename(folder + '/out', folder + '/moved')
+                subprocess.run(['rosnode', 'kill', '/pendulum'], check=True, stdout=subprocess.DEVNULL)
+                self.assertEqual(node.wait(), 1 if moved else 0, node.output())
+                if moved:
+                    self.assertIn('out: was moved or removed during the run', node.lines('FATAL')[0])
+                else:
+                    self.assertIn('verdict: ', node.lines('INFO')[-1])
+
+    def test_a_thread_that_cannot_be_started_is_an_error(self):
+        # The stack of a thread has the size of the limit, and this size exceeds the address space.
+        limit = 'import os, resource, sys; resource.setrlimit(resource.RLIMIT_STACK, ' \
+                '(1 << 47, resource.RLIM_INFINITY)); os.execv(sys.argv[1], sys.argv[1:])'
+        done = subprocess.run(['/usr/bin/python3', '-c', limit, program('pendulum_node')],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count('\n'), 1, done.stderr)
 
     def test_a_vanished_terminal_does_not_end_it(self):
         ours, other_end = pty.openpty()

@@ -1,6 +1,7 @@
 #include "ros/node/run_log.hpp"
 
 #include "io/program/closing.hpp"
+#include "io/program/standard_streams.hpp"
 #include "model/numbers.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <ros/console.h>
+#include <ros/init.h>
 
 #include <filesystem>
 
@@ -34,7 +36,28 @@ std::string switchesOf(const std::string& report) {
   return comma == std::string::npos ? report : report.substr(comma + 2);
 }
 
+/// Whether lines logged with ROS still appear.
+bool rosLogs() {
+  return ros::ok() && !ros::isShuttingDown();
+}
+
 }  // namespace
+
+void logInfo(const std::string& text) {
+  if (rosLogs()) {
+    ROS_INFO_STREAM(text);
+  } else {
+    printError("[ INFO]: " + text + "\n");
+  }
+}
+
+void logFatal(const std::string& text) {
+  if (rosLogs()) {
+    ROS_FATAL_STREAM(text);
+  } else {
+    printError("[FATAL]: " + text + "\n");
+  }
+}
 
 std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                         const Publisher& publisher) {
@@ -93,7 +116,7 @@ void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles
 void RunLog::finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                     const Publisher& publisher) const {
   if (said_frames_ == totals.frames) return;
-  ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
+  logInfo(closingLine(run, totals, files, publisher));
 }
 
 void RunLog::sayChoice(const PendulumRun& run) {

@@ -21,6 +21,10 @@ struct Totals {
 std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                         const Publisher& publisher);
 
+/// Log one line. Once ROS has shut down, its log no longer prints: then on standard error.
+void logInfo(const std::string& text);
+void logFatal(const std::string& text);
+
 class RunLog {
  public:
   /// Logs the run, a warning if the time step is too large, and a display rate above the number of

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <ros/master.h>
 #include <ros/param.h>
 #include <ros/this_node.h>
 
@@ -52,9 +53,18 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
 }
 
 NodeConfiguration readPrivateParameters() {
-  XmlRpc::XmlRpcValue parameters;
-  ros::param::get(ros::this_node::getName(), parameters);
-  return readParameters(parameters, ros::this_node::getName());
+  // ros::param::get alone does not tell a node without parameters from a master that is gone.
+  const std::string& node = ros::this_node::getName();
+  XmlRpc::XmlRpcValue request, response, exist, parameters;
+  request[0] = node;
+  request[1] = node;
+  const bool answered = ros::master::execute("hasParam", request, response, exist, false);
+  if (!answered || (static_cast<bool>(exist) && !ros::param::get(node, parameters))) {
+    throw FileError(
+        fmt::format("{}: the ROS master at {} did not answer when the parameters were read", node,
+                    ros::master::getURI()));
+  }
+  return readParameters(parameters, node);
 }
 
 }  // namespace spring_pendulum

@@ -28,6 +28,7 @@ std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
 NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where);
 
 /// Reads the private parameters of this node.
+/// \throws InputError as readParameters, FileError if the ROS master does not answer
 NodeConfiguration readPrivateParameters();
 
 }  // namespace spring_pendulum
