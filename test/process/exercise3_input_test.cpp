@@ -148,6 +148,11 @@ INSTANTIATE_TEST_SUITE_P(
         value("NegativeStiffness", "--stiffness", "-1", "a number of at least 0 N/m"),
         value("NanDamping", "--damping", "nan", "a number of at least 0 N·s/m"),
         value("NoRestLength", "--rest-length", "long", "a number of at least 0 m"),
+        value("EndlessFrames", "--frame-interval", "1e9", "a number above 0, at most 1e+06 s"),
+        BadInput{"TinyTolerance",
+                 {"Taylor-8", "--tolerance", "1e-300"},
+                 2,
+                 "tolerance: must be at least 2.3e-13 m for this scene, because of the rounding "},
         value("InfiniteGravity", "--gravity", "-1e999", "a finite number in m/s²")),
     nameOf);
 
