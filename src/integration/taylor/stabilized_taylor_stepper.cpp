@@ -98,8 +98,11 @@ double StabilizedTaylorStepper::attempt(double h) {
                         change_.data());
   setEnd(change_, {});
   // The series is invalid once the ends of a spring meet; see TaylorStepper::step.
-  if (h > kShortestStep && kernels().springChange(work.size, work.pitch, h, begin().data(),
-                                                  end().data()) == SpringChange::kMuch) {
+  const auto middle = [&]() -> const StateBuffer& {
+    sumAt(0.5 * h);
+    return inside_;
+  };
+  if (h > kShortestStep && springsChangeMuch(kernels(), work, h, begin(), end(), middle)) {
     return std::numeric_limits<double>::infinity();
   }
   const LargestChange error = kernels().taylorLargestSum(work, errorOf(*polynomial_, h));
@@ -107,12 +110,15 @@ double StabilizedTaylorStepper::attempt(double h) {
          std::max(1.0, least_time_per_error_ / h);
 }
 
+void StabilizedTaylorStepper::sumAt(double time) const {
+  kernels().taylorState(expansion_.work(), begin().data(), begin().data(),
+                        sumOf(*polynomial_, time), inside_.data());
+}
+
 void StabilizedTaylorStepper::interpolate(double fraction, State& state) const {
   const StateBuffer* result = &end();
   if (fraction < 1.0) {
-    const double time = fraction * statistics().last_step;
-    kernels().taylorState(expansion_.work(), begin().data(), begin().data(),
-                          sumOf(*polynomial_, time), inside_.data());
+    sumAt(fraction * statistics().last_step);
     result = &inside_;
   }
   state.values() = result->values();

@@ -51,6 +51,8 @@ class StabilizedTaylorStepper final : public ErrorEstimatingStepper {
   /// Also selects the number of terms for the step.
   double admissible(double h) override;
   double attempt(double h) override;
+  /// Sets `inside_` to the state `time` s after `begin()`.
+  void sumAt(double time) const;
 
   double least_time_per_error_;    ///< s; shorter steps limit the error per time
   double fastest_rate_;            ///< upper bound of |λ| of the damped modes, 1/s

@@ -1,6 +1,7 @@
 // Memory for the Taylor coefficients of a chain's motion, and the weights of the plain series.
 #pragma once
 
+#include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/kernels/taylor_workspace.hpp"
 #include <spring_pendulum/model/chain.hpp>
@@ -24,6 +25,21 @@ class TaylorExpansion {
   AlignedNumbers accelerations_;
   TaylorWorkspace work_;
 };
+
+/// Returns whether a spring changes much (see `SpringChange`) within a step of h s.
+/// \param middle returns the state in the middle of the step; called only if the ends leave it open
+template <typename Middle>
+bool springsChangeMuch(const ChainKernels& kernels, const TaylorWorkspace& work, double h,
+                       const StateBuffer& begin, const StateBuffer& end, const Middle& middle) {
+  const auto change_until = [&](double time, const StateBuffer& later) {
+    return kernels.springChange(work.size, work.pitch, time, begin.data(), later.data());
+  };
+  const SpringChange change = change_until(h, end);
+  if (change != SpringChange::kUnclear) return change == SpringChange::kMuch;
+  // A spring that shrinks to a negative length in the series can have its old length again at the
+  // end of the step. The middle of the step shows it.
+  return change_until(0.5 * h, middle()) == SpringChange::kMuch;
+}
 
 /// Returns the weights that sum the first `count` coefficients of the series at `time` s.
 TaylorWeights taylorWeights(std::ptrdiff_t count, double time);

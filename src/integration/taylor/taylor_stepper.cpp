@@ -89,18 +89,6 @@ double TaylorStepper::longestAccurateStep() {
   return std::clamp(root(allowed_rate_ * (order + 1) / next, order), kShortestStep, kLongestStep);
 }
 
-// A spring that shrinks to a negative length in the series can have its old length again at the end
-// of the step. The middle of the step shows it.
-bool TaylorStepper::springsChangeMuch(double h) {
-  const auto change_until = [this](double time, const StateBuffer& later) {
-    return kernels_.springChange(work_.size, work_.pitch, time, begin_.data(), later.data());
-  };
-  const SpringChange change = change_until(h, end_);
-  if (change != SpringChange::kUnclear) return change == SpringChange::kMuch;
-  sumAt(0.5 * h, inside_);
-  return change_until(0.5 * h, inside_) == SpringChange::kMuch;
-}
-
 double TaylorStepper::step() {
   expand();
   double h = longestAccurateStep();
@@ -111,7 +99,11 @@ double TaylorStepper::step() {
   for (;; h = std::max(0.5 * h, kShortestStep)) {
     const bool shortest = h <= kShortestStep;
     sumSeries(h, shortest ? 1 : work_.order);
-    if (shortest || !springsChangeMuch(h)) break;
+    const auto middle = [&]() -> const StateBuffer& {
+      sumAt(0.5 * h, inside_);
+      return inside_;
+    };
+    if (shortest || !springsChangeMuch(kernels_, work_, h, begin_, end_, middle)) break;
   }
   ++statistics_.accepted;
   return h;

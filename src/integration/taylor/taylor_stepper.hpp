@@ -68,8 +68,6 @@ class TaylorStepper final : public DenseOutputStepper {
   void sumSeries(double h, std::ptrdiff_t terms);
   void sumAt(double time, StateBuffer& out) const;
   double longestAccurateStep();
-  /// Whether a spring changes much (see `SpringChange`) within the step of h s to `end_`.
-  bool springsChangeMuch(double h);
 
   Chain chain_;
   double allowed_rate_;  ///< allowed growth rate of the velocity error, m/s²
