@@ -14,7 +14,7 @@ namespace spring_pendulum {
 namespace {
 
 using Index = std::ptrdiff_t;
-constexpr std::size_t kGroup = 8;  ///< springs of one group in memory, for every instruction set
+constexpr Index kGroup = 8;  ///< springs of one group in memory, for every instruction set
 
 // Pseudo-orders that select the two rows without coefficients.
 constexpr Index kDirection = -2;
@@ -43,7 +43,7 @@ struct Convolutions {
 class SpringSeries {
  public:
   [[gnu::always_inline]] SpringSeries(const TaylorWorkspace& work, Index block)
-      : SpringSeries(work.springs, static_cast<std::size_t>(block * kLanes)) {}
+      : first_(work.springs + placeOf(static_cast<std::size_t>(block * kLanes))) {}
 
   [[gnu::always_inline]] PlaneVector<Pack> separation(Index n) const {
     return {at(n, 0), at(n, 1)};
@@ -73,10 +73,12 @@ class SpringSeries {
   }
 
  private:
-  static constexpr std::size_t kRow = 4 * kGroup;
-  [[gnu::always_inline]] SpringSeries(double* springs, std::size_t spring)
-      : first_(springs + spring / kGroup * (TaylorWorkspace::kSpringRows * kRow) +
-               spring % kGroup) {}
+  static constexpr Index kRow = 4 * kGroup;
+  // Of unsigned numbers, quotient and remainder by a power of two take one instruction each.
+  [[gnu::always_inline]] static std::size_t placeOf(std::size_t spring) {
+    constexpr std::size_t kNumbers = TaylorWorkspace::kSpringRows * kRow;
+    return spring / kGroup * kNumbers + spring % kGroup;
+  }
   [[gnu::always_inline]] double* row(Index n) const {
     return first_ + (n < 0 ? n + TaylorWorkspace::kSpringRows : n) * kRow;
   }
