@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the core and its unit tests with sanitizers and runs them.
+# Builds the core and its unit tests with sanitizers and runs them; with the thread sanitizer and ROS
+# also the node and tests of its threads.
 # Usage: scripts/sanitize.sh address,undefined | thread   [arguments of ctest]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -8,11 +9,19 @@ sanitizers=${1:?which sanitizers? address,undefined or thread}
 shift
 folder=$build-${sanitizers%%,*}
 "$project/scripts/setup.sh" core test
+with_node=false
+if [ "$sanitizers" = thread ] && have_ros; then with_node=true; fi
+without_ros=ON
+if $with_node; then without_ros=OFF; fi
 say "building with -fsanitize=$sanitizers into $folder"
-configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_BUILD_TYPE=Debug \
+configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=$without_ros -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRING_PENDULUM_SANITIZE="$sanitizers"
 compile "$folder"
 cd "$folder"
 # The thread sanitizer slows the kernels down.
 if [ "$sanitizers" = thread ]; then set -- -E "$long_tests" "$@"; fi
-exec ctest --output-on-failure -j "$(nproc)" -L 'unit' "$@"
+ctest --output-on-failure -j "$(nproc)" -L 'unit' "$@"
+if $with_node; then
+  TSAN_OPTIONS="suppressions=$project/test/ros/thread_sanitizer_suppressions.txt" \
+    ctest --output-on-failure -R '^ros\.(ends|services|sim_time)$'
+fi
