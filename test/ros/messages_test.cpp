@@ -153,7 +153,7 @@ TEST(StateMessage, LiesInThePlaneXZ) {
   Scenario scenario;
   PendulumRun run(scenario, horizontal(3), true, 0.0);
   run.advance(false);
-  const PendulumState& message = StateBuilder(0.25).build(run, std_msgs::Header());
+  const PendulumState message = StateBuilder(0.25).build(run, std_msgs::Header());
   EXPECT_EQ(message.positions[2].x, run.state().x()[2]);
   EXPECT_EQ(message.positions[2].y, 0.25);
   EXPECT_EQ(message.positions[2].z, run.state().y()[2]);
