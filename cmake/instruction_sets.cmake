@@ -12,8 +12,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set_source_files_properties(src/integration/kernels/chain_kernels.cpp PROPERTIES
     COMPILE_DEFINITIONS SPRING_PENDULUM_X86_KERNELS)
 endif()
-# Functions begin at cache lines. Otherwise the time of the Taylor series of short chains varies by up
-# to 9 % with whatever is linked before them.
+# Functions begin at cache lines. Otherwise the time of the Taylor series of short chains varies by
+# several per cent with whatever is linked before them.
 set_property(SOURCE ${kernel_sources} APPEND PROPERTY COMPILE_OPTIONS -falign-functions=64)
 if(SPRING_PENDULUM_SANITIZE MATCHES "address")
   # Compilers need over ten minutes for the unrolled kernels with this sanitizer.

@@ -9,19 +9,17 @@ sanitizers=${1:?which sanitizers? address,undefined or thread}
 shift
 folder=$build-${sanitizers%%,*}
 "$project/scripts/setup.sh" core test
-with_node=false
-if [ "$sanitizers" = thread ] && have_ros; then with_node=true; fi
 without_ros=ON
-if $with_node; then without_ros=OFF; fi
+if [ "$sanitizers" = thread ] && have_ros; then without_ros=OFF; fi
 say "building with -fsanitize=$sanitizers into $folder"
 configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=$without_ros -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRING_PENDULUM_SANITIZE="$sanitizers"
 compile "$folder"
 cd "$folder"
-# The thread sanitizer slows the kernels down.
+# The thread sanitizer slows the kernels down, so it leaves out the long tests.
 if [ "$sanitizers" = thread ]; then set -- -E "$long_tests" "$@"; fi
 ctest --output-on-failure -j "$(nproc)" -L 'unit' "$@"
-if $with_node; then
+if [ $without_ros = OFF ]; then
   TSAN_OPTIONS="suppressions=$project/test/ros/thread_sanitizer_suppressions.txt" \
     ctest --output-on-failure -R '^ros\.(ends|services|sim_time)$'
 fi

@@ -61,8 +61,8 @@ class ReferenceRun {
   ///   cost as much or about 0.2 s, whichever is more.
   void advance(double time_step, std::int64_t steps, double run_work);
 
-  /// Measures how much small perturbations have grown, see `growth()`. Called once per frame; calls
-  /// of `advance` between the frames do not matter.
+  /// Measures how much small perturbations have grown, see `growth()`. Call it once per frame; then
+  /// the result does not depend on how often `advance` is called between the frames.
   void measureGrowth();
 
   /// Returns to the start.

@@ -52,14 +52,13 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
   if (!one_block) largest_border_ = largestBorder(options_.block_size, stages_);
-  const Eigen::Index longest_block = std::min(chain.size(), options_.block_size);
+  const Eigen::Index rows = one_block ? chain.size() : options_.block_size + 2 * largest_border_;
   shares_.resize(static_cast<std::size_t>(greatestNumberOfShares(options_, chain.size())));
   for (Share& share : shares_) {
     share.left.resize(largest_border_, 4);
     share.right.resize(largest_border_, 4);
-    share.block =
-        StateBuffer(one_block ? chain.size() : roundedUp(longest_block) + 2 * largest_border_);
-    if (tracks_dissipation_) share.dissipated = AlignedNumbers(share.block.pitch());
+    share.block = StateBuffer(rows);
+    if (tracks_dissipation_ && !one_block) share.dissipated = AlignedNumbers(share.block.pitch());
     share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
   }
   workers_ = std::make_unique<WorkerThreads>(static_cast<int>(shares_.size()), [this](int share) {

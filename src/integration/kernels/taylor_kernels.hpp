@@ -43,7 +43,7 @@ struct Convolutions {
 class SpringSeries {
  public:
   [[gnu::always_inline]] SpringSeries(const TaylorWorkspace& work, Index block)
-      : first_(work.springs + placeOf(static_cast<std::size_t>(block * kLanes))) {}
+      : first_(work.springs + offsetOf(static_cast<std::size_t>(block * kLanes))) {}
 
   [[gnu::always_inline]] PlaneVector<Pack> separation(Index n) const {
     return {at(n, 0), at(n, 1)};
@@ -75,7 +75,7 @@ class SpringSeries {
  private:
   static constexpr Index kRow = 4 * kGroup;
   // Of unsigned numbers, quotient and remainder by a power of two take one instruction each.
-  [[gnu::always_inline]] static std::size_t placeOf(std::size_t spring) {
+  [[gnu::always_inline]] static std::size_t offsetOf(std::size_t spring) {
     constexpr std::size_t kNumbers = TaylorWorkspace::kSpringRows * kRow;
     return spring / kGroup * kNumbers + spring % kGroup;
   }
