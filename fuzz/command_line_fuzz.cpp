@@ -1,8 +1,8 @@
 // Arbitrary arguments, one per line, give a valid scenario, an answer, or an error.
 #include "io/program/command_line.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <string>
 #include <vector>

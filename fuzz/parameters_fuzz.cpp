@@ -1,7 +1,7 @@
 // Arbitrary lines `key text`, through the validation of command line, YAML and ROS parameters, give
 // values within their ranges or an error with its place.
 #include "simulation/options/scenario_options.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 
 #include <algorithm>

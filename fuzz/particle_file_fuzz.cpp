@@ -1,7 +1,7 @@
 // Arbitrary bytes give a valid chain or an error of one line with its place.
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Arbitrary bytes give parameters within their ranges or an error with its place.
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <string>
 #include <vector>

@@ -18,7 +18,7 @@ find "$folder" -name '*.gcda' -delete
   { tail -n 50 "$folder/ctest.log" >&2; die "a test failed"; }
 cd "$project"  # gcovr takes its filters from here
 gcovr --root "$project" --object-directory "$folder" "$folder" \
-  --filter 'src/(model|integration|simulation|io)/' \
+  --filter 'src/(base|model|integration|simulation|io)/' \
   --filter 'include/spring_pendulum/' --exclude 'src/integration/kernels/' \
   --exclude-throw-branches --exclude-unreachable-branches --json "$folder/coverage.json"
 "$project/scripts/error_branches.py" "$project" "$folder/coverage.json"

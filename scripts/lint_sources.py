@@ -17,8 +17,9 @@ MOST_LINES = 400
 MOST_FILES = 15  # in a folder of the library
 
 # A layer includes itself and layers of a lower rank. Inside a layer the rooms, its folders, rank too.
-LAYERS = {'model': 0, 'integration': 1, 'simulation': 2, 'io': 3, 'ros': 4}
+LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'io': 4, 'ros': 5}
 ROOMS = {
+    'base': {},
     'model': {},
     'integration': {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3,
                     'implicit': 3, 'automatic': 4},

@@ -23,7 +23,7 @@ export folder project
 
 say "compiling for 64-bit ARM"
 rm -f "$folder"/objects/*.o
-(cd "$project" && ls src/model/*.cpp src/integration/*.cpp src/integration/*/*.cpp \
+(cd "$project" && ls src/base/*.cpp src/model/*.cpp src/integration/*.cpp src/integration/*/*.cpp \
   src/integration/kernels/instruction_sets/baseline.cpp \
   test/support/method_bits.cpp) |
   xargs -P "$(nproc)" -I{} bash -c 'compile_one {}'

@@ -1,4 +1,5 @@
 // The exercise: integrates the motion of a chain of particles and writes one file per frame.
+#include "base/numbers.hpp"
 #include "io/formats/run_files.hpp"
 #include "io/program/closing.hpp"
 #include "io/program/command_line.hpp"
@@ -6,7 +7,6 @@
 #include "io/program/interruption.hpp"
 #include "io/program/progress.hpp"
 #include "io/program/standard_streams.hpp"
-#include "model/numbers.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/integrator_settings.hpp"
 #include "simulation/interruptible.hpp"

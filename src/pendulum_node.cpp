@@ -8,7 +8,7 @@
 #include "ros/parameters/parameter_watch.hpp"
 #include "ros/parameters/parameters.hpp"
 #include "simulation/interruptible.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <boost/filesystem.hpp>  // before Boost 1.72, exception.hpp lacks filesystem_error
 #include <fmt/format.h>

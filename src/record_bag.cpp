@@ -1,11 +1,11 @@
 // Writes the messages of a run directly to a bag: without a master, as fast as possible, stamped
 // with simulated time, and with the same bytes in every run.
+#include "base/numbers.hpp"
 #include "io/program/closing.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
-#include "model/numbers.hpp"
 #include "ros/bag_recorder.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/integrator_settings.hpp"

@@ -1,6 +1,8 @@
 // Umbrella header: the public interface of the library.
 #pragma once
 
+#include <spring_pendulum/base/aligned_numbers.hpp>
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
@@ -8,11 +10,9 @@
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
-#include <spring_pendulum/model/aligned_numbers.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
-#include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>

@@ -1,3 +1,5 @@
+#include "base/checks.hpp"
+#include "base/spelling.hpp"
 #include "integration/automatic/auto_stepper.hpp"
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 #include "integration/error_control/dense_output_integrator.hpp"
@@ -6,10 +8,8 @@
 #include "integration/implicit/radau_stepper.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
-#include "model/checks.hpp"
-#include "model/spelling.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 

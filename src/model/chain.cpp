@@ -1,7 +1,7 @@
-#include "model/checks.hpp"
-#include "model/numbers.hpp"
+#include "base/checks.hpp"
+#include "base/numbers.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 

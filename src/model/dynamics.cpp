@@ -1,4 +1,4 @@
-#include "model/checks.hpp"
+#include "base/checks.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ PlaneVector<double> forceOn(const SpringLaw& law, const State& state, std::ptrdi
 }  // namespace
 
 PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::ptrdiff_t i) {
-  requireSize(chain.size(), state);
+  requireSize(chain.size(), state.size());
   if (i < 0 || i + 1 >= chain.size()) {
     throw InputError(
         fmt::format("spring {} does not exist: a chain of {} particles has springs 0 to {}", i,
@@ -27,7 +27,7 @@ PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::p
 }
 
 void computeSlope(const Chain& chain, const State& state, State& slope) {
-  requireSize(chain.size(), state);
+  requireSize(chain.size(), state.size());
   if (&slope == &state) throw InputError("computeSlope: slope and state must be different objects");
   const std::ptrdiff_t size = chain.size();
   if (slope.size() != size) slope = State(size);

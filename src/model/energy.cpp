@@ -1,4 +1,4 @@
-#include "model/checks.hpp"
+#include "base/checks.hpp"
 #include <spring_pendulum/model/energy.hpp>
 
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace spring_pendulum {
 
 Energy computeEnergy(const Chain& chain, const State& state) {
-  requireSize(chain.size(), state);
+  requireSize(chain.size(), state.size());
   Energy energy;
   const SpringLaw& spring = chain.spring();
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
@@ -23,7 +23,7 @@ Energy computeEnergy(const Chain& chain, const State& state) {
 }
 
 double dissipatedPower(const Chain& chain, const State& state) {
-  requireSize(chain.size(), state);
+  requireSize(chain.size(), state.size());
   double power = 0.0;
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
     const auto rate = elongationRate<double>(

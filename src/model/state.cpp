@@ -1,4 +1,4 @@
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 #include "ros/messages/state_builder.hpp"
 #include "ros/node/publisher.hpp"
 #include "simulation/interruptible.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <boost/make_shared.hpp>
 #include <fmt/format.h>

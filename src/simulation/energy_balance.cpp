@@ -1,5 +1,5 @@
-#include "model/checks.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include "base/checks.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ double springLength(const State& state, Eigen::Index i) {
 }  // namespace
 
 EnergyScale::EnergyScale(const Chain& chain, const State& start) {
-  requireSize(chain.size(), start);
+  requireSize(chain.size(), start.size());
   const SpringLaw& spring = chain.spring();
   double depth = 0.0;  // -E_min, J
   double least = 0.0;

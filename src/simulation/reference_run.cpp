@@ -1,6 +1,6 @@
+#include "base/checks.hpp"
 #include "integration/error_control/dense_output_integrator.hpp"
 #include "model/chain_modes.hpp"
-#include "model/checks.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 
@@ -84,7 +84,7 @@ State perturbed(const State& state, double change) {
 }  // namespace
 
 double chainLength(const Chain& chain, const State& start) {
-  requireSize(chain.size(), start);
+  requireSize(chain.size(), start.size());
   double length = 0.0;
   for (Eigen::Index i = 1; i < start.size(); ++i) {
     const double dx = start.x()[i] - start.x()[i - 1];
@@ -196,7 +196,7 @@ void ReferenceRun::measureGrowth() {
 
 double ReferenceRun::errorOf(const State& state) const {
   if (!isMeasuring()) return std::numeric_limits<double>::quiet_NaN();
-  requireSize(chain_.size(), state);
+  requireSize(chain_.size(), state.size());
   return largestDistance(state, state_);
 }
 

@@ -1,7 +1,7 @@
 #include "simulation/run_monitor.hpp"
 
+#include "base/numbers.hpp"
 #include "model/chain_modes.hpp"
-#include "model/numbers.hpp"
 #include "simulation/integrator_settings.hpp"
 #include "simulation/memory.hpp"
 

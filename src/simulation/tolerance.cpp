@@ -1,8 +1,8 @@
 #include "simulation/tolerance.hpp"
 
-#include "model/numbers.hpp"
+#include "base/numbers.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/smallest_tolerance.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "io/formats/background_frame_writer.hpp"
 
 #include "io/files/frame_folder.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "io/program/exit_status.hpp"
 
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

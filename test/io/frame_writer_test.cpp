@@ -1,6 +1,6 @@
 // Frame files: their names, and that each number reads back as the same double, in few digits.
+#include "base/numbers.hpp"
 #include "io/files/frame_folder.hpp"
-#include "model/numbers.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
 
 #include <gtest/gtest.h>

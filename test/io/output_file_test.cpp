@@ -1,7 +1,7 @@
 // Many runs write one file at the same time: each replaces it by a complete one or is refused.
 #include "io/files/output_file.hpp"
 
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Particle files: what is accepted, and the message for everything that is not.
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // config/pendulum.yaml shows every parameter with its default.
+#include "base/numbers.hpp"
 #include "io/files/text_file.hpp"
-#include "model/numbers.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>

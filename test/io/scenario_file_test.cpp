@@ -1,7 +1,7 @@
 // Parameters from YAML: what is accepted, and the message for everything that is not.
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include "ros/parameters/color.hpp"
 #include "ros/parameters/parameters.hpp"
 #include "simulation/options/option_set.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/errors.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "simulation/tolerance.hpp"
 
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

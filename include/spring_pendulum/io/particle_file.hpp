@@ -5,7 +5,7 @@
 // and a missing newline at the end are accepted. Numbers are decimal, with a point in every locale.
 #pragma once
 
-#include <spring_pendulum/model/aligned_numbers.hpp>
+#include <spring_pendulum/base/aligned_numbers.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <string>

@@ -2,7 +2,7 @@
 // are not part of it.
 #pragma once
 
-#include <spring_pendulum/model/aligned_numbers.hpp>
+#include <spring_pendulum/base/aligned_numbers.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Positions and velocities of all particles: the unknown z = [p; v] of z' = F(z).
 #pragma once
 
-#include <spring_pendulum/model/aligned_numbers.hpp>
+#include <spring_pendulum/base/aligned_numbers.hpp>
 
 #include <Eigen/Core>
 

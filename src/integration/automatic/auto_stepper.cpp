@@ -1,10 +1,10 @@
 #include "integration/automatic/auto_stepper.hpp"
 
+#include "base/numbers.hpp"
 #include "integration/implicit/radau_stepper.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 #include "model/chain_modes.hpp"
-#include "model/numbers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "integration/error_control/dense_output_integrator.hpp"
 
-#include "model/checks.hpp"
+#include "base/checks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -81,7 +81,7 @@ void DenseOutputIntegrator::advance(State& state, double time_step, std::int64_t
 
 bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::int64_t steps,
                                           double most_work) {
-  requireAdvance(started_ ? particles_ : state.size(), state, time_step, steps);
+  requireAdvance(started_ ? particles_ : state.size(), state.size(), time_step, steps);
   if (!started_) {
     stepper_->start(state);  // checks the size of the state
     particles_ = state.size();

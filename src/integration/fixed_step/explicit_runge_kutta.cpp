@@ -1,6 +1,6 @@
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 
-#include "model/checks.hpp"
+#include "base/checks.hpp"
 
 #include <algorithm>
 #include <thread>
@@ -85,7 +85,7 @@ void ExplicitRungeKutta::restart() {
 }
 
 void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
-  requireAdvance(constants_.chain().size, state, time_step, steps);
+  requireAdvance(constants_.chain().size, state.size(), time_step, steps);
   if (plain_) {
     plain_->advance(state, time_step, steps);
     force_evaluations_ = plain_->forceEvaluations();

@@ -1,7 +1,7 @@
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 
+#include "base/checks.hpp"
 #include "integration/kernels/stage_sum.hpp"
-#include "model/checks.hpp"
 
 namespace spring_pendulum {
 
@@ -19,7 +19,7 @@ PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& table
 }
 
 void PlainRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
-  requireAdvance(constants_.chain().size, state, time_step, steps);
+  requireAdvance(constants_.chain().size, state.size(), time_step, steps);
   state.velocities().row(0).setZero();
   state_.values() = state.values();
   for (std::int64_t n = 0; n < steps; ++n) step(time_step);

@@ -1,6 +1,6 @@
 #include "integration/fixed_step/symplectic.hpp"
 
-#include "model/checks.hpp"
+#include "base/checks.hpp"
 
 #include <utility>
 
@@ -20,7 +20,7 @@ void SymplecticMethod::restart() {
 }
 
 void SymplecticMethod::advance(State& state, double time_step, std::int64_t steps) {
-  requireAdvance(chain_.size(), state, time_step, steps);
+  requireAdvance(chain_.size(), state.size(), time_step, steps);
   state.velocities().row(0).setZero();
   current_.values() = state.values();
   for (std::int64_t n = 0; n < steps; ++n) {

@@ -3,7 +3,7 @@
 #include "integration/kernels/fast_tableaus.hpp"
 #include "integration/kernels/instruction_sets/instruction_sets.hpp"
 #include "integration/kernels/kernel_constants.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 

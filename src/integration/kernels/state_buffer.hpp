@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
-#include <spring_pendulum/model/aligned_numbers.hpp>
+#include <spring_pendulum/base/aligned_numbers.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 #include "integration/taylor/taylor_stepper.hpp"
 
+#include "base/checks.hpp"
 #include "integration/error_control/step_size_controller.hpp"
-#include "model/checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
       inside_(chain.size()) {}
 
 void TaylorStepper::start(const State& state) {
-  requireSize(chain_.size(), state);
+  requireSize(chain_.size(), state.size());
   end_.values() = state.values();
   end_.values().row(0).rightCols<2>().setZero();
   work_.size = chain_.size();

@@ -2,7 +2,7 @@
 
 #include "io/files/frame_folder.hpp"
 #include "io/files/paths.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 

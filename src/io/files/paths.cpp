@@ -1,6 +1,6 @@
 #include "io/files/paths.hpp"
 
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <cerrno>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "io/formats/energy_file.hpp"
 
-#include "model/numbers.hpp"
+#include "base/numbers.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
+#include "base/checks.hpp"
+#include "base/numbers.hpp"
 #include "io/files/frame_folder.hpp"
-#include "model/checks.hpp"
-#include "model/numbers.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
 
 #include <fmt/format.h>

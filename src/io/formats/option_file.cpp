@@ -1,7 +1,7 @@
 #include "io/formats/option_file.hpp"
 
 #include "io/files/text_file.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>

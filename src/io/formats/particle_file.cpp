@@ -1,8 +1,8 @@
+#include "base/numbers.hpp"
+#include "base/spelling.hpp"
 #include "io/files/text_file.hpp"
-#include "model/numbers.hpp"
-#include "model/spelling.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "io/formats/run_files.hpp"
 
-#include "model/numbers.hpp"
+#include "base/numbers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "io/program/closing.hpp"
 
+#include "base/spelling.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
-#include "model/spelling.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>

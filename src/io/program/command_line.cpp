@@ -1,11 +1,11 @@
 #include "io/program/command_line.hpp"
 
+#include "base/spelling.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/option_file.hpp"
-#include "model/spelling.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <boost/program_options/errors.hpp>
 #include <boost/program_options/options_description.hpp>

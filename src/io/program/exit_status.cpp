@@ -1,8 +1,8 @@
 #include "io/program/exit_status.hpp"
 
+#include "base/spelling.hpp"
 #include "io/program/standard_streams.hpp"
-#include "model/spelling.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <new>
 

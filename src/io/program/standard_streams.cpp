@@ -1,7 +1,7 @@
 #include "io/program/standard_streams.hpp"
 
 #include "io/files/paths.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <cerrno>
 #include <csignal>

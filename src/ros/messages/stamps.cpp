@@ -1,6 +1,6 @@
 #include "ros/messages/stamps.hpp"
 
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 

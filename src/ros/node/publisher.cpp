@@ -1,7 +1,7 @@
 #include "ros/node/publisher.hpp"
 
+#include "base/numbers.hpp"
 #include "io/program/interruption.hpp"
-#include "model/numbers.hpp"
 
 #include <fmt/format.h>
 

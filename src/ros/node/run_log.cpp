@@ -1,8 +1,8 @@
 #include "ros/node/run_log.hpp"
 
+#include "base/numbers.hpp"
 #include "io/program/closing.hpp"
 #include "io/program/standard_streams.hpp"
-#include "model/numbers.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>

@@ -1,8 +1,8 @@
 #include "ros/parameters/parameters.hpp"
 
-#include "model/numbers.hpp"
+#include "base/numbers.hpp"
 #include "simulation/options/scenario_options.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 

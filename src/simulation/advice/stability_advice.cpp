@@ -1,6 +1,6 @@
+#include "base/checks.hpp"
+#include "base/numbers.hpp"
 #include "model/chain_modes.hpp"
-#include "model/checks.hpp"
-#include "model/numbers.hpp"
 #include "simulation/advice/trial.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
@@ -186,7 +186,7 @@ std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
 
 StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
                           double first, double duration, double frame_interval) {
-  requireSize(chain.size(), start);
+  requireSize(chain.size(), start.size());
   requireFinitePositive("first", first, "s");
   requireFinitePositive("duration", duration, "s");
   requireFinitePositive("frame_interval", frame_interval, "s");
@@ -215,7 +215,7 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
 }
 
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
-  requireSize(chain.size(), start);
+  requireSize(chain.size(), start.size());
   const Method& method = scenario.method;
   const bool fixed = method.hasFixedStep();
   const TrialBench bench = benchFor(chain, start, scenario);

@@ -1,7 +1,7 @@
 #include "simulation/advice/stability_warning.hpp"
 
+#include "base/numbers.hpp"
 #include "model/chain_modes.hpp"
-#include "model/numbers.hpp"
 #include "simulation/advice/trial.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 

@@ -1,8 +1,8 @@
 #include "simulation/options/option.hpp"
 
-#include "model/numbers.hpp"
-#include "model/spelling.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include "base/numbers.hpp"
+#include "base/spelling.hpp"
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "simulation/options/option_set.hpp"
 
-#include "model/spelling.hpp"
-#include <spring_pendulum/model/errors.hpp>
+#include "base/spelling.hpp"
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "simulation/options/scenario_options.hpp"
 
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <fmt/format.h>
 

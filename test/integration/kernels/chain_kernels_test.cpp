@@ -2,8 +2,8 @@
 
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/model/errors.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include <spring_pendulum/model/aligned_numbers.hpp>
-#include <spring_pendulum/model/errors.hpp>
+#include <spring_pendulum/base/aligned_numbers.hpp>
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 

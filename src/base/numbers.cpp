@@ -1,4 +1,4 @@
-#include "model/numbers.hpp"
+#include "base/numbers.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>

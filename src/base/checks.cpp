@@ -1,6 +1,6 @@
-#include "model/checks.hpp"
+#include "base/checks.hpp"
 
-#include "model/numbers.hpp"
+#include "base/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -8,16 +8,15 @@
 
 namespace spring_pendulum {
 
-void requireSize(std::ptrdiff_t particles, const State& state) {
-  if (state.size() == particles) return;
-  throw InputError(
-      fmt::format("the state has {} particles but the chain has {}; the sizes must agree",
-                  state.size(), particles));
+void requireSize(std::ptrdiff_t of_chain, std::ptrdiff_t of_state) {
+  if (of_state == of_chain) return;
+  throw InputError(fmt::format(
+      "the state has {} particles but the chain has {}; the sizes must agree", of_state, of_chain));
 }
 
 void requireAdvance(std::ptrdiff_t particles, const State& state, double time_step,
                     std::int64_t steps) {
-  requireSize(particles, state);
+  requireSize(particles, state.size());
   requireFinitePositive("time_step", time_step, "s");
   requireAtLeastZero("steps", steps);
 }

@@ -1,6 +1,6 @@
 // Numbers from text: both parsers give the same bits and refuse the same texts. Numbers to text: the
 // same characters with every release of {fmt}.
-#include "model/numbers.hpp"
+#include "base/numbers.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Suggestions for misspelt names.
-#include "model/spelling.hpp"
+#include "base/spelling.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>
 
