@@ -14,9 +14,9 @@ void requireSize(std::ptrdiff_t of_chain, std::ptrdiff_t of_state) {
       "the state has {} particles but the chain has {}; the sizes must agree", of_state, of_chain));
 }
 
-void requireAdvance(std::ptrdiff_t particles, const State& state, double time_step,
+void requireAdvance(std::ptrdiff_t of_chain, std::ptrdiff_t of_state, double time_step,
                     std::int64_t steps) {
-  requireSize(particles, state.size());
+  requireSize(of_chain, of_state);
   requireFinitePositive("time_step", time_step, "s");
   requireAtLeastZero("steps", steps);
 }
