@@ -1,24 +1,23 @@
 // The ROS node: integrates the motion of a chain, writes its frames and shows it.
+#include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 #include "ros/node/run_log.hpp"
+#include "ros/node/startup.hpp"
 #include "ros/parameters/parameter_watch.hpp"
 #include "ros/parameters/parameters.hpp"
 #include "simulation/interruptible.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
-#include <boost/filesystem.hpp>  // before Boost 1.72, exception.hpp lacks filesystem_error
 #include <fmt/format.h>
 
-#include <ros/network.h>
 #include <ros/ros.h>
 
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <optional>
 #include <string>
@@ -75,7 +74,7 @@ int runNode() {
   const NodeConfiguration configuration = readConfiguration();
   const Scenario& scenario = configuration.scenario;
   const NodeOptions& options = configuration.options;
-  PendulumRun run(scenario, readParticleFile(scenario.particles),
+  PendulumRun run(scenario, readParticles(scenario, "_particles:=FILE"),
                   options.track_energy || !scenario.energy.empty(), displayInterval(options));
   RunFiles files(scenario);
   RunLog log;
@@ -105,46 +104,6 @@ int runNode() {
   return run.verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 
-/// roscpp aborts at an address of the ROS master that it cannot parse.
-void checkMasterUri(int argc, char** argv) {
-  const char* const variable = std::getenv("ROS_MASTER_URI");
-  std::string source = "ROS_MASTER_URI";
-  std::string uri = variable != nullptr ? variable : "http://localhost:11311";
-  const std::string argument = "__master:=";
-  for (int i = 1; i < argc; ++i) {
-    const std::string text = argv[i];
-    if (text.compare(0, argument.size(), argument) != 0) continue;
-    source = "__master";
-    uri = text.substr(argument.size());
-  }
-  std::string host;
-  std::uint32_t port = 0;
-  if (ros::network::splitURI(uri, host, port) && !host.empty() && port > 0 && port < 65536) return;
-  throw InputError(fmt::format("{}: must be http://HOST:PORT, got '{}'", source, uri));
-}
-
-/// Starts ROS, which takes the arguments with ":=" away.
-/// \throws InputError if the master's address or the node's name is invalid, or if another argument
-/// is given
-/// \throws FileError if ROS cannot create its log folder
-void initRos(int argc, char** argv) {
-  checkMasterUri(argc, argv);
-  try {
-    // The handler of roscpp would end ROS before the files are closed and the closing line is logged.
-    ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
-  } catch (const ros::InvalidNameException& error) {
-    throw InputError(error.what());
-  } catch (const boost::filesystem::filesystem_error& error) {
-    throw FileError(fmt::format(
-        "{}: the log folder of ROS could not be created: {}; set ROS_HOME to a writable folder",
-        error.path1().string(), error.code().message()));
-  }
-  if (ros::this_node::getName() == "/") throw InputError("the name of the node must not be empty");
-  if (argc <= 1) return;
-  throw InputError(fmt::format(
-      "unexpected argument '{}': the node takes parameters, for example _frames:=100", argv[1]));
-}
-
 }  // namespace
 }  // namespace spring_pendulum
 
@@ -153,7 +112,12 @@ int main(int argc, char** argv) {
   prepareProcess();
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffered, also in a file
   try {
-    initRos(argc, argv);
+    const std::string answer = startRos(argc, argv);
+    if (!answer.empty()) {
+      printOutput(answer);
+      flushOutput();
+      return kDone;
+    }
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");

@@ -58,6 +58,17 @@ class Launch(unittest.TestCase):
                   if p.get('if') == "$(eval %s != 'unset')" % p.get('name')}
         self.assertEqual(passed, known)
 
+    def test_a_text_that_looks_like_a_number_stays_a_text(self):
+        texts = {p.get('name') for p in launch_file('pendulum').find('node').findall('param')
+                 if p.get('type') == 'str'}
+        self.assertEqual(texts, {'particles', 'output', 'energy', 'frame_id', 'follow', 'color',
+                                 'camera_frame'})
+        with Folder() as folder:
+            shutil.copy(SCENE, folder + '/1e3')
+            launch('pendulum.launch', 'rviz:=false', 'at_end:=exit', 'frames:=2', 'output:=0042',
+                   'particles:=1e3', 'real_time_factor:=0', cwd=folder)
+            self.assertEqual(sorted(os.listdir(folder)), ['0042', '1e3'])
+
     def test_roslaunch_lists_the_arguments(self):
         listed = launch('compare.launch', '--ros-args')
         self.assertNotIn('undocumented', listed)

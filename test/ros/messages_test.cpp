@@ -206,11 +206,11 @@ TEST(Bag, IsReadBackByTheLibrary) {
 TEST(Parameters, RawValuesBecomeTheTextThatWasMeant) {
   XmlRpc::XmlRpcValue whole(4), real(0.001), yes(true), text("1e-3"), list;
   list[0] = 1;
-  EXPECT_EQ(parameterText(whole, "frames", "/node"), "4");
-  EXPECT_EQ(parameterText(real, "time_step", "/node"), "0.001");
-  EXPECT_EQ(parameterText(yes, "no_frames", "/node"), "true");
-  EXPECT_EQ(parameterText(text, "time_step", "/node"), "1e-3");
-  EXPECT_THROW(parameterText(list, "frames", "/node"), InputError);
+  EXPECT_EQ(parameterText(whole, "/node: frames"), "4");
+  EXPECT_EQ(parameterText(real, "/node: time_step"), "0.001");
+  EXPECT_EQ(parameterText(yes, "/node: no_frames"), "true");
+  EXPECT_EQ(parameterText(text, "/node: time_step"), "1e-3");
+  EXPECT_THROW(parameterText(list, "/node: frames"), InputError);
 }
 
 TEST(Parameters, EveryOptionReadsItsOwnDefault) {

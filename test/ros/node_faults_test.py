@@ -13,7 +13,7 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import rostest
 
-from fault_injection import (INJECTION, NO_MASTER, SCENE, files_in, fill, injection, read_report)
+from fault_injection import (INJECTION, SCENE, files_in, fill, injection, read_report)
 from pendulum_process import Folder, PendulumNode, program, read_frames, wait_until
 
 
@@ -106,19 +106,6 @@ class Node(unittest.TestCase):
             self.assertGreater(time.monotonic() - start, 3.0)  # it was paced all the same
             self.assertEqual(len(read_frames(folder)), 31)
 
-    def test_a_signal_ends_it_without_a_master(self):
-        for number in (signal.SIGINT, signal.SIGTERM):
-            node = subprocess.Popen([program('pendulum_node'), '_particles:=' + SCENE],
-                                    env=dict(os.environ, **NO_MASTER), text=True,
-                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-            try:
-                wait_until(lambda: 'master' in node.stdout.readline(), 'a try to find a master')
-                node.send_signal(number)
-                self.assertIn(node.wait(60), (0, -number))  # before ROS has started, killed
-            finally:
-                node.kill()
-                node.communicate()
-
     def test_refuses_an_invalid_address_of_the_master(self):
         valid = 'http://127.0.0.1:1'
         for uri in ('', '127.0.0.1:1', 'https://127.0.0.1:1', 'http://127.0.0.1', 'http://127.0.0.1:x',
@@ -153,16 +140,6 @@ class Node(unittest.TestCase):
         done = subprocess.run([program('pendulum_node'), *arguments], text=True, timeout=60,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
         return done.returncode, done.stdout
-
-    def test_a_signal_ends_it_inside_a_frame(self):
-        for parameters in ({'method': 'Taylor-8', 'frame_interval': 1e6},
-                           {'steps_per_frame': 2000000000}):
-            with Folder() as folder, PendulumNode(particles=SCENE, output=folder,
-                                                  **parameters) as node:
-                wait_until(lambda: os.path.exists(folder + '/frame_0000.txt'), 'frame 0')
-                node.interrupt()
-                self.assertEqual(node.wait(), 0, node.output())
-                self.assertEqual(list(read_frames(folder)), ['frame_0000.txt'])
 
     def test_ended_by_ros_it_closes_its_files_and_says_so(self):
         for moved in (False, True):

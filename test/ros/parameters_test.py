@@ -1,5 +1,7 @@
 #!/usr/bin/python3
 """Valid and invalid parameters."""
+import os
+import re
 import subprocess
 import time
 import unittest
@@ -125,6 +127,52 @@ class Parameters(unittest.TestCase):
             done = subprocess.run([program('pendulum_node'), *arguments], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr[:len(message)]), (2, message))
             self.assertEqual(done.stderr.count('\n'), 1, done.stderr)
+
+    def test_a_text_that_ros_takes_for_a_number_is_refused_and_its_cure_works(self):
+        for text, guess in (('0042', '42'), ('1e3', '1000'), ('True', 'true')):
+            with Folder() as folder:
+                os.mkdir(folder + '/' + guess)
+                open(folder + '/' + guess + '/frame_0007.txt', 'w').close()
+                with PendulumNode(arguments=['_output:=' + text], output=None, frames=2, cwd=folder) as node:
+                    self.assertEqual(node.wait(), 2, node.output())
+                    self.assertIn('write _output:=./NAME', node.lines('FATAL')[0])
+                self.assertEqual(os.listdir(folder + '/' + guess), ['frame_0007.txt'])
+                with PendulumNode(arguments=['_output:=./' + text], output=None, frames=2, cwd=folder) as node:
+                    self.assertEqual(node.wait(), 0, node.output())
+                self.assertEqual(len(read_frames(folder + '/' + text)), 2)
+
+    def test_a_forgotten_underscore_is_an_error_with_the_cure(self):
+        for argument in ('method:=Auto', 'particles:=data/x.txt', 'frames:=3'):
+            done = subprocess.run([program('pendulum_node'), argument], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, "'%s' sets no parameter: write _%s\n" % (argument, argument)))
+        with PendulumNode(arguments=['markers:=elsewhere'], frames=2) as node:  # a remapping
+            self.assertEqual(node.wait(), 0, node.output())
+
+    def test_help_lists_every_parameter_with_its_default(self):
+        with PendulumNode(bogus=1) as node:
+            self.assertEqual(node.wait(), 2)
+            known = re.search(r'known[^,]* (\w+(?:, \w+)*)', node.output()).group(1).split(', ')
+        done = subprocess.run([program('pendulum_node'), '--help'], capture_output=True, text=True,
+                              env=dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:1'))
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(re.findall(r'^  _(\w+):=', done.stdout, re.M), known)
+        self.assertRegex(done.stdout, r'_time_step:=SECONDS\n .*fixed-step methods \[0\.01 s\]')
+        self.assertRegex(done.stdout, r'_no_frames:=true\|false\n .* \[false\]')
+
+    def test_a_missing_default_file_names_the_parameter(self):
+        with Folder() as folder, PendulumNode(particles=None, cwd=folder) as node:
+            self.assertEqual(node.wait(), 1)
+            self.assertIn(folder + '/particle.txt: no such file; give a particle file with '
+                          '_particles:=FILE', node.output())
+
+    def test_the_log_keeps_every_character(self):
+        for language in ('C', 'C.UTF-8'):
+            with Folder() as folder:
+                with PendulumNode(output=folder + '/jörgen', frames=2,
+                                  env={'LC_ALL': language, 'LANG': language}) as node:
+                    self.assertEqual(node.wait(), 0, node.output())
+                    self.assertIn('/jörgen', node.output())
 
     def test_by_default_frames_go_to_the_working_directory(self):
         with Folder() as folder:

@@ -51,7 +51,7 @@ class PendulumNode:
 
     DEFAULTS = {'output': '', 'at_end': 'exit', 'real_time_factor': 0.0}
 
-    def __init__(self, name='/pendulum', arguments=(), cwd='/', env=None, **parameters):
+    def __init__(self, name='/pendulum', arguments=(), cwd='/', env=None, preexec=None, **parameters):
         self.name = name
         self.parameters = dict(self.DEFAULTS, particles=project('data/particle.txt'))
         self.parameters.update(parameters)
@@ -65,7 +65,7 @@ class PendulumNode:
         self.process = subprocess.Popen(
             [program('pendulum_node'), '__name:=' + base, '__ns:=' + (namespace or '/'),
              *arguments], stdout=self.log, stderr=subprocess.STDOUT, cwd=cwd,
-            env=dict(os.environ, ROSCONSOLE_FORMAT='[${severity}]: ${message}', **(env or {})))
+            preexec_fn=preexec, env=dict(os.environ, ROSCONSOLE_FORMAT='[${severity}]: ${message}', **(env or {})))
 
     def __enter__(self):
         return self

@@ -35,16 +35,6 @@ std::string optionName(std::string_view key) {
   return name;
 }
 
-std::string helpFor(const Option& option) {
-  std::string help(option.meaning);
-  if (option.applies_to == AppliesTo::kFixedStep) help += "; fixed-step methods";
-  if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
-  if (option.placeholder().empty()) return help;
-  const std::string value = option.text();
-  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,
-                     option.unit.empty() ? "" : " ", option.unit);
-}
-
 void addWithValue(po::options_description& description, const std::string& name,
                   const std::string& placeholder, const std::string& help) {
   description.add_options()(name.c_str(), po::value<std::string>()->value_name(placeholder),
@@ -60,9 +50,9 @@ po::options_description describe(const OptionSet& options) {
     const std::string name = optionName(option.key);
     if (option.key == kMethodKey) continue;
     if (option.placeholder().empty()) {
-      description.add_options()(name.c_str(), helpFor(option).c_str());
+      description.add_options()(name.c_str(), optionHelp(option).c_str());
     } else {
-      addWithValue(description, name, option.placeholder(), helpFor(option));
+      addWithValue(description, name, option.placeholder(), optionHelp(option));
     }
   }
   description.add_options()(
@@ -175,6 +165,16 @@ std::string readConfig(const std::vector<po::option>& given, OptionSet& options)
 
 }  // namespace
 
+std::string optionHelp(const Option& option) {
+  std::string help(option.meaning);
+  if (option.applies_to == AppliesTo::kFixedStep) help += "; fixed-step methods";
+  if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
+  if (option.placeholder().empty()) return help;
+  const std::string value = option.text();
+  return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,
+                     option.unit.empty() ? "" : " ", option.unit);
+}
+
 Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
                           OptionSet& options, const Scenario& scenario) {
   const po::options_description description = describe(options);
@@ -195,13 +195,13 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   return {has(given, "check"), has(given, "report-skips"), "", config};
 }
 
-Particles readParticles(const Scenario& scenario) {
+Particles readParticles(const Scenario& scenario, std::string_view argument) {
   namespace fs = std::filesystem;
   std::error_code error;  // other errors are left to the reader
   const bool is_missing = fs::status(scenario.particles, error).type() == fs::file_type::not_found;
   if (is_missing && scenario.particles == Scenario{}.particles) {
-    throw FileError(fmt::format("{}: no such file; give a particle file with --particles",
-                                fullPath(scenario.particles)));
+    throw FileError(fmt::format("{}: no such file; give a particle file with {}",
+                                fullPath(scenario.particles), argument));
   }
   return readParticleFile(scenario.particles);
 }

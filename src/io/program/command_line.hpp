@@ -7,6 +7,7 @@
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace spring_pendulum {
 
@@ -32,9 +33,12 @@ struct Switches {
 Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
                           OptionSet& options, const Scenario& scenario);
 
-/// Reads the particle file of a scenario. If the default file does not exist, the error names the
-/// option --particles.
+/// Returns the meaning of an option with its default in brackets, for the help text.
+std::string optionHelp(const Option& option);
+
+/// Reads the particle file of a scenario.
+/// \param argument how to name another file, for the error if the default file does not exist
 /// \throws InputError and FileError, see readParticleFile
-Particles readParticles(const Scenario& scenario);
+Particles readParticles(const Scenario& scenario, std::string_view argument = "--particles");
 
 }  // namespace spring_pendulum

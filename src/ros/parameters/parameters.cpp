@@ -11,8 +11,30 @@
 #include <ros/this_node.h>
 
 namespace spring_pendulum {
-std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
-                          const std::string& where) {
+namespace {
+
+/// ROS reads 0042 as the number 42: such a value is not the text that was written.
+void refuseGuess(XmlRpc::XmlRpcValue& value, const std::string& text, const Option& option,
+                 const std::string& place) {
+  const bool is_text = value.getType() == XmlRpc::XmlRpcValue::TypeString;
+  if (is_text || !std::holds_alternative<Text>(option.value)) return;
+  throw InputError(fmt::format(
+      "{}: must be text, but ROS has read it as the {} {}; write _{}:=./NAME for a file, "
+      "type=\"str\" in a launch file, or quotes in YAML",
+      place, value.getType() == XmlRpc::XmlRpcValue::TypeBoolean ? "truth value" : "number", text,
+      option.key));
+}
+
+}  // namespace
+
+OptionSet nodeOptions(NodeConfiguration& configuration) {
+  OptionSet options(scenarioOptions(configuration.scenario));
+  options.add(displayOptions(configuration.options));
+  options.add(playOptions(configuration.options));
+  return options;
+}
+
+std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& place) {
   using XmlRpc::XmlRpcValue;
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
@@ -24,24 +46,24 @@ std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& key,
     case XmlRpcValue::TypeString:
       return static_cast<std::string>(value);
     default:
-      throw InputError(fmt::format(
-          "{}: {}: must be a single value, got a list, a map or binary data", where, key));
+      throw InputError(
+          fmt::format("{}: must be a single value, got a list, a map or binary data", place));
   }
 }
 
 NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where) {
   NodeConfiguration configuration;
-  OptionSet options(scenarioOptions(configuration.scenario));
-  options.add(displayOptions(configuration.options));
-  options.add(playOptions(configuration.options));
+  OptionSet options = nodeOptions(configuration);
   if (parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
     for (auto& [key, value] : parameters) {
-      const std::string text = parameterText(value, key, where);
       const std::string place = fmt::format("{}: {}", where, key);
+      const Option& option = options.find(key, where);
+      const std::string text = parameterText(value, place);
+      refuseGuess(value, text, option, place);
       if (key == "output" && text.empty()) {  // a launch file can't omit a parameter
         options.set(options.find("no_frames", where), "true", place);
       } else {
-        options.set(options.find(key, where), text, place);
+        options.set(option, text, place);
       }
     }
   }
