@@ -64,15 +64,16 @@ constexpr std::ptrdiff_t ringBlocks(std::size_t stages) {
   return blocks;
 }
 
-/// Largest number of blocks of a chain that does one stage after the other.
-constexpr std::ptrdiff_t kWholeBlocks = 64;
+/// Moving particles of the longest chain that completes each stage before the next: its workspace
+/// fits the first-level cache.
+constexpr std::ptrdiff_t kWholeParticles = 256;
 
 /// Doubles of workspace for whole steps: states, sums, slopes and springs of every stage.
 constexpr std::ptrdiff_t stepWorkspaceSize(std::size_t stages) {
   const auto count = static_cast<std::ptrdiff_t>(stages);
-  const std::ptrdiff_t rings = 4 * count * ringBlocks(stages);
-  const std::ptrdiff_t whole = (3 + count) * (kWholeBlocks + 1);
-  return (2 * count + 4 * (rings > whole ? rings : whole)) * 8;
+  const std::ptrdiff_t rings = 4 * count * ringBlocks(stages) * 8;
+  const std::ptrdiff_t whole = (3 + count) * (kWholeParticles + 8);
+  return 2 * count * 8 + 4 * (rings > whole ? rings : whole);
 }
 
 /// Terms that a kernel for whole steps computes. A term that is 0 may be left out for speed.

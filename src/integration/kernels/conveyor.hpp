@@ -52,7 +52,7 @@ class Conveyor {
   // every store.
   [[gnu::always_inline]] void advance(std::ptrdiff_t steps) {
     constexpr auto kAll = std::make_index_sequence<kTableau.stages>();
-    if (blocks_ <= kWholeBlocks) return wholeSteps(steps, kAll);
+    if (blocks_ <= kWholeParticles / kLanes) return wholeSteps(steps, kAll);
     for (std::ptrdiff_t n = 0; n < steps; ++n) step(kAll);
   }
 
@@ -60,7 +60,7 @@ class Conveyor {
   /// Layout of the workspace: a record per block of the chain, or a ring of records per stage.
   enum class Memory { kWhole, kRings };
 
-  static constexpr std::ptrdiff_t kShortBlocks = 8;  ///< of the longest chain that is unrolled
+  static constexpr std::ptrdiff_t kShortBlocks = kLanes == 8 ? 4 : 5;  ///< unrolled up to there
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
   /// Ticks between the halves of a stage, so that about four halves of other stages run meanwhile.
   static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
