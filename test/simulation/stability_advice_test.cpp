@@ -39,30 +39,6 @@ void forEachFixedStepMethod(const Visitor& visitor) {
   }
 }
 
-TEST(LargestPassingStep, IsWithinOnePercentBelowTheLimit) {
-  for (const double limit : {2e-4, 0.0099, 0.0101, 0.3, 7.0}) {
-    int tries = 0;
-    const double step = largestPassingStep(0.01, 1e-5, 10.0, [&](double s) {
-      ++tries;
-      return s <= limit;
-    });
-    EXPECT_LE(step, limit);
-    EXPECT_GT(1.0101 * step, limit);
-    EXPECT_LE(tries, 70) << limit;
-  }
-}
-
-TEST(LargestPassingStep, LiesBelowAGapAndAboveNone) {
-  // From 0.05 to 0.0525 s a step fails, and from 0.06 s on.
-  const auto has_gap = [](double s) { return s < 0.06 && !(s > 0.05 && s < 0.0525); };
-  const double step = largestPassingStep(0.01, 1e-5, 10.0, has_gap);
-  EXPECT_GT(1.0101 * step, 0.05);
-  EXPECT_LE(step, 0.05);
-  EXPECT_EQ(largestPassingStep(0.01, 1e-5, 10.0, [](double) { return false; }), 0.0);
-  EXPECT_TRUE(std::isinf(largestPassingStep(0.01, 1e-5, 10.0, [](double) { return true; })));
-  EXPECT_EQ(largestPassingStep(0.01, 2.0, 1.0, [](double) { return true; }), 0.0);
-}
-
 TEST(StabilityAdvice, LargestStableStepIsThatOfRealRuns) {
   for (const unsigned seed : {1U, 6U, 14U, 18U, 29U}) {
     const Scene scene = test::randomScene(seed);
@@ -91,39 +67,6 @@ TEST(StabilityAdvice, LargestAccurateStepKeepsOnePercentOfTheLength) {
     EXPECT_LE(bench.run(method, limits.accurate, true).position_error.largest, allowed);
     EXPECT_GT(bench.run(method, 1.5 * limits.accurate, true).position_error.largest, allowed);
   });
-}
-
-TEST(StabilityAdvice, LinearLimitIsStable) {
-  int cases = 0;
-  for (unsigned seed = 0; seed < 30; ++seed) {
-    const Scene scene = test::randomScene(seed);
-    SCOPED_TRACE(scene.name);
-    forEachFixedStepMethod([&](const Method& method) {
-      const double step = linearStepLimit(method, scene.chain, kDuration);
-      if (kDuration / step > 1e5) return;
-      ++cases;
-      // The energy of the symplectic Euler method sways with its first-order error, however stable.
-      const auto kind = method.name == "Semi-Implicit-Euler" ? VerdictKind::kDiverged
-                                                             : VerdictKind::kGainedEnergy;
-      EXPECT_LT(test::verdictOfRun(scene, method, step, kDuration, true, kind).kind, kind) << step;
-    });
-  }
-  EXPECT_GE(cases, 90);
-}
-
-TEST(StabilityAdvice, LinearLimitIsDefinedInEveryCornerOfTheParameters) {
-  const Chain fixed(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
-  for (const Method& method : methodTable()) {
-    EXPECT_TRUE(std::isinf(linearStepLimit(method, fixed, kDuration))) << method.name;
-  }
-  for (const double stiffness : {0.0, 1e-30, 50.0, 1e30}) {
-    for (const double damping : {0.0, 1e-30, 1.0, 1e30}) {
-      const Chain chain(Eigen::VectorXd::Ones(4), {stiffness, damping, 1.0}, 9.81);
-      forEachFixedStepMethod([&](const Method& method) {
-        EXPECT_GE(linearStepLimit(method, chain, kDuration), 0.0) << stiffness << " " << damping;
-      });
-    }
-  }
 }
 
 TEST(StabilityAdvice, CheckReportsTheVeryRun) {
@@ -200,30 +143,6 @@ TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
   controlled.method = findMethod("Auto");
   EXPECT_EQ(remedyForDivergence(light.chain, light.start, controlled),
             "try a tolerance below 1e-06 m");
-}
-
-/// How much the amplitude of q'' + damping q' + stiffness q = 0 has grown after 2,000 steps.
-double growth(const Method& method, double stiffness, double damping, double step) {
-  const Chain chain(Eigen::Vector2d::Ones(), {stiffness, damping, 1.0}, 0.0);
-  State state(2);
-  state.x()[1] = 1.0;
-  state.vx()[1] = 0x1p-20;
-  makeIntegrator(method, chain)->advance(state, step, 2000);
-  return std::hypot(stiffness * (state.x()[1] - 1.0), state.vx()[1]) / 0x1p-20;
-}
-
-TEST(MethodTable, StabilityLimitsLieOnTheBorder) {
-  forEachFixedStepMethod([](const Method& method) {
-    EXPECT_LT(growth(method, 0.0, 1.0, 0.99 * method.real_stability_limit), 1.0);
-    EXPECT_GT(growth(method, 0.0, 1.0, 1.01 * method.real_stability_limit), 10.0);
-    const double limit = method.imaginary_stability_limit;
-    if (limit > 0.0) {
-      EXPECT_LT(growth(method, 1.0, 0.0, 0.98 * limit), 11.0);       // Verlet: 1/sqrt(1 - 0.98²)
-      EXPECT_FALSE(growth(method, 1.0, 0.0, 1.02 * limit) < 100.0);  // nor if it is not finite
-    } else {
-      EXPECT_GT(growth(method, 1.0, 0.0, 0.2), 1.2);
-    }
-  });
 }
 
 }  // namespace

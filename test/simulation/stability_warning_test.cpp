@@ -68,12 +68,12 @@ TEST(StabilityWarning, TriesTheStartOfAShortChain) {
   const Scene scene = test::horizontalChain("", 11, 1.0);
   const Scenario slow = scenarioOf(scene, "Euler", 0.01, 20.0);  // no spring is unstable by itself
   EXPECT_THAT(stabilityWarning(scene.chain, slow), IsEmpty());
-  EXPECT_THAT(stabilityWarning(scene.chain, scene.start, slow),
+  EXPECT_THAT(stabilityWarning(scene.chain, slow, &scene.start),
               StartsWith("Euler is unstable with a time step of 0.01 s (gained energy: "));
   EXPECT_THAT(
-      stabilityWarning(scene.chain, scene.start, scenarioOf(scene, "Runge-Kutta-4", 0.01, 20.0)),
+      stabilityWarning(scene.chain, scenarioOf(scene, "Runge-Kutta-4", 0.01, 20.0), &scene.start),
       IsEmpty());
-  EXPECT_THAT(stabilityWarning(scene.chain, scene.start, scenarioOf(scene, "Auto", 0.01, 20.0)),
+  EXPECT_THAT(stabilityWarning(scene.chain, scenarioOf(scene, "Auto", 0.01, 20.0), &scene.start),
               IsEmpty());
 }
 
@@ -81,9 +81,30 @@ TEST(StabilityWarning, IsSilentWithoutSpringsOrSteps) {
   const Scene light = test::horizontalChain("", 11, 0.001);
   Scenario still = scenarioOf(light, "Euler", 0.01, 5.0);
   still.frames = 1;
-  EXPECT_THAT(stabilityWarning(light.chain, light.start, still), IsEmpty());
+  EXPECT_THAT(stabilityWarning(light.chain, still, &light.start), IsEmpty());
   const Chain alone(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
-  EXPECT_THAT(stabilityWarning(alone, State(1), Scenario{}), IsEmpty());
+  const State anchor(1);
+  EXPECT_THAT(stabilityWarning(alone, Scenario{}, &anchor), IsEmpty());
+}
+
+TEST(StabilityWarning, IsAWholeSentenceWithoutALimit) {
+  const Chain chain(Eigen::Vector2d::Constant(1e-3), {50.0, 1.0, 1.0}, 1e308);
+  Scenario scenario;
+  scenario.method = findMethod("Euler");
+  scenario.time_step = 0.05;
+  EXPECT_EQ(stabilityWarning(chain, scenario),
+            "Euler may be unstable with a time step of 0.05 s; use Auto");
+}
+
+// Neither the energy of a test spring nor the duration may exceed the range of a double.
+TEST(StabilityWarning, ComesAlsoWithExtremeValues) {
+  const Chain chain(Eigen::Vector2d::Ones(), {50.0, 1e160, 1.0}, 9.81);
+  EXPECT_THAT(stabilityWarning(chain, Scenario{}),
+              StartsWith("Runge-Kutta-4 may be unstable with a time step of 0.01 s; largest"));
+  Scenario long_step;
+  long_step.time_step = 1e308;
+  EXPECT_THAT(stabilityWarning(test::horizontalChain("", 11, 1.0).chain, long_step),
+              StartsWith("Runge-Kutta-4 may be unstable with a time step of 1e+308 s; largest"));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ void RunLog::start(const PendulumRun& run, const NodeOptions& options, const Run
                   << " on "
                   << std::filesystem::absolute(scenario.particles).lexically_normal().string()
                   << ", " << files.description());
-  const std::string warning = stabilityWarning(run.chain(), run.start(), scenario);
+  const std::string warning = stabilityWarning(run.chain(), scenario, &run.start());
   if (!warning.empty()) ROS_WARN_STREAM(warning);
   const std::string memory = memoryRemark(scenario, run.chain().size());
   if (!memory.empty()) ROS_INFO_STREAM(memory);

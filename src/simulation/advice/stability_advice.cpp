@@ -1,6 +1,6 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
-#include "model/chain_modes.hpp"
+#include "simulation/advice/step_search.hpp"
 #include "simulation/advice/trial.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
@@ -16,12 +16,6 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-/// Safety factor of the linear limit. Measured on 140 random scenes: without this factor, the limit
-/// was up to 3.3 times too large (one scene, Semi-Implicit-Euler).
-constexpr double kLinearMargin = 0.25;
-/// Number of steps in which the growth of an unstable mode becomes visible.
-constexpr double kStepsOfMode = 2000.0;
 
 /// Allowed work of a trial after a divergence, see `TrialBench`: about 0.02 s.
 constexpr double kRemedyWork = 2e6;
@@ -52,19 +46,6 @@ double accurateStep(const TrialBench& bench, const Method& method, double first)
   return measurable ? step : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Returns the largest stable step size for q'' + damping q' + stiffness q = 0.
-double stepForMode(const Method& method, double stiffness, double damping, double duration) {
-  const double rate = std::max(std::sqrt(stiffness), damping);
-  if (!(rate > 0.0) || !std::isfinite(rate)) return rate > 0.0 ? 0.0 : kUnlimited;
-  const Chain chain(Eigen::Vector2d::Ones(), {stiffness, damping, 1.0}, 0.0);
-  State start(2);
-  start.x()[1] = 1.125;
-  start.vx()[1] = 0.125 * rate;
-  const double tried = std::min(duration, kStepsOfMode / rate);
-  const TrialBench bench(chain, start, tried, tried / 100.0);
-  return stableStep(bench, method, 1.0 / rate);
-}
-
 double durationOf(const Scenario& scenario) {
   const FrameSteps step = frameSteps(scenario);
   return std::max(step.timeOfFrame(scenario.frames - 1), step.time_step);
@@ -77,8 +58,7 @@ TrialBench benchFor(const Chain& chain, const State& start, const Scenario& scen
 
 /// Formats a step size with three digits, rounded down because a larger step size may fail.
 std::string digits(double step) {
-  const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
-  return fmt::format("{:.3g}", std::floor(step / unit * (1.0 + 1e-9)) * unit);
+  return fmt::format("{:.3g}", roundedDown(step));
 }
 
 std::string stepText(double step) {
@@ -196,22 +176,6 @@ StepLimits findStepLimits(const Method& method, const Chain& chain, const State&
   if (limits.stable == 0.0) return limits;
   limits.accurate = accurateStep(bench, method, std::min(first, limits.stable));
   return limits;
-}
-
-double linearStepLimit(const Method& method, const Chain& chain, double duration) {
-  requireFinitePositive("duration", duration, "s");
-  const double mode = largestSpringMode(chain);
-  if (!method.hasFixedStep() || mode == 0.0) return kUnlimited;
-  const SpringLaw& spring = chain.spring();
-  const double damped =
-      stepForMode(method, spring.stiffness * mode, spring.damping * mode, duration);
-  if (method.imaginary_stability_limit == 0.0) {
-    const double swing = slowSwing(chain);
-    return kLinearMargin * std::min(damped, stepForMode(method, swing * swing, 0.0, duration));
-  }
-  // Transverse motion is undamped; the tension acts as a stiffness below k_s.
-  return kLinearMargin *
-         std::min(damped, stepForMode(method, spring.stiffness * mode, 0.0, duration));
 }
 
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {

@@ -11,9 +11,8 @@ namespace spring_pendulum {
 
 /// Returns a line of text if the time step is clearly above the stability limit of the method,
 /// whatever the positions of the particles; else empty. O(N), negligible compared with a run.
-std::string stabilityWarning(const Chain& chain, const Scenario& scenario);
-
-/// The same, but also tries the first steps of the run, for at most about 0.02 s.
-std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario);
+/// \param start if not null, the first steps of the run are tried as well, for at most about 0.02 s
+std::string stabilityWarning(const Chain& chain, const Scenario& scenario,
+                             const State* start = nullptr);
 
 }  // namespace spring_pendulum

@@ -6,20 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <optional>
 
 namespace spring_pendulum {
 namespace {
-
-constexpr double kRatio = 1.01;  ///< ratio of neighbouring step sizes on the grid
-constexpr int kStride = 32;      ///< stride of the coarse search, in grid points
-/// Number of grid points below the result that must pass as well, because nearly undamped chains
-/// have narrow intervals of unstable step sizes. Stiff and damped chains, whose trials are costly,
-/// need fewer.
-constexpr int kLeastLookBack = 10;
-constexpr int kMostLookBack = 40;
 
 /// Overhead of a force evaluation, in particles.
 constexpr double kOverhead = 4.0;
@@ -45,64 +35,6 @@ double workDone(const Method& method, const Chain& chain, const Integrator& inte
   return workPerEvaluation(method, chain.size()) *
          static_cast<double>(integrator.forceEvaluations());
 }
-
-/// A geometric grid of step sizes. Remembers which ones pass, so that each is tried only once.
-class Grid {
- public:
-  Grid(double first, double least, double most, const std::function<bool(double)>& passes)
-      : first_(first), least_(least), most_(most), passes_(passes) {}
-
-  double step(int i) const {
-    double step = first_;
-    for (; i > 0; --i) step *= kRatio;
-    for (; i < 0; ++i) step /= kRatio;
-    return step;
-  }
-  bool isTooSmall(int i) const { return step(i) < least_; }
-  bool isTooLarge(int i) const { return step(i) > most_; }
-  bool passes(int i) {
-    const auto known = known_.find(i);
-    if (known != known_.end()) return known->second;
-    return known_[i] = passes_(step(i));
-  }
-
-  /// Returns the first of the points i, i - kStride, ... that passes.
-  std::optional<int> descend(int i) {
-    while (!isTooSmall(i) && !passes(i)) i -= kStride;
-    return isTooSmall(i) ? std::nullopt : std::optional<int>(i);
-  }
-
-  /// Returns a point between `good` and `bad` that passes and whose upper neighbour fails.
-  int bisect(int good, int bad) {
-    while (bad - good > 1) {
-      const int middle = good + (bad - good) / 2;
-      (passes(middle) ? good : bad) = middle;
-    }
-    return good;
-  }
-
-  /// Returns a failing point below `good`, if there is one: the highest of those just below it, or
-  /// a point below a failing step size of 0.95 or 0.9 times `good`, the usual safety margins.
-  std::optional<int> failureBelow(int good) {
-    const double count =
-        std::clamp(kLeastLookBack * step(good) / least_, 1.0 * kLeastLookBack, 1.0 * kMostLookBack);
-    for (int i = good - 1; i >= good - static_cast<int>(count) && !isTooSmall(i); --i) {
-      if (!passes(i)) return i;
-    }
-    for (const double share : {0.95, 0.9}) {
-      const int below = good - static_cast<int>(std::ceil(-std::log(share) / std::log(kRatio)));
-      if (!isTooSmall(below) && !passes_(share * step(good))) return below;
-    }
-    return std::nullopt;
-  }
-
- private:
-  double first_;
-  double least_;
-  double most_;
-  const std::function<bool(double)>& passes_;
-  std::map<int, bool> known_;
-};
 
 }  // namespace
 
@@ -171,27 +103,6 @@ double TrialBench::workOf(const Method& method, double step) const {
 
 double TrialBench::leastStep(const Method& method) const {
   return duration_ * method.stages * weight(chain_) / most_work_;
-}
-
-double largestPassingStep(double first, double least, double most,
-                          const std::function<bool(double)>& passes) {
-  if (least > most) return 0.0;
-  Grid grid(std::clamp(first, least, most), least, most, passes);
-  std::optional<int> good = grid.descend(0);
-  for (const int i : {-kStride, -2 * kStride}) {
-    if (good == 0 && !grid.isTooSmall(i) && !grid.passes(i)) good = grid.descend(i);
-  }
-  if (!good) return 0.0;
-  int bad = *good + kStride;
-  while (!grid.isTooLarge(bad) && grid.passes(bad)) bad += kStride;
-  if (grid.isTooLarge(bad)) return std::numeric_limits<double>::infinity();
-  good = grid.bisect(bad - kStride, bad);
-  while (const std::optional<int> failure = grid.failureBelow(*good)) {
-    const std::optional<int> lower = grid.descend(*failure);
-    if (!lower) return 0.0;
-    good = grid.bisect(*lower, *failure);
-  }
-  return grid.step(*good);
 }
 
 }  // namespace spring_pendulum

@@ -1,4 +1,4 @@
-// Trial runs, and the search for the largest step size that passes.
+// Trial runs.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -7,7 +7,6 @@
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 namespace spring_pendulum {
@@ -71,12 +70,5 @@ class TrialBench {
   double frame_interval_;
   double most_work_;
 };
-
-/// Returns the largest step size in s that passes, within 1 %. Smaller step sizes are tried as well
-/// and pass: 1, 2, ..., 33 % below the result (only down to 10 % if it is near `least`), exactly 5
-/// and 10 % below the result, and 27 and 47 % below `first`.
-/// \returns 0 if no step size of at least `least` s passes; infinity if all up to `most` s pass
-double largestPassingStep(double first, double least, double most,
-                          const std::function<bool(double)>& passes);
 
 }  // namespace spring_pendulum

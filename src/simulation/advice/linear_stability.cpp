@@ -1,0 +1,117 @@
+#include "simulation/advice/linear_stability.hpp"
+
+#include "base/checks.hpp"
+#include "model/chain_modes.hpp"
+#include "simulation/advice/step_search.hpp"
+#include <spring_pendulum/simulation/stability_advice.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// Safety factor of the linear limit, as the springs of a moving chain are not linear.
+constexpr double kLinearMargin = 0.25;
+/// Number of steps above which the growth no longer increases: rounding errors of ln |R| add up.
+constexpr double kMostSteps = 1e12;
+
+/// Growth and number of steps that make a spring clearly unstable, and the share of the step size
+/// at which it grows: the limits of methods without a tableau are up to 1.62 times too small.
+constexpr double kClearGrowth = 1e8;
+constexpr double kClearSteps = 500.0;
+constexpr double kClearShare = 0.6;
+
+/// Returns R(z) - 1.
+Complex increment(const Method& method, Complex z) {
+  Complex sum = 0.0;
+  if (method.tableau == nullptr) {
+    Complex term = 1.0;
+    for (int i = 1; i <= method.order; ++i) sum += term *= z / static_cast<double>(i);
+    return sum;
+  }
+  std::array<Complex, ButcherTableau::kMaxStages> slopes{};
+  for (std::size_t i = 0; i < method.tableau->stages; ++i) {
+    slopes[i] = z;
+    for (std::size_t j = 0; j < i; ++j) slopes[i] += z * method.tableau->a[i][j] * slopes[j];
+    sum += method.tableau->b[i] * slopes[i];
+  }
+  return sum;
+}
+
+/// Returns ln |R(z)|.
+double growthOf(const Method& method, Complex z) {
+  const Complex w = increment(method, z);
+  return 0.5 * std::log1p(2.0 * w.real() + std::norm(w));
+}
+
+/// Returns ln of the spectral radius of Semi-Implicit-Euler, whose two limits are 2, with hω and hc
+/// scaled to the limits of the method: z² - (2 - a - b) z + 1 - a = 0.
+double growthFromLimits(const Method& method, double swing, double decay) {
+  const double a = 2.0 * decay / method.real_stability_limit;
+  const double b = std::pow(2.0 * swing / method.imaginary_stability_limit, 2);
+  const double discriminant = 0.25 * (a + b) * (a + b) - b;
+  if (discriminant < 0.0) return 0.5 * std::log1p(-a);
+  return std::log(std::abs(1.0 - 0.5 * (a + b)) + std::sqrt(discriminant));
+}
+
+/// Returns the largest step size in s for a mode with k = frequency² and c = damping. Its energy may
+/// grow during the run by as much as a verdict allows.
+double stepForMode(const Method& method, double frequency, double damping, double duration) {
+  const double rate = std::max(frequency, damping);
+  if (rate == 0.0) return kUnlimited;
+  if (!std::isfinite(frequency) || !std::isfinite(damping)) return 0.0;
+  const double allowed = 0.5 * std::log1p(Judge::kGainThreshold);
+  const auto passes = [&](double step) {
+    const double steps = std::min(duration * rate / step, kMostSteps);
+    return steps * growthPerStep(method, step * frequency / rate, step * damping / rate) <= allowed;
+  };
+  return largestPassingStep(0.1, 1e-9, 1e9, passes) / rate;
+}
+
+}  // namespace
+
+double growthPerStep(const Method& method, double swing, double decay) {
+  if (method.tableau == nullptr && method.imaginary_stability_limit > 0.0) {
+    return growthFromLimits(method, swing, decay);
+  }
+  const double center = -0.5 * decay;
+  const double discriminant = center * center - swing * swing;
+  const double radius = std::sqrt(std::abs(discriminant));
+  if (discriminant < 0.0) return growthOf(method, {center, radius});
+  return std::max(growthOf(method, center - radius), growthOf(method, center + radius));
+}
+
+bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step, double steps) {
+  const double mode = stiffestSpring(chain);
+  const double frequency = std::sqrt(chain.spring().stiffness * mode);
+  const double damping = chain.spring().damping * mode;
+  if (!std::isfinite(frequency) || !std::isfinite(damping)) return false;
+  const double step = kClearShare * time_step;
+  const double growth = growthPerStep(method, step * frequency, step * damping);
+  // Not a number if |R|² exceeds the range of double.
+  return !(std::min(steps, kClearSteps) * growth < std::log(kClearGrowth));
+}
+
+double linearStepLimit(const Method& method, const Chain& chain, double duration) {
+  requireFinitePositive("duration", duration, "s");
+  const double mode = largestSpringMode(chain);
+  if (!method.hasFixedStep() || mode == 0.0) return kUnlimited;
+  const double frequency = std::sqrt(chain.spring().stiffness * mode);
+  const double damped = stepForMode(method, frequency, chain.spring().damping * mode, duration);
+  // Transverse motion is undamped. The tension acts as a stiffness below k_s; for methods that are
+  // unstable on the imaginary axis, the slowest mode, which has most of the energy, counts.
+  const bool stable = method.imaginary_stability_limit > 0.0;
+  return kLinearMargin * std::min(damped, stepForMode(method, stable ? frequency : slowSwing(chain),
+                                                      0.0, duration));
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,29 @@
+// Stability of a method on the linearised motion of a chain.
+//
+// Every mode of the chain obeys q'' + c q' + k q = 0. One step of size h multiplies the mode by the
+// stability function R(hλ) of the method, where λ² + c λ + k = 0.
+//
+// Reference: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer
+// 1996, section IV.2.
+#pragma once
+
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/chain.hpp>
+
+namespace spring_pendulum {
+
+/// Returns ln |R|, the growth of a mode in one step: above 0 if the method is unstable.
+///
+/// Exact for explicit Runge-Kutta methods. A method without a tableau is unstable for
+/// (hω/imaginary limit)² + hc/(real limit) > 1, which is exact for Semi-Implicit-Euler; the damped
+/// limit of Velocity-Verlet is up to 1.62 times as large. Without both a tableau and an imaginary
+/// limit, a method is taken to have as many stages as its order.
+/// \param swing h sqrt(k)
+/// \param decay h c
+double growthPerStep(const Method& method, double swing, double decay);
+
+/// Whether the stiffest spring of the chain alone grows by a factor of 1e8 within the run and 500
+/// steps, even at 0.6 times the time step. Then the chain is unstable in every shape. O(N).
+bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step, double steps);
+
+}  // namespace spring_pendulum
