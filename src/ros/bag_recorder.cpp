@@ -140,7 +140,10 @@ std::vector<Option> bagOptions(BagOptions& o) {
 BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to,
                      const std::function<void()>& started) {
   const Scenario& scenario = run.scenario();
-  OutputFile file(to.path, {scenario.particles, to.config});
+  TouchedFiles touched = touchedFiles(scenario, to.config);
+  touched.outputs.push_back(to.path);
+  checkTouchedFiles(touched);
+  OutputFile file(to.path);
   RunFiles files(scenario, to.config);
   BagSummary summary;
   summary.path = file.path();

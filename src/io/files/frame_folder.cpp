@@ -62,11 +62,10 @@ bool isFrameName(std::string_view name) {
   return isFrame(name) || isHidden(name);
 }
 
-FrameFolder::FrameFolder(const std::string& folder, std::int64_t frames,
-                         const std::vector<std::string>& inputs)
+FrameFolder::FrameFolder(const std::string& folder, std::int64_t frames)
     : given_path_(folder), path_(fullPath(folder)) {
   open();
-  const std::vector<std::string> earlier = listOwnFiles(inputs);
+  const std::vector<std::string> earlier = listOwnFiles();
   tryOut();
   takeAway(earlier, frames);
 }
@@ -102,7 +101,7 @@ void FrameFolder::open() {
   }
 }
 
-std::vector<std::string> FrameFolder::listOwnFiles(const std::vector<std::string>& inputs) const {
+std::vector<std::string> FrameFolder::listOwnFiles() const {
   const int again = ::openat(descriptor_.get(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const std::unique_ptr<DIR, int (*)(DIR*)> listing(again < 0 ? nullptr : ::fdopendir(again),
                                                     ::closedir);
@@ -120,12 +119,6 @@ std::vector<std::string> FrameFolder::listOwnFiles(const std::vector<std::string
     }
     if (!S_ISREG(status.st_mode)) {
       refuse(name, "has the name of a frame file but is not a regular file; remove it");
-    }
-    if (isInput(status, inputs)) {
-      throw InputError(
-          fmt::format("{}/{}: is an input of this run and would be overwritten; choose another "
-                      "folder for the frames",
-                      path_, name));
     }
     names.push_back(name);
   }

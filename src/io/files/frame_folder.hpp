@@ -29,11 +29,8 @@ class FrameFolder {
   /// Creates the folder if needed, checks that it is writable, and hides the frames of an earlier
   /// run: regular files named `frame_` + at least four digits + `.txt`.
   /// \param frames number of frames to be written
-  /// \param inputs input files of the run, which are never removed
-  /// \throws InputError if one of the inputs has the name of a frame in this folder
   /// \throws FileError naming the folder or file
-  FrameFolder(const std::string& folder, std::int64_t frames,
-              const std::vector<std::string>& inputs = {});
+  FrameFolder(const std::string& folder, std::int64_t frames);
   ~FrameFolder();
   FrameFolder(const FrameFolder&) = delete;
   FrameFolder& operator=(const FrameFolder&) = delete;
@@ -58,7 +55,7 @@ class FrameFolder {
 
  private:
   void open();
-  std::vector<std::string> listOwnFiles(const std::vector<std::string>& inputs) const;
+  std::vector<std::string> listOwnFiles() const;
   void tryOut();
   void takeAway(const std::vector<std::string>& earlier, std::int64_t frames);
   bool openHidden(std::int64_t index);

@@ -2,6 +2,7 @@
 
 #include "io/files/frame_folder.hpp"
 #include "io/files/paths.hpp"
+#include "io/files/touched_files.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
@@ -16,21 +17,10 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr int kMostLinks = 40;     // the limit of Linux
 constexpr int kMostAttempts = 10;  // while other runs create and remove the file
 
-/// The path behind all symbolic links, whether the file exists or not.
-std::filesystem::path followLinks(const std::string& path) {
-  std::filesystem::path target(path);
-  std::error_code error;
-  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
-    target = target.parent_path() / std::filesystem::read_symlink(target, error);
-  }
-  return target;
-}
-
 /// Throws for an existing file that must not be replaced.
-void checkEarlierFile(const std::string& path, const std::vector<std::string>& inputs) {
+void checkEarlierFile(const std::string& path) {
   struct stat status {};
   const std::string full_path = fullPath(path);
   if (::stat(path.c_str(), &status) != 0) {
@@ -41,16 +31,6 @@ void checkEarlierFile(const std::string& path, const std::vector<std::string>& i
     throw FileError(
         fmt::format("{}: is a folder, a pipe or a device; give a regular file", full_path));
   }
-  if (isInput(status, inputs)) {
-    throw InputError(fmt::format(
-        "{}: is an input of this run and would be overwritten; choose another file", full_path));
-  }
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    struct stat other {};
-    if (::fstat(stream, &other) != 0 || !isSameFile(status, other)) continue;
-    throw FileError(
-        fmt::format("{}: is a standard stream of this program; give another file", full_path));
-  }
   if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) {
     throw FileError(fmt::format("{}: could not be written: {}", full_path, messageForErrno()));
   }
@@ -58,10 +38,9 @@ void checkEarlierFile(const std::string& path, const std::vector<std::string>& i
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& path, const std::vector<std::string>& inputs)
-    : path_(fullPath(path)) {
-  checkEarlierFile(path, inputs);
-  const std::filesystem::path target = followLinks(path);
+OutputFile::OutputFile(const std::string& path) : path_(fullPath(path)) {
+  checkEarlierFile(path);
+  const std::filesystem::path target(followLinks(path));
   name_ = target.filename().string();
   folder_path_ = target.has_parent_path() ? target.parent_path().string() : ".";
   if (name_.empty()) throw FileError(fmt::format("{}: is a folder; give a file", path_));
@@ -85,7 +64,7 @@ void OutputFile::openFolder() {
 
 void OutputFile::createUnfinished() {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    file_ = UnfinishedFile(folder_.get(), name_ + ".unfinished");
+    file_ = UnfinishedFile(folder_.get(), name_ + kUnfinished);
     if (file_.create()) {
       // Between creation and lock, another run may take the file for a leftover and remove it.
       if (lock()) return;

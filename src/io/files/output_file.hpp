@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace spring_pendulum {
 
@@ -15,11 +14,11 @@ namespace spring_pendulum {
 /// replaced and the link stays. A lock on FILE.unfinished ensures that only one run writes it.
 class OutputFile {
  public:
-  /// \param inputs input files of the run, which must not be overwritten
-  /// \throws InputError if the path is that of an input or of a frame file
+  /// \param path checked with `checkTouchedFiles`
+  /// \throws InputError if the path is that of a frame file
   /// \throws FileError if it is a folder, a pipe or a device, if it can't be written, or if another
   ///         run is writing it
-  explicit OutputFile(const std::string& path, const std::vector<std::string>& inputs = {});
+  explicit OutputFile(const std::string& path);
   /// Removes the file if it is not finished.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

@@ -1,7 +1,5 @@
 #include "io/files/paths.hpp"
 
-#include <spring_pendulum/base/errors.hpp>
-
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -27,19 +25,6 @@ bool leadsTo(const std::string& path, int descriptor) {
   struct stat opened {};
   return ::stat(path.c_str(), &by_path) == 0 && ::fstat(descriptor, &opened) == 0 &&
          isSameFile(by_path, opened);
-}
-
-bool isInput(const struct stat& file, const std::vector<std::string>& inputs) {
-  for (const std::string& input : inputs) {
-    if (input.empty()) continue;
-    struct stat other {};
-    if (::stat(input.c_str(), &other) == 0) {
-      if (isSameFile(file, other)) return true;
-    } else if (errno != ENOENT) {
-      throw FileError(fullPath(input) + ": could not be read: " + messageForErrno());
-    }
-  }
-  return false;
 }
 
 }  // namespace spring_pendulum

@@ -3,7 +3,6 @@
 
 #include <string>
 #include <sys/stat.h>
-#include <vector>
 
 namespace spring_pendulum {
 
@@ -20,10 +19,5 @@ inline bool isSameFile(const struct stat& a, const struct stat& b) {
 
 /// Whether a path leads to the open file or folder `descriptor`.
 bool leadsTo(const std::string& path, int descriptor);
-
-/// Whether a file is one of the input files of a run.
-/// \param inputs paths; empty ones are skipped
-/// \throws FileError if an input can't be read
-bool isInput(const struct stat& file, const std::vector<std::string>& inputs);
 
 }  // namespace spring_pendulum

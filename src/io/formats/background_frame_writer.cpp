@@ -11,9 +11,8 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-BackgroundFrameWriter::BackgroundFrameWriter(const std::string& folder, std::int64_t frames,
-                                             const std::vector<std::string>& inputs)
-    : writer_(folder, frames, inputs) {}
+BackgroundFrameWriter::BackgroundFrameWriter(const std::string& folder, std::int64_t frames)
+    : writer_(folder, frames) {}
 
 BackgroundFrameWriter::~BackgroundFrameWriter() {
   stop();

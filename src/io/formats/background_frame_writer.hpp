@@ -21,9 +21,8 @@ class BackgroundFrameWriter {
   /// Number of particles above which copying a frame takes far less time than formatting it.
   static constexpr Eigen::Index kLargeFrame = 1000;
 
-  /// Same arguments and errors as FrameWriter.
-  BackgroundFrameWriter(const std::string& folder, std::int64_t frames,
-                        const std::vector<std::string>& inputs = {});
+  /// Same errors as FrameWriter.
+  BackgroundFrameWriter(const std::string& folder, std::int64_t frames);
   /// Waits until the last frame is written.
   ~BackgroundFrameWriter();
   BackgroundFrameWriter(const BackgroundFrameWriter&) = delete;

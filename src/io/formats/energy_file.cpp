@@ -14,8 +14,7 @@ constexpr const char* kHeader =
 
 }  // namespace
 
-EnergyFile::EnergyFile(const std::string& path, const std::vector<std::string>& inputs)
-    : file_(path, inputs), text_(kHeader) {}
+EnergyFile::EnergyFile(const std::string& path) : file_(path), text_(kHeader) {}
 
 void EnergyFile::write(std::int64_t frame, const EnergyEntry& entry, double position_error) {
   text_ += std::to_string(frame);

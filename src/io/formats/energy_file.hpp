@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace spring_pendulum {
 
@@ -17,7 +16,7 @@ namespace spring_pendulum {
 class EnergyFile {
  public:
   /// Same arguments and errors as OutputFile.
-  explicit EnergyFile(const std::string& path, const std::vector<std::string>& inputs = {});
+  explicit EnergyFile(const std::string& path);
 
   /// \param entry          from an energy balance that tracks the dissipation
   /// \param position_error m; NaN if not measured

@@ -1,6 +1,7 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
 #include "io/files/frame_folder.hpp"
+#include "io/files/touched_files.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
 
 #include <fmt/format.h>
@@ -35,7 +36,8 @@ FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames,
     : frames_(frames), folder_([&] {
         requireAtLeastZero("frames", frames);
         const Stopwatch stopwatch(seconds_);
-        return std::make_unique<FrameFolder>(folder, frames, inputs);
+        checkTouchedFiles({inputs, {}, folder});
+        return std::make_unique<FrameFolder>(folder, frames);
       }()) {}
 
 FrameWriter::FrameWriter(FrameWriter&&) noexcept = default;

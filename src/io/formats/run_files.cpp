@@ -5,16 +5,26 @@
 #include <fmt/format.h>
 
 #include <string>
-#include <vector>
 
 namespace spring_pendulum {
+namespace {
+
+bool writesFrames(const Scenario& scenario) {
+  return !scenario.no_frames && !scenario.output.empty();
+}
+
+}  // namespace
+
+TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config) {
+  return {{scenario.particles, config},
+          {scenario.energy},
+          writesFrames(scenario) ? scenario.output : ""};
+}
 
 RunFiles::RunFiles(const Scenario& scenario, const std::string& config) {
-  const std::vector<std::string> inputs{scenario.particles, config};
-  if (!scenario.energy.empty()) energy_.emplace(scenario.energy, inputs);
-  if (!scenario.no_frames && !scenario.output.empty()) {
-    frames_.emplace(scenario.output, scenario.frames, inputs);
-  }
+  checkTouchedFiles(touchedFiles(scenario, config));
+  if (!scenario.energy.empty()) energy_.emplace(scenario.energy);
+  if (writesFrames(scenario)) frames_.emplace(scenario.output, scenario.frames);
 }
 
 void RunFiles::write(std::int64_t frame, const State& state, const EnergyEntry& entry,

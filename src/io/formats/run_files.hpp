@@ -1,6 +1,7 @@
 // The output files of a run, for Exercise3 and the node: frames and energy balance.
 #pragma once
 
+#include "io/files/touched_files.hpp"
 #include "io/formats/background_frame_writer.hpp"
 #include "io/formats/energy_file.hpp"
 #include <spring_pendulum/model/state.hpp>
@@ -12,6 +13,10 @@
 
 namespace spring_pendulum {
 
+/// Returns the files of a run.
+/// \param config configuration file; empty: none
+TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config);
+
 /// Writes every frame once. A run that is reset repeats its frames bit for bit, so they are not
 /// written again.
 class RunFiles {
@@ -19,7 +24,7 @@ class RunFiles {
   /// Writes no frames with `no_frames` or an empty `output`, no energy balance with an empty
   /// `energy`.
   /// \param config configuration file of the run; empty: none
-  /// \throws InputError, FileError as EnergyFile and FrameWriter
+  /// \throws InputError, FileError as checkTouchedFiles, EnergyFile and FrameWriter
   explicit RunFiles(const Scenario& scenario, const std::string& config = "");
 
   /// Writes a frame unless it has been written before.

@@ -1,0 +1,28 @@
+// The files that a run reads, writes or removes. None of them may have two uses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Paths as the user gave them; empty ones are skipped.
+struct TouchedFiles {
+  std::vector<std::string> inputs;   ///< particle file, configuration
+  std::vector<std::string> outputs;  ///< energy file, bag
+  std::string frame_folder;          ///< files with the name of a frame are replaced or removed
+};
+
+/// An output has this added to its name until it is complete.
+inline constexpr const char* kUnfinished = ".unfinished";
+
+/// Returns the path behind all symbolic links, whether the file exists or not.
+std::string followLinks(const std::string& path);
+
+/// Compares every name that the run writes or removes with all other names, and with the files to
+/// which the standard streams are redirected. Different names of one file count as the same.
+/// \throws InputError if an output is an input, another output, or a frame
+/// \throws FileError if an output is also a standard stream
+void checkTouchedFiles(const TouchedFiles& files);
+
+}  // namespace spring_pendulum
