@@ -156,6 +156,11 @@ INSTANTIATE_TEST_SUITE_P(
                  {"Euler", "--frames", "9223372036854775807", "--steps-per-frame", "2"},
                  2,
                  "frames times steps_per_frame must be at most 9223372036854775807, got "},
+        BadInput{"EndlessRun",
+                 {"Euler", "--time-step", "1e308"},
+                 2,
+                 "frames times steps_per_frame times time_step must be finite, got 500 times 10 "
+                 "times 1e+308 s\n"},
         value("EndlessFrames", "--frame-interval", "1e9", "a number above 0, at most 1e+06 s"),
         BadInput{"TinyTolerance",
                  {"Taylor-8", "--tolerance", "1e-300"},

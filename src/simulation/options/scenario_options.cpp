@@ -1,13 +1,31 @@
 #include "simulation/options/scenario_options.hpp"
 
+#include "base/numbers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/frame_steps.hpp>
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
+#include <variant>
 
 namespace spring_pendulum {
+namespace {
+
+bool isUnused(const Option& option, const Scenario& scenario) {
+  const AppliesTo other =
+      scenario.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
+  return option.applies_to == other;
+}
+
+bool isNumber(const Option& option) {
+  return std::holds_alternative<Number>(option.value) ||
+         std::holds_alternative<Count>(option.value);
+}
+
+}  // namespace
 
 std::vector<Option> scenarioOptions(Scenario& s) {
   constexpr auto kFixedStep = AppliesTo::kFixedStep;
@@ -50,19 +68,31 @@ std::vector<Option> scenarioOptions(Scenario& s) {
 }
 
 void checkScenario(const Scenario& scenario) {
+  Scenario copy = scenario;
+  for (const Option& option : scenarioOptions(copy)) {
+    if (isUnused(option, scenario) || !isNumber(option)) continue;
+    try {
+      option.assign(option.text());
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", option.key, error.what()));
+    }
+  }
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  const std::int64_t steps = scenario.method.get().hasFixedStep() ? scenario.steps_per_frame : 1;
-  if (scenario.frames <= kMost / steps) return;  // frame times are computed from step counts
-  throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
-                               kMost, scenario.frames, steps));
+  const FrameSteps step = frameSteps(scenario);
+  if (scenario.frames > kMost / step.steps) {  // frame times are computed from step counts
+    throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
+                                 kMost, scenario.frames, step.steps));
+  }
+  if (std::isfinite(step.timeOfFrame(scenario.frames - 1))) return;
+  throw InputError(fmt::format(
+      "frames times steps_per_frame times time_step must be finite, got {} times {} times {} s",
+      scenario.frames, step.steps, numberText(step.time_step)));
 }
 
 std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options) {
-  const AppliesTo other =
-      scenario.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
   std::vector<std::string_view> keys;
   for (const Option& option : options.options()) {
-    if (option.applies_to == other && options.isGiven(option.key)) keys.push_back(option.key);
+    if (isUnused(option, scenario) && options.isGiven(option.key)) keys.push_back(option.key);
   }
   return keys;
 }

@@ -14,8 +14,9 @@ namespace spring_pendulum {
 /// shows the current values as defaults.
 std::vector<Option> scenarioOptions(Scenario& scenario);
 
-/// Checks what depends on several options.
-/// \throws InputError if the steps of the run can't be counted in 64 bits
+/// Checks a scenario, however it was made.
+/// \throws InputError if a number is out of the range of its option, the steps of the run can't be
+///         counted in 64 bits, or the run would not end at a finite time
 void checkScenario(const Scenario& scenario);
 
 /// Returns the given options that the method does not use: options for error-controlled methods if
