@@ -3,6 +3,7 @@
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
+#include "ros/node/master_registration.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 #include "ros/node/run_log.hpp"
@@ -34,7 +35,7 @@ void play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& file
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
     if (action == Player::Action::kShowBetween) {
-      publisher.publishBetween(run, player.pace(), player.shownShare());
+      publisher.publishBetween(run, player.showing());
       continue;
     }
     if (action == Player::Action::kReset) run.reset();
@@ -47,7 +48,7 @@ void play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& file
       totals.steps += run.steps() - steps;
     }
     run.writeTo(files);
-    publisher.publish(run, player.isPaused(), player.pace(), player.shownShare());
+    publisher.publish(run, player.showing());
     log.follow(run, totals, files, publisher);
     parameters.look();
   }
@@ -79,6 +80,7 @@ int runNode() {
   RunFiles files(scenario);
   RunLog log;
   log.start(run, options, files);
+  ROS_INFO_STREAM("parameters: " << configuration.values);
   if (!configuration.unused.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name
                     << " does not use "
@@ -86,10 +88,13 @@ int runNode() {
   }
 
   ros::NodeHandle node, private_node("~");
-  MasterRegistration registration;
-  Publisher publisher(node, run, options, registration);
-  Player player(node, private_node, run, options, registration);
-  registration.keep();
+  Publisher publisher(node, run, options);
+  Player player(node, private_node, run, options);
+  const MasterRegistration registration;
+  for (const std::string& rival : registration.rivals()) {
+    ROS_WARN_STREAM(rival << " as well: start one of the nodes in a namespace, for example with "
+                             "ROS_NAMESPACE=second");
+  }
   publisher.waitForSubscribers(options);
   catchInterruptions();  // from now on ROS continues after a signal until the files are closed
   Totals totals;

@@ -45,6 +45,11 @@ class Master:
                 {service for service, names in services if '/pendulum' in names})
 
 
+    def subscribes(self, topic, node):
+        _, subscribers, _ = rosgraph.Master('/test', self.uri).getSystemState()
+        return node in dict(subscribers).get(topic, [])
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
@@ -89,6 +94,36 @@ class Faults(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
             node.send_signal(signal.SIGINT)
             self.assertEqual(node.wait(60), 0)
+
+    def test_a_follower_follows_again_after_a_restart_of_the_master(self):
+        port = free_port()
+        environment = dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:%d/' % port)
+        with Folder() as folder:
+            def start(name, *parameters):
+                return subprocess.Popen(
+                    [program('pendulum_node'), '__name:=' + name, '__ns:=/' + name, '_particles:=' + SCENE,
+                     '_frames:=100000', *parameters], env=environment, stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL)
+            leader = ['_output:=' + folder + '/leader', '_real_time_factor:=4']
+            with Master(port):
+                nodes = [start('a', *leader), start('b', '_output:=' + folder + '/b', '_follow:=/a/state')]
+                wait_until(lambda: os.path.exists(folder + '/b/frame_0002.txt'), 'frames of the follower')
+            try:
+                for late in (False, True):  # a leader before and after the follower has registered again
+                    nodes[0].kill()
+                    nodes[0].wait()
+                    with Master(port) as master:
+                        if late:
+                            wait_until(lambda: master.subscribes('/a/state', '/b/b'), 'the registration')
+                        nodes[0] = start('a', *leader)
+                        wait_until(lambda: master.subscribes('/a/state', '/b/b'), 'the registration')
+                        before = len(read_frames(folder + '/b'))
+                        wait_until(lambda: len(read_frames(folder + '/b')) > before + 5,
+                                   'more frames of the follower')
+            finally:
+                for node in nodes:
+                    node.kill()
+                    node.wait()
 
     def test_a_subscriber_that_stops_does_not_stop_the_node_or_make_it_grow(self):
         with Folder() as folder:

@@ -174,6 +174,19 @@ class Parameters(unittest.TestCase):
                     self.assertEqual(node.wait(), 0, node.output())
                     self.assertIn('/jörgen', node.output())
 
+    def test_the_logged_parameters_give_the_same_run(self):
+        with Folder() as folder, Folder() as again:
+            with PendulumNode(output=folder, frames=4, method='Euler', damping=0.25) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+                line = re.search('parameters: (.*)', node.output()).group(1)
+            self.assertIn(' _time_step:=0.01 ', line)
+            self.assertIn(' _trail:=2 ', line)
+            self.assertNotIn('tolerance', line)
+            with PendulumNode(arguments=line.replace(folder, again).split(), particles=None, output=None,
+                              at_end=None, real_time_factor=None) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(read_frames(again), read_frames(folder))
+
     def test_by_default_frames_go_to_the_working_directory(self):
         with Folder() as folder:
             with PendulumNode(output=None, frames=2, cwd=folder) as node:

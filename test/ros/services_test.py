@@ -76,9 +76,10 @@ class Services(unittest.TestCase):
             answer = self.call('step', Trigger)
             self.assertFalse(answer.success)
             self.assertIn('ended at frame 2', answer.message)
-            answer = self.call('pause', SetBool, True)
-            self.assertFalse(answer.success)
-            self.assertIn('ended at frame 2', answer.message)
+            for pause in (True, False):
+                answer = self.call('pause', SetBool, pause)
+                self.assertFalse(answer.success)
+                self.assertIn('ended at frame 2', answer.message)
             self.call('reset', Trigger)
             wait_until(lambda: sum(m.code == PendulumStatus.FINISHED for m in status.messages) >= 2,
                        'a second end')

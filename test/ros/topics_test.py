@@ -42,7 +42,7 @@ class Topics(unittest.TestCase):
     def test_one_stamp_a_state_on_every_topic_and_nothing_lost(self):
         markers, state, status = (self.listen('markers', MarkerArray), self.listen('state', PendulumState),
                                   self.listen('status', PendulumStatus))
-        with PendulumNode(frames=20, real_time_factor=4.0, display_rate=60.0,
+        with PendulumNode(frames=20, real_time_factor=4.0, display_rate=80.0,
                           wait_for_subscribers=3, frame_id='base') as node:
             self.assertEqual(node.wait(), 0, node.output())
             for listener, count in zip((markers, state), node.messages_built()):
@@ -76,7 +76,7 @@ class Topics(unittest.TestCase):
             for marker in message.markers:
                 self.check_marker(marker)
         text = markers.messages[-1].markers[4].text
-        for part in ('Runge-Kutta-4', '0.01 s', 't = 0.40 s', 'energy error', 'ok'):
+        for part in ('finished', 'Runge-Kutta-4', '0.01 s', 't = 0.40 s', 'energy error', 'ok'):
             self.assertIn(part, text)
 
     def check_marker(self, marker):
@@ -166,6 +166,31 @@ class Topics(unittest.TestCase):
         elapsed = (state.messages[-1].header.stamp - state.messages[0].header.stamp).to_sec()
         self.assertGreater(elapsed, 1.45)
 
+    def test_the_display_rate_is_kept(self):
+        # States of simulated time: how many a busy machine sends in a second is another matter.
+        for method, factor, frames in (('Auto', 1.0, 41), ('Runge-Kutta-4', 1.0, 41),
+                                       ('Runge-Kutta-4', 100.0, 2001)):
+            state = self.listen('state', PendulumState)
+            with PendulumNode(method=method, frames=frames, real_time_factor=factor, display_rate=30.0,
+                              wait_for_subscribers=1) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            state.wait_for_any(lambda m: m.frame == frames - 1)
+            times = sorted({m.time for m in state.messages})
+            seconds = times[-1] / factor
+            self.assertLessEqual(len(times) - 1, 1.1 * 30.0 * seconds + 1, method)
+            self.assertGreater(len(times) - 1, 0.5 * 30.0 * seconds, method)
+            state.close()
+
+    def test_the_display_rate_is_kept_if_the_time_step_is_longer(self):
+        markers = self.listen('markers', MarkerArray)
+        with PendulumNode(frames=41, time_step=0.04, steps_per_frame=1, real_time_factor=0.5,
+                          display_rate=30.0, wait_for_subscribers=1) as node:
+            self.assertEqual(node.wait(), 0, node.output())
+        markers.wait_for_any(lambda m: 'finished' in m.markers[4].text)
+        shown = [m.markers[0].header.stamp.to_sec() for m in markers.messages]
+        # Measured: 97 messages in 3.2 s
+        self.assertLessEqual(len(shown), 1.1 * 30.0 * (shown[-1] - shown[0]) + 3)
+
     def test_slow_motion_is_smooth_and_leaves_the_frames_as_they_are(self):
         markers, state = self.listen('markers', MarkerArray), self.listen('state', PendulumState)
         with Folder() as folder, Folder() as expected_folder:
@@ -188,6 +213,20 @@ class Topics(unittest.TestCase):
             self.assertEqual((one.wait(), two.wait()), (0, 0))
         self.assertEqual({m.method for m in a.wait_for(4)}, {'Runge-Kutta-4'})
         self.assertEqual({m.method for m in b.wait_for(4)}, {'Euler'})
+
+    def test_two_nodes_on_the_same_topics_are_a_warning(self):
+        with PendulumNode('/one', frames=100000, real_time_factor=1.0) as one:
+            rospy.wait_for_service('/one/pause', timeout=60)
+            with PendulumNode('/two', frames=2) as two:
+                self.assertEqual(two.wait(), 0, two.output())
+                self.assertIn('/one publishes /markers as well: start one of the nodes in a namespace',
+                              two.output())
+            with PendulumNode('/c/two', frames=2) as two:
+                self.assertEqual(two.wait(), 0, two.output())
+                self.assertEqual(two.lines('WARN'), [])
+            one.interrupt()
+            self.assertEqual(one.wait(), 0, one.output())
+            self.assertEqual(one.lines('WARN'), [])
 
     def test_a_follower_shows_the_same_instants(self):
         leader, follower = (self.listen('/a/state', PendulumState), self.listen('/b/state', PendulumState))

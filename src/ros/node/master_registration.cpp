@@ -1,52 +1,90 @@
 #include "ros/node/master_registration.hpp"
 
+#include <fmt/format.h>
+
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
+#include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/time.h>
+#include <ros/xmlrpc_manager.h>
+
+#include <map>
 
 namespace spring_pendulum {
 namespace {
 
+using XmlRpc::XmlRpcValue;
+
 constexpr double kInterval = 1.0;  // s between two queries
 constexpr double kNap = 0.05;      // s, latency of the end of the thread
 
-/// Queries the master once; does not wait for an absent master.
-bool ask(const std::string& method, const std::vector<std::string>& arguments,
-         XmlRpc::XmlRpcValue* answer = nullptr) {
-  XmlRpc::XmlRpcValue request, response, payload;
-  for (std::size_t i = 0; i < arguments.size(); ++i) request[static_cast<int>(i)] = arguments[i];
-  if (!ros::master::execute(method, request, response, payload, false)) return false;
-  if (answer != nullptr) *answer = payload;
-  return true;
+XmlRpcValue listOf(const std::vector<std::string>& texts) {
+  XmlRpcValue list;
+  for (std::size_t i = 0; i < texts.size(); ++i) list[static_cast<int>(i)] = texts[i];
+  return list;
 }
 
-/// The text in the answer of the master; empty: none.
-std::string lookUp(const std::string& method, const std::string& name) {
-  XmlRpc::XmlRpcValue answer;
-  if (!ask(method, {ros::this_node::getName(), name}, &answer)) return "";
-  return answer.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(answer) : "";
+/// Queries the master once; does not wait for an absent master.
+/// \returns an invalid value if it has no answer
+XmlRpcValue ask(const std::string& method, const std::vector<std::string>& arguments = {}) {
+  std::vector<std::string> all = arguments;
+  all.insert(all.begin(), ros::this_node::getName());
+  XmlRpcValue response, payload;
+  if (!ros::master::execute(method, listOf(all), response, payload, false)) return {};
+  return payload;
+}
+
+/// Tells roscpp who publishes a topic, as the master does when that changes.
+void announcePublishers(const std::string& topic, XmlRpcValue& publishers) {
+  std::string host;
+  std::uint32_t port = 0;
+  ros::network::splitURI(ros::XMLRPCManager::instance()->getServerURI(), host, port);
+  XmlRpcValue arguments = listOf({"/master", topic}), result;
+  arguments[2] = publishers;
+  XmlRpc::XmlRpcClient(host.c_str(), static_cast<int>(port), "/")
+      .execute("publisherUpdate", arguments, result);
 }
 
 }  // namespace
 
-void MasterRegistration::addTopic(const std::string& topic, const std::string& type) {
-  topics_.push_back({topic, type});
+MasterRegistration::MasterRegistration() {
+  record();
+  if (!entries_.empty()) thread_ = std::thread([this] { watch(); });
 }
 
-void MasterRegistration::addService(const std::string& service) {
-  services_.push_back({service, lookUp("lookupService", service)});
-}
-
-void MasterRegistration::keep() {
-  node_uri_ = lookUp("lookupNode", ros::this_node::getName());
-  if (!node_uri_.empty()) thread_ = std::thread([this] { watch(); });
-}
-
-void MasterRegistration::stop() {
+MasterRegistration::~MasterRegistration() {
   stopping_ = true;
   if (thread_.joinable()) thread_.join();
+}
+
+void MasterRegistration::record() {
+  XmlRpcValue state = ask("getSystemState"), typed = ask("getTopicTypes");
+  if (!state.valid() || !typed.valid()) return;
+  std::map<std::string, std::string> types;
+  for (int i = 0; i < typed.size(); ++i) types[typed[i][0]] = std::string(typed[i][1]);
+  const char* const methods[] = {"registerPublisher", "registerSubscriber", "registerService"};
+  for (int kind = 0; kind < 3; ++kind) {
+    for (int i = 0; i < state[kind].size(); ++i) {
+      const std::string name = state[kind][i][0];
+      std::vector<std::string> others;
+      bool is_ours = false;
+      for (int n = 0; n < state[kind][i][1].size(); ++n) {
+        const std::string node = state[kind][i][1][n];
+        is_ours = is_ours || node == ros::this_node::getName();
+        if (node != ros::this_node::getName()) others.push_back(node);
+      }
+      if (!is_ours) continue;
+      const bool is_service = kind == 2;
+      entries_.push_back({methods[kind], name,
+                          is_service ? std::string(ask("lookupService", {name})) : types[name]});
+      const bool is_shared = name == "/rosout" || name == "/tf_static" || kind != 0;
+      for (const std::string& node : others) {
+        if (!is_shared) rivals_.push_back(fmt::format("{} publishes {}", node, name));
+      }
+    }
+  }
 }
 
 void MasterRegistration::watch() {
@@ -54,21 +92,20 @@ void MasterRegistration::watch() {
   while (!stopping_ && ros::ok()) {
     ros::WallDuration(kNap).sleep();
     if (ros::SteadyTime::now() < next_question) continue;
-    if (lookUp("lookupNode", ros::this_node::getName()).empty()) renew();
+    if (!ask("lookupNode", {ros::this_node::getName()}).valid()) renew();
     next_question = ros::SteadyTime::now() + ros::WallDuration(kInterval);
   }
 }
 
 void MasterRegistration::renew() const {
-  const std::string& node = ros::this_node::getName();
-  for (const Topic& topic : topics_) {
-    if (!ask("registerPublisher", {node, topic.name, topic.type, node_uri_})) return;
+  for (const Entry& entry : entries_) {
+    XmlRpcValue answer = ask(
+        entry.method, {entry.name, entry.details, ros::XMLRPCManager::instance()->getServerURI()});
+    if (!answer.valid()) return;
+    if (entry.method == "registerSubscriber") announcePublishers(entry.name, answer);
   }
-  for (const Service& service : services_) {
-    ask("registerService", {node, service.name, service.uri, node_uri_});
-  }
-  ROS_WARN("the ROS master was restarted: registered %zu topics and %zu services again",
-           topics_.size(), services_.size());
+  ROS_WARN("the ROS master was restarted: registered %zu topics and services again",
+           entries_.size());
 }
 
 }  // namespace spring_pendulum

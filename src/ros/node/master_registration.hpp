@@ -1,9 +1,6 @@
 // Keeps a node registered with the ROS master. A restarted master has no registrations, and roscpp
-// registers a topic only once, when it is advertised.
+// registers a topic or service only once.
 #pragma once
-
-#include <ros/publisher.h>
-#include <ros/service_server.h>
 
 #include <atomic>
 #include <string>
@@ -16,33 +13,28 @@ namespace spring_pendulum {
 /// its topics and services again if not. Existing connections are not affected.
 class MasterRegistration {
  public:
-  MasterRegistration() = default;
-  ~MasterRegistration() { stop(); }
+  /// Records the topics and services that the node has registered so far, and starts to watch.
+  MasterRegistration();
+  ~MasterRegistration();
   MasterRegistration(const MasterRegistration&) = delete;
   MasterRegistration& operator=(const MasterRegistration&) = delete;
 
-  void addTopic(const std::string& topic, const std::string& type);
-  void addService(const std::string& service);
-  /// Starts the thread. Nothing can be added after this.
-  void keep();
-  void stop();
+  /// Returns the other nodes that published one of this node's topics at the start.
+  const std::vector<std::string>& rivals() const { return rivals_; }
 
  private:
-  struct Topic {
-    std::string name;
-    std::string type;
-  };
-  struct Service {
-    std::string name;
-    std::string uri;  ///< "rosrpc://host:port"
+  struct Entry {
+    std::string method;   ///< of the master: "registerPublisher"
+    std::string name;     ///< of the topic or service
+    std::string details;  ///< type of the topic, address of the service
   };
 
+  void record();
   void watch();
   void renew() const;
 
-  std::string node_uri_;
-  std::vector<Topic> topics_;
-  std::vector<Service> services_;
+  std::vector<Entry> entries_;
+  std::vector<std::string> rivals_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

@@ -14,6 +14,7 @@ constexpr double kLongestWait = 1e9;  // s; ros::Duration has 32 bits for second
 void Pacer::start(double simulated_time, ros::SteadyTime now) {
   start_simulated_ = measured_simulated_ = simulated_time;
   start_ = measured_ = now;
+  next_shown_ = simulated_time;
 }
 
 ros::SteadyTime Pacer::dueTime(double simulated_time) const {
@@ -24,6 +25,14 @@ ros::SteadyTime Pacer::dueTime(double simulated_time) const {
 
 bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {
   return factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > 0.5 * kLateness;
+}
+
+bool Pacer::isShown(double simulated_time) {
+  // The states before and after a due time may be unequally far from it: the nearer one is shown.
+  if (simulated_time < next_shown_ - 0.5 * shown_interval_) return false;
+  next_shown_ += shown_interval_;
+  if (next_shown_ <= simulated_time) next_shown_ = simulated_time + shown_interval_;
+  return true;
 }
 
 void Pacer::note(double simulated_time, ros::SteadyTime now) {

@@ -1,4 +1,4 @@
-// Maps simulated time to wall-clock time.
+// Maps simulated time to wall-clock time, and chooses the states to show.
 #pragma once
 
 #include <ros/time.h>
@@ -9,8 +9,10 @@ namespace spring_pendulum {
 /// not catch up.
 class Pacer {
  public:
-  /// \param factor simulated seconds per second; 0: every time is due immediately
-  explicit Pacer(double factor) : factor_(factor) {}
+  /// \param factor       simulated seconds per second; 0: every time is due immediately
+  /// \param display_rate states shown per second, Hz; 0: all
+  Pacer(double factor, double display_rate)
+      : factor_(factor), shown_interval_(display_rate > 0.0 ? factor / display_rate : 0.0) {}
 
   /// Makes `simulated_time` due now.
   void start(double simulated_time, ros::SteadyTime now);
@@ -23,11 +25,16 @@ class Pacer {
   /// Whether states between the frames should be left out to keep up.
   bool isLate(double simulated_time, ros::SteadyTime now) const;
 
+  /// Whether a state is one of those that `display_rate` asks for. Must be called once per state.
+  bool isShown(double simulated_time);
+
   /// Measured simulated seconds per second; 0 before the first measurement.
   double speed() const { return speed_; }
 
  private:
   double factor_;
+  double shown_interval_;    ///< s, simulated time between two shown states; 0: all are shown
+  double next_shown_ = 0.0;  ///< s, simulated time
   double start_simulated_ = 0.0;
   ros::SteadyTime start_;
   double measured_simulated_ = 0.0;  ///< start of the current measurement

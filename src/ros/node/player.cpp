@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, while the run is paused
 constexpr double kLongestWait = 0.1;        // s, latency of the end of ROS
-constexpr double kSlowStates = 1.5;         // shown states per state of the run, for slow motion
+constexpr double kSlowStates = 1.5;         // least shown states per state of the run ...
+constexpr double kSlowSteps = 1.1;          // ... and per step, for slow motion
 constexpr double kLongestInterval = 1e9;    // s; ros::Duration has 32 bits for seconds
 constexpr double kLoopPause = 1.0;          // s, pause at the last frame before a loop
 
@@ -31,15 +32,11 @@ bool isWanted() {
 }  // namespace
 
 Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
-               const NodeOptions& options, MasterRegistration& registration)
-    : run_(run), options_(options), pacer_(options.real_time_factor) {
+               const NodeOptions& options)
+    : run_(run), options_(options), pacer_(options.real_time_factor, options.display_rate) {
   pause_ = private_node.advertiseService("pause", &Player::onPause, this);
   step_ = private_node.advertiseService("step", &Player::onStep, this);
   reset_ = private_node.advertiseService("reset", &Player::onReset, this);
-  for (const auto& service : {pause_, step_, reset_}) registration.addService(service.getService());
-  for (const char* of_roscpp : {"get_loggers", "set_logger_level"}) {
-    registration.addService(private_node.resolveName(of_roscpp));
-  }
   if (!options.follow.empty()) {
     leader_ = node.subscribe(options.follow, 100, &Player::onLeaderState, this);
   }
@@ -55,8 +52,8 @@ Player::Action Player::next() {
     if (reset_wanted_) return reset();
     if (isAhead()) {
       if (now < next_between_) continue;
-      next_between_ =
-          now + ros::WallDuration(std::min(1.0 / options_.display_rate, kLongestInterval));
+      const ros::WallDuration interval(std::min(1.0 / options_.display_rate, kLongestInterval));
+      next_between_ = std::max(next_between_ + interval, now);
       return Action::kShowBetween;
     }
     if (isDue()) {
@@ -102,8 +99,12 @@ bool Player::isDue() const {
 
 bool Player::isSlow() const {
   if (paused_ || run_.isOver() || !options_.follow.empty() || options_.publish_clock) return false;
-  const double states = (run_.nextTime() - run_.time()) * options_.display_rate;
-  return states > kSlowStates * options_.real_time_factor && options_.real_time_factor > 0.0;
+  if (options_.real_time_factor <= 0.0) return false;
+  const double shown_interval = options_.real_time_factor / options_.display_rate;
+  // With several steps between two states, states are unequally far apart.
+  const Scenario& scenario = run_.scenario();
+  return run_.nextTime() - run_.time() > kSlowStates * shown_interval ||
+         (scenario.method.get().hasFixedStep() && scenario.time_step > kSlowSteps * shown_interval);
 }
 
 bool Player::isAhead() const {
@@ -111,6 +112,13 @@ bool Player::isAhead() const {
          ros::SteadyTime::now() < pacer_.dueTime(run_.time());
 }
 
+Showing Player::showing() {
+  const bool is_paced = options_.follow.empty() && !paused_ && !run_.isOver() && !isAhead();
+  return {paused_, pace(), shownShare(), !is_paced || pacer_.isShown(run_.time())};
+}
+
+/// Position of the shown state between the previous state of the run (0) and the current one (1).
+/// It is less than 1 in slow motion, where the run is one state ahead of the display.
 double Player::shownShare() const {
   if (!isAhead()) return 1.0;
   const double ahead = (pacer_.dueTime(run_.time()) - ros::SteadyTime::now()).toSec();
@@ -136,7 +144,9 @@ bool Player::isAtExit() const {
   return run_.isOver() && options_.at_end == AtEnd::kExit;
 }
 
+/// Speed of the run: "1.00 x real time"
 std::string Player::pace() const {
+  if (run_.isOver()) return run_.isShown() ? "finished" : "stopped";
   if (paused_) return "paused";
   return pacer_.speed() > 0.0 ? fmt::format("{:.2f} x real time", pacer_.speed()) : "";
 }
@@ -148,7 +158,7 @@ std::string Player::overMessage() const {
 
 bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   const bool pause = request.data != 0;
-  if (pause && run_.isOver() && options_.at_end != AtEnd::kLoop) {
+  if (run_.isOver() && options_.at_end != AtEnd::kLoop) {
     response.success = 0;
     response.message = overMessage();
     return true;

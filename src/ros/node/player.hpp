@@ -2,8 +2,8 @@
 // another node, and provides the services ~pause, ~step and ~reset.
 #pragma once
 
-#include "ros/node/master_registration.hpp"
 #include "ros/node/pacer.hpp"
+#include "ros/node/publisher.hpp"
 #include "ros/parameters/node_options.hpp"
 #include "ros/pendulum_run.hpp"
 #include <spring_pendulum/PendulumState.h>
@@ -22,24 +22,20 @@ class Player {
     kAdvance,       ///< advance to the next shown state
     kAdvanceFrame,  ///< advance to the next frame
     kReset,         ///< return to frame 0
-    kShowBetween,   ///< slow motion: show a state between the last two; see `shownShare`
+    kShowBetween,   ///< slow motion: show a state between the last two
     kShowAgain,     ///< show the same state again, for late subscribers
     kQuit
   };
 
   /// \param run must outlive the player
   Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
-         const NodeOptions& options, MasterRegistration& registration);
+         const NodeOptions& options);
 
   /// Serves callbacks until the next action is due.
   Action next();
 
-  bool isPaused() const { return paused_; }
-  /// Position of the shown state between the previous state of the run (0) and the current one (1).
-  /// It is less than 1 in slow motion, where the run is one state ahead of the display.
-  double shownShare() const;
-  /// Speed of the run: "1.00 x real time"
-  std::string pace() const;
+  /// How to show the present state. Must be called once after every action.
+  Showing showing();
 
  private:
   using TriggerRequest = std_srvs::Trigger::Request;
@@ -51,6 +47,8 @@ class Player {
   void onLeaderState(const PendulumState::ConstPtr& state);
 
   std::string overMessage() const;
+  std::string pace() const;
+  double shownShare() const;
   Action reset();
   bool isDue() const;
   bool isSlow() const;

@@ -56,8 +56,7 @@ PendulumStatus statusOf(const PendulumRun& run, bool paused) {
   return status;
 }
 
-Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
-                     MasterRegistration& registration)
+Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options)
     : frame_id_(options.frame_id),
       camera_frame_(options.camera_frame),
       publishes_clock_(options.publish_clock),
@@ -70,17 +69,10 @@ Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOp
   markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", queueLength(marker_bytes));
   state_ = node.advertise<PendulumState>("state", queueLength(state_bytes));
   status_topic_ = node.advertise<PendulumStatus>("status", 10, true);
-  registration.addTopic("/rosout", "rosgraph_msgs/Log");
-  registration.addTopic(markers_.getTopic(), "visualization_msgs/MarkerArray");
-  registration.addTopic(state_.getTopic(), "spring_pendulum/PendulumState");
-  registration.addTopic(status_topic_.getTopic(), "spring_pendulum/PendulumStatus");
   if (!camera_frame_.empty()) {
     tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
-    registration.addTopic(tf_static_.getTopic(), "tf2_msgs/TFMessage");
   }
-  if (!publishes_clock_) return;
-  clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
-  registration.addTopic(clock_.getTopic(), "rosgraph_msgs/Clock");
+  if (publishes_clock_) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
 }
 
 std::uint32_t Publisher::subscribers() const {
@@ -111,8 +103,10 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   }
 }
 
-void Publisher::publish(const PendulumRun& run, bool paused, const std::string& pace,
-                        double share) {
+void Publisher::publish(const PendulumRun& run, const Showing& showing) {
+  const PendulumStatus status = statusOf(run, showing.paused);
+  if (markers_.getNumSubscribers() > 0) shown_.follow(run, showing.share);
+  if (!showing.due && !isNew(status)) return;
   std_msgs::Header header;
   header.frame_id = frame_id_;
   header.stamp = stamps_.next(run.time());
@@ -122,25 +116,27 @@ void Publisher::publish(const PendulumRun& run, bool paused, const std::string& 
     clock_.publish(clock);
   }
   marker_builder_.trackTip(run);
-  if (markers_.getNumSubscribers() > 0) publishMarkers(run, header, pace, share);
+  if (markers_.getNumSubscribers() > 0 && showing.share >= 1.0) {
+    publishMarkers(run, header, showing.pace);
+  }
   if (state_.getNumSubscribers() > 0) {
     state_.publish(state_builder_.build(run, header));
     ++states_built_;
   }
-  publishStatus(statusOf(run, paused), header.stamp);
+  if (isNew(status)) publishStatus(status, header.stamp);
 }
 
-void Publisher::publishBetween(const PendulumRun& run, const std::string& pace, double share) {
+void Publisher::publishBetween(const PendulumRun& run, const Showing& showing) {
   if (markers_.getNumSubscribers() == 0) return;
+  shown_.follow(run, showing.share);
   std_msgs::Header header;
   header.frame_id = frame_id_;
   header.stamp = stamps_.next(run.time());
-  publishMarkers(run, header, pace, share);
+  publishMarkers(run, header, showing.pace);
 }
 
 void Publisher::publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
-                               const std::string& pace, double share) {
-  shown_.follow(run, share);
+                               const std::string& pace) {
   const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, shown_, header, pace);
   if (!camera_frame_.empty() && marker_builder_.cameraChanges() != camera_changes_sent_) {
     camera_changes_sent_ = marker_builder_.cameraChanges();
@@ -152,8 +148,11 @@ void Publisher::publishMarkers(const PendulumRun& run, const std_msgs::Header& h
   ++markers_built_;
 }
 
+bool Publisher::isNew(const PendulumStatus& status) const {
+  return !status_sent_ || status.code != status_.code || status.text != status_.text;
+}
+
 void Publisher::publishStatus(PendulumStatus status, const ros::Time& stamp) {
-  if (status_sent_ && status.code == status_.code && status.text == status_.text) return;
   status.header.frame_id = frame_id_;
   status.header.stamp = stamp;
   status_ = status;

@@ -7,7 +7,6 @@
 #include "ros/messages/shown_state.hpp"
 #include "ros/messages/stamps.hpp"
 #include "ros/messages/state_builder.hpp"
-#include "ros/node/master_registration.hpp"
 #include <spring_pendulum/PendulumStatus.h>
 
 #include <ros/node_handle.h>
@@ -21,10 +20,17 @@ namespace spring_pendulum {
 /// \param paused whether the user has paused the run
 PendulumStatus statusOf(const PendulumRun& run, bool paused);
 
+/// How to show a state.
+struct Showing {
+  bool paused = false;  ///< whether the user has paused the run
+  std::string pace;     ///< speed of the run, for the text
+  double share = 1.0;  ///< slow motion: position between the previous state (0) and the current one
+  bool due = true;     ///< false: publish nothing but a changed status
+};
+
 class Publisher {
  public:
-  Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options,
-            MasterRegistration& registration);
+  Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options);
 
   /// Whether a topic that shows states between the frames has subscribers.
   bool isWatched() const;
@@ -32,20 +38,20 @@ class Publisher {
   /// Serves callbacks until `wait_for_subscribers` is reached, or `wait_timeout` has passed.
   void waitForSubscribers(const NodeOptions& options);
 
-  /// Publishes the state on all topics with subscribers, and the status if it has changed.
-  /// \param pace  speed of the run, for the text
-  /// \param share position of the markers between the previous state (0) and the current one (1)
-  void publish(const PendulumRun& run, bool paused, const std::string& pace, double share);
+  /// Publishes the state on all topics with subscribers, and the status if it has changed. In slow
+  /// motion, the markers are left to `publishBetween`.
+  void publish(const PendulumRun& run, const Showing& showing);
   /// Publishes only the markers, for a state between the last two.
-  void publishBetween(const PendulumRun& run, const std::string& pace, double share);
+  void publishBetween(const PendulumRun& run, const Showing& showing);
 
   std::int64_t markersBuilt() const { return markers_built_; }
   std::int64_t statesBuilt() const { return states_built_; }
 
  private:
   std::uint32_t subscribers() const;
+  bool isNew(const PendulumStatus& status) const;
   void publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
-                      const std::string& pace, double share);
+                      const std::string& pace);
   void publishStatus(PendulumStatus status, const ros::Time& stamp);
 
   std::string frame_id_;

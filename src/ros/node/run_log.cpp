@@ -86,31 +86,35 @@ void RunLog::start(const PendulumRun& run, const NodeOptions& options, const Run
   if (!memory.empty()) ROS_INFO_STREAM(memory);
   logDisplayRate(run, options);
   if (!options.follow.empty()) {
-    ROS_INFO_STREAM("waiting for states of another node on " << options.follow << " (follow)");
+    ROS_INFO_STREAM(scenario.method.get().name << ": waiting for states of another node on "
+                                               << options.follow << " (follow)");
   }
 }
 
 void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles& files,
                     const Publisher& publisher) {
   const Verdict& verdict = run.verdict();
+  const std::string& method = run.scenario().method.get().name;
   if (verdict.kind > said_verdict_) {
     said_verdict_ = verdict.kind;
     if (verdict.kind == VerdictKind::kDiverged) {
-      ROS_ERROR_STREAM(verdict.text
-                       << "; " << remedyForDivergence(run.chain(), run.start(), run.scenario()));
+      ROS_ERROR_STREAM(method << ": " << verdict.text << "; "
+                              << remedyForDivergence(run.chain(), run.start(), run.scenario()));
     } else if (verdict.kind != VerdictKind::kNotChecked) {
-      ROS_WARN_STREAM(verdict.text);
+      ROS_WARN_STREAM(method << ": " << verdict.text);
     }
   }
   if (!said_tolerance_ && !run.toleranceRemark().empty()) {
     said_tolerance_ = true;
-    ROS_WARN_STREAM(run.toleranceRemark());
+    ROS_WARN_STREAM(method << ": " << run.toleranceRemark());
   }
   sayChoice(run);
   if (!run.isOver() || said_frames_ != 0) return;
   said_frames_ = totals.frames;
   ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
-  if (holds_) ROS_INFO("the last frame stays shown until Ctrl-C (at_end: hold)");
+  if (holds_) {
+    ROS_INFO_STREAM(method << ": the last frame stays shown until Ctrl-C (at_end: hold)");
+  }
 }
 
 void RunLog::finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,

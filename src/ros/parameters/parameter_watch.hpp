@@ -11,16 +11,11 @@ namespace spring_pendulum {
 /// the node, so this needs no query.
 class ParameterWatch {
  public:
-  /// Records the current values.
-  ParameterWatch();
-
   /// Checks at most twice per second, and warns once about each new value.
   void look();
 
  private:
-  void compare(XmlRpc::XmlRpcValue& now);
-
-  XmlRpc::XmlRpcValue known_;
+  XmlRpc::XmlRpcValue known_;  ///< invalid before the first look
   ros::SteadyTime next_look_;
 };
 

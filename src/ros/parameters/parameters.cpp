@@ -71,6 +71,13 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
   for (const std::string_view key : unusedKeys(configuration.scenario, options)) {
     configuration.unused.emplace_back(key);
   }
+  const bool fixed_step = configuration.scenario.method.get().hasFixedStep();
+  for (const Option& option : options.options()) {
+    if (option.applies_to == (fixed_step ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep))
+      continue;
+    if (!option.text().empty())
+      configuration.values += fmt::format("_{}:={} ", option.key, option.text());
+  }
   return configuration;
 }
 

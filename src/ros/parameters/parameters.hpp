@@ -15,6 +15,7 @@ struct NodeConfiguration {
   Scenario scenario;
   NodeOptions options;
   std::vector<std::string> unused;  ///< given keys that the method does not use
+  std::string values;               ///< all parameters in effect: "_method:=Euler _frames:=500 ..."
 };
 
 /// All parameters of the node, bound to `configuration`.
