@@ -93,9 +93,10 @@ int run(const Scenario& scenario, const Switches& switches) {
     return kDone;
   }
   catchInterruptions();
-  RunFiles files(scenario, switches.config);
+  const std::string warning = stabilityWarning(chain, scenario);
+  RunFiles files(scenario, switches.config);  // last, because it removes the frames of earlier runs
   printRemark(memory);
-  printWarning(stabilityWarning(chain, scenario));
+  printWarning(warning);
   State state = particles.state;
   const Summary summary = simulate(scenario, state, integrator, monitor, files);
   files.finish();

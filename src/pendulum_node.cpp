@@ -77,10 +77,6 @@ int runNode() {
   const NodeOptions& options = configuration.options;
   PendulumRun run(scenario, readParticles(scenario, "_particles:=FILE"),
                   options.track_energy || !scenario.energy.empty(), displayInterval(options));
-  RunFiles files(scenario);
-  RunLog log;
-  log.start(run, options, files);
-  ROS_INFO_STREAM("parameters: " << configuration.values);
   if (!configuration.unused.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name
                     << " does not use "
@@ -95,6 +91,10 @@ int runNode() {
     ROS_WARN_STREAM(rival << " as well: start one of the nodes in a namespace, for example with "
                              "ROS_NAMESPACE=second");
   }
+  RunFiles files(scenario);  // last, because it removes the frames of earlier runs
+  RunLog log;
+  log.start(run, options, files);
+  ROS_INFO_STREAM("parameters: " << configuration.values);
   publisher.waitForSubscribers(options);
   catchInterruptions();  // from now on ROS continues after a signal until the files are closed
   Totals totals;

@@ -64,9 +64,10 @@ int record(int argc, const char* const* argv) {
   PendulumRun run(scenario, readParticles(scenario),
                   display.track_energy || !scenario.energy.empty(),
                   display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0);
+  const std::string warning = stabilityWarning(run.chain(), scenario);
   const BagSummary summary = recordBag(run, display, bag, [&] {
     printRemark(memoryRemark(scenario, run.chain().size()));
-    printWarning(stabilityWarning(run.chain(), scenario));
+    printWarning(warning);
   });
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   printClosingLine(fmt::format(

@@ -140,6 +140,10 @@ std::vector<Option> bagOptions(BagOptions& o) {
 BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to,
                      const std::function<void()>& started) {
   const Scenario& scenario = run.scenario();
+  auto bag = std::make_unique<rosbag::Bag>();
+  BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
+  Stamps(true).next(frameSteps(scenario).timeOfFrame(scenario.frames - 1));  // throws if too late
+  // What can refuse the options is done: these remove files of earlier runs.
   TouchedFiles touched = touchedFiles(scenario, to.config);
   touched.outputs.push_back(to.path);
   checkTouchedFiles(touched);
@@ -147,7 +151,6 @@ BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOpti
   RunFiles files(scenario, to.config);
   BagSummary summary;
   summary.path = file.path();
-  auto bag = std::make_unique<rosbag::Bag>();
   bool has_earlier = false;
   try {
     has_earlier = to.append && file.copyEarlier();
@@ -155,7 +158,6 @@ BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOpti
     bag->open(file.unfinishedPath(),
               has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     started();
-    BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
     recordRun(run, recorder, files);
     bag->close();
     summary.messages = recorder.messages();

@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
                  2,
                  "frames times steps_per_frame times time_step must be finite, got 500 times 10 "
                  "times 1e+308 s\n"},
-        value("EndlessFrames", "--frame-interval", "1e9", "a number above 0, at most 1e+06 s"),
+        value("EndlessFrames", "--frame-interval", "1e9", "a number from 1e-300 to 1e+06 s"),
         BadInput{"TinyTolerance",
                  {"Taylor-8", "--tolerance", "1e-300"},
                  2,

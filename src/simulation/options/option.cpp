@@ -33,10 +33,7 @@ bool Range::contains(double value) const {
 }
 
 std::string Range::text() const {
-  if (std::isfinite(most_)) {
-    return fmt::format(least_allowed_ ? "from {:g} to {:g}" : "above {:g}, at most {:g}", least_,
-                       most_);
-  }
+  if (std::isfinite(most_)) return fmt::format("from {:g} to {:g}", least_, most_);
   if (!std::isfinite(least_)) return "";
   return fmt::format("{} {:g}", least_allowed_ ? "of at least" : "above", least_);
 }

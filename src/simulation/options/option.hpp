@@ -20,12 +20,11 @@ class Range {
   /// Any finite number.
   static Range any() { return {-kInfinity, false, kInfinity}; }
   static Range above(double least) { return {least, false, kInfinity}; }
-  static Range aboveUpTo(double least, double most) { return {least, false, most}; }
   static Range atLeast(double least) { return {least, true, kInfinity}; }
   static Range between(double least, double most) { return {least, true, most}; }
 
   bool contains(double value) const;
-  /// "above 0", "of at least 1", "from 2 to 100", "above 0, at most 1e+06", or "" for any number.
+  /// "above 0", "of at least 1", "from 2 to 100", or "" for any number.
   std::string text() const;
 
  private:

@@ -51,7 +51,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
        kFixedStep},
       {"tolerance", Number{&s.tolerance, Range::above(0)}, "m", "position error to aim at",
        kErrorControlled},
-      {"frame_interval", Number{&s.frame_interval, Range::aboveUpTo(0, 1e6)}, "s",
+      {"frame_interval", Number{&s.frame_interval, Range::between(1e-300, 1e6)}, "s",
        "simulated time between frames", kErrorControlled},
       {"stiffness", Number{&s.stiffness, Range::atLeast(0)}, "N/m", "spring constant k_s"},
       {"damping", Number{&s.damping, Range::atLeast(0)}, "N·s/m", "damping constant k_d"},
