@@ -68,8 +68,8 @@ class ObjectPerParticle : public Peer {
     const Vector d = there.position - here.position;
     const double length = std::sqrt(dot(d, d));
     const Vector r = 1.0 / length * d;
-    const double approach = dot(there.velocity - here.velocity, r);
-    return (problem_.stiffness * (length - problem_.rest_length) + problem_.damping * approach) * r;
+    const double rate = dot(there.velocity - here.velocity, r);
+    return (problem_.stiffness * (length - problem_.rest_length) + problem_.damping * rate) * r;
   }
 
   std::vector<Slope> slopes(const std::vector<Particle>& particles) {

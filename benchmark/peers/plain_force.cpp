@@ -33,9 +33,9 @@ void PlainForce::springForces(const double* state) {
     const double dx = x[i + 1] - x[i];
     const double dy = y[i + 1] - y[i];
     const double inverse_length = 1.0 / std::sqrt(dx * dx + dy * dy);
-    const double approach = (vx[i + 1] - vx[i]) * dx + (vy[i + 1] - vy[i]) * dy;
+    const double dot = (vx[i + 1] - vx[i]) * dx + (vy[i + 1] - vy[i]) * dy;
     const double factor = stiffness * (1.0 - rest_length * inverse_length) +
-                          damping * approach * inverse_length * inverse_length;
+                          damping * dot * inverse_length * inverse_length;
     fx[i] = factor * dx;
     fy[i] = factor * dy;
   }

@@ -4,6 +4,7 @@
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 #include "integration/error_control/dense_output_integrator.hpp"
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
+#include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/symplectic.hpp"
 #include "integration/implicit/radau_stepper.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
@@ -25,6 +26,9 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
                                                    const IntegratorOptions& options) {
+  if (findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr) {
+    return std::make_unique<PlainRungeKutta>(chain, *method.tableau, options.track_dissipation);
+  }
   EngineOptions engine;
   engine.track_dissipation = options.track_dissipation;
   engine.threads = options.threads;
@@ -226,6 +230,10 @@ std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& ch
     requireFinitePositive("tolerance", options.tolerance, "m");
   }
   requireAtLeastZero("threads", options.threads);
+  if (!method.make) {
+    throw InputError(
+        fmt::format("method '{}' has no factory: register it with registerMethod", method.name));
+  }
   std::unique_ptr<Integrator> integrator = method.make(method, chain, options);
   if (!integrator)
     throw InputError(fmt::format("the factory of method '{}' returned no integrator", method.name));

@@ -9,9 +9,9 @@ namespace {
 PlaneVector<double> forceOn(const SpringLaw& law, const State& state, std::ptrdiff_t i) {
   const PlaneVector<double> separation{state.x()[i + 1] - state.x()[i],
                                        state.y()[i + 1] - state.y()[i]};
-  const PlaneVector<double> approach{state.vx()[i + 1] - state.vx()[i],
-                                     state.vy()[i + 1] - state.vy()[i]};
-  return springForce(law, separation, approach);
+  const PlaneVector<double> relative_velocity{state.vx()[i + 1] - state.vx()[i],
+                                              state.vy()[i + 1] - state.vy()[i]};
+  return springForce(law, separation, relative_velocity);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "base/checks.hpp"
+#include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
-
-#include <cmath>
 
 namespace spring_pendulum {
 
@@ -14,9 +13,7 @@ Energy computeEnergy(const Chain& chain, const State& state) {
     const double speed_squared = state.vx()[i] * state.vx()[i] + state.vy()[i] * state.vy()[i];
     energy.kinetic += 0.5 * mass * speed_squared;
     energy.gravity += mass * chain.gravity() * (state.y()[i] - state.y()[0]);
-    const double length =
-        std::hypot(state.x()[i] - state.x()[i - 1], state.y()[i] - state.y()[i - 1]);
-    const double stretch = length - spring.rest_length;
+    const double stretch = springLength(state, i - 1) - spring.rest_length;
     energy.spring += 0.5 * spring.stiffness * stretch * stretch;
   }
   return energy;

@@ -1,5 +1,6 @@
 #include "base/checks.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <algorithm>
@@ -11,12 +12,6 @@ namespace {
 
 /// Stretch of all springs, relative to their length, whose energy is the least energy scale.
 constexpr double kLeastStretch = 1e-6;
-
-double springLength(const State& state, Eigen::Index i) {
-  const double dx = state.x()[i] - state.x()[i - 1];
-  const double dy = state.y()[i] - state.y()[i - 1];
-  return std::sqrt(dx * dx + dy * dy);
-}
 
 }  // namespace
 
@@ -30,7 +25,7 @@ EnergyScale::EnergyScale(const Chain& chain, const State& start) {
     weight += chain.masses()[i] * std::abs(chain.gravity());
     depth += weight * spring.rest_length;
     if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
-    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i));
+    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
     least += 0.5 * spring.stiffness * stretch * stretch;
   }
   if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain.gravity());

@@ -2,6 +2,7 @@
 #include "integration/error_control/dense_output_integrator.hpp"
 #include "model/chain_modes.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 
 #include <algorithm>
@@ -85,14 +86,9 @@ State perturbed(const State& state, double change) {
 
 double chainLength(const Chain& chain, const State& start) {
   requireSize(chain.size(), start.size());
-  double length = 0.0;
-  for (Eigen::Index i = 1; i < start.size(); ++i) {
-    const double dx = start.x()[i] - start.x()[i - 1];
-    const double dy = start.y()[i] - start.y()[i - 1];
-    length += std::sqrt(dx * dx + dy * dy);
-  }
-  const auto springs = static_cast<double>(std::max<Eigen::Index>(start.size() - 1, 0));
-  return std::max(springs * chain.spring().rest_length, 0.1 * length);
+  const Eigen::Index springs = start.size() - 1;
+  return std::max(static_cast<double>(springs) * chain.spring().rest_length,
+                  0.1 * springLengths(start, 0, springs));
 }
 
 struct ReferenceRun::Trajectory {

@@ -162,6 +162,22 @@ TEST(OwnMethods, AreRefusedIfTheyCannotWork) {
   }
 }
 
+// A user may pass a method that was never registered.
+TEST(OwnMethods, MustBeRegisteredIfTheyHaveNoFactory) {
+  Method method{"Unregistered", 2, 2, StepControl::kFixed};
+  const Chain chain = referenceScene("two_masses_45deg").chain;
+  for (const ButcherTableau* tableau :
+       {static_cast<const ButcherTableau*>(nullptr), &kRalstonTableau}) {
+    method.tableau = tableau;
+    try {
+      makeIntegrator(method, chain);
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("method 'Unregistered' has no factory"));
+    }
+  }
+}
+
 TEST(OwnMethods, WhoseFactoryMakesNothingAreRefused) {
   Method method{"Nothing", 1, 1, StepControl::kFixed};
   method.make = [](const Method&, const Chain&, const IntegratorOptions&) {

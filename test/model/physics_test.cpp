@@ -92,6 +92,27 @@ TEST(Force, IsTheLawAsItIsUsuallyWritten) {
   EXPECT_NEAR(force.y, along * 0.8, 1e-13 * along);
 }
 
+// Recorded bits, the same on every machine. std::hypot, which rounds differently in different C
+// libraries, gives others for every seventh separation, and for these two.
+TEST(SpringLength, HasTheRecordedBits) {
+  State state(4);
+  state.x() << 0.0, -0.89461131730248233, 0.0, -2.283880842795865;
+  state.y() << 0.0, 2.4681482874670611, 0.0, -2.5852862882728433;
+  EXPECT_EQ(springLength(state, 0), 0x1.50091d4fefc45p+1);
+  EXPECT_EQ(springLength(state, 2), 0x1.b98cdb7582c47p+1);
+  EXPECT_EQ(springLengths(state, 0, 3), 2.0 * springLength(state, 0) + springLength(state, 2));
+  EXPECT_EQ(springLengths(state, 1, 1), 0.0);
+}
+
+TEST(Energy, OfASpringComesFromItsLength) {
+  State state(2);
+  state.x()[1] = -0.89461131730248233;
+  state.y()[1] = 2.4681482874670611;
+  const double length = springLength(state, 0);
+  const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{1.0, 0.0, 0.0}, 0.0);
+  EXPECT_EQ(computeEnergy(chain, state).spring, 0.5 * length * length);
+}
+
 TEST(Force, VanishesWhereASpringHasNoLength) {
   const PlaneVector<double> force = springForce<double>(SpringLaw{}, {0.0, 0.0}, {1.0, -2.0});
   EXPECT_EQ(force.x, 0.0);

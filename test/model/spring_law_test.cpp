@@ -51,8 +51,8 @@ TEST(SpringForce, WithoutDampingHasTheBitsOfDampingZero) {
        {SpringLaw{50.0, 0.0, 1.0}, SpringLaw{3.0, 0.0, 0.0}, SpringLaw{0.0, 0.0, 1.0}}) {
     for (int k = 0; k < 1000; ++k) {
       const PlaneVector<double> separation{number(random), number(random)};
-      const PlaneVector<double> approach{number(random), number(random)};
-      const PlaneVector<double> full = springForce(law, separation, approach);
+      const PlaneVector<double> relative_velocity{number(random), number(random)};
+      const PlaneVector<double> full = springForce(law, separation, relative_velocity);
       const PlaneVector<double> skipped = undampedSpringForce(law, separation);
       EXPECT_EQ(full.x, skipped.x);
       EXPECT_EQ(std::signbit(full.x), std::signbit(skipped.x));

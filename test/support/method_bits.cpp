@@ -1,7 +1,8 @@
-// Prints a hash of the motion and the dissipated energy for each method, one method per line. Equal
-// lines on two machines mean equal bits (scripts/test_arm64.sh).
+// Prints a hash of the motion, the energies and the energy balance for each method, one method per
+// line. Equal lines on two machines mean equal bits (scripts/test_arm64.sh).
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <cstdint>
 #include <cstdio>
@@ -41,12 +42,18 @@ std::uint64_t hashOfRuns(const Method& method) {
       const Chain chain(masses, {50.0, damping, 1.0}, 9.81);
       const auto integrator = method.make(method, chain, {1e-7, true, 1});
       State state = zigzag(size);
+      const EnergyBalance balance(chain, state, true);
       for (int frame = 0; frame < 3; ++frame) {
         integrator->advance(state, 0.005, 20);
         for (Eigen::Index i = 0; i < size; ++i) {
           for (Eigen::Index c = 0; c < 4; ++c) hash = hashOf(state.values()(i, c), hash);
         }
-        hash = hashOf(integrator->dissipatedEnergy(), hash);
+        const EnergyEntry entry = balance.entry(0.1, state, integrator->dissipatedEnergy());
+        for (const double number :
+             {*entry.dissipated, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
+              entry.relative_gain, *entry.relative_residual}) {
+          hash = hashOf(number, hash);
+        }
       }
     }
   }

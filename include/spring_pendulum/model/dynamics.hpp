@@ -1,4 +1,4 @@
-// The right-hand side F of the equations of motion z' = F(z), and the spring forces.
+// The right-hand side F of the equations of motion z' = F(z), spring forces and lengths.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
@@ -9,6 +9,18 @@
 
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
+
+/// Returns the length in m of spring i, between particles i and i+1, counted from 0.
+inline double springLength(const State& state, std::ptrdiff_t i) {
+  return lengthOf({state.x()[i + 1] - state.x()[i], state.y()[i + 1] - state.y()[i]});
+}
+
+/// Returns the sum of the lengths of the springs begin <= i < end, m.
+inline double springLengths(const State& state, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  double sum = 0.0;
+  for (std::ptrdiff_t i = begin; i < end; ++i) sum += springLength(state, i);
+  return sum;
+}
 
 /// Returns the force in N of spring i (between particles i and i+1, counted from 0) on particle i.
 /// \throws InputError if the chain has no such spring or the size of the state is not that of the

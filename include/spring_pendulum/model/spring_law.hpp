@@ -37,6 +37,12 @@ template <typename Value>
   return fused(separation.x, separation.x, separation.y * separation.y);
 }
 
+/// Returns the length L = |d| in m, with the same bits on every machine: std::hypot rounds
+/// differently in different C libraries.
+inline double lengthOf(const PlaneVector<double>& separation) {
+  return std::sqrt(squaredLength(separation));
+}
+
 /// Returns a·b.
 template <typename Value>
 [[gnu::always_inline]] inline Value dotProduct(const PlaneVector<Value>& a,
@@ -47,8 +53,8 @@ template <typename Value>
 /// Returns the elongation rate w·r, m/s; 0 for a spring of length 0.
 template <typename Value>
 [[gnu::always_inline]] inline Value elongationRate(const PlaneVector<Value>& separation,
-                                                   const PlaneVector<Value>& approach) {
-  return dotProduct(approach, separation) * inverseSquareRoot(squaredLength(separation));
+                                                   const PlaneVector<Value>& relative_velocity) {
+  return dotProduct(relative_velocity, separation) * inverseSquareRoot(squaredLength(separation));
 }
 
 /// Returns the force of a spring from given w·d (m²/s) and 1/L (1/m); see below.
@@ -75,14 +81,14 @@ template <typename Value>
 ///     f = (k_s (L - L_0) + k_d w·r) r ,   L = |d| ,   r = d / L ,
 ///
 /// evaluated as f = (k_s + (k_d (w·d)/L - k_s L_0) / L) d, which needs only 1/L.
-/// \param separation d = p_other - p_this, m
-/// \param approach   w = v_other - v_this, m/s
+/// \param separation        d = p_other - p_this, m
+/// \param relative_velocity w = v_other - v_this, m/s
 template <typename Value>
-[[gnu::always_inline]] inline PlaneVector<Value> springForce(const SpringLaw& law,
-                                                             const PlaneVector<Value>& separation,
-                                                             const PlaneVector<Value>& approach) {
+[[gnu::always_inline]] inline PlaneVector<Value> springForce(
+    const SpringLaw& law, const PlaneVector<Value>& separation,
+    const PlaneVector<Value>& relative_velocity) {
   const Value inverse_length = inverseSquareRoot(squaredLength(separation));
-  return springForce(law, separation, dotProduct(approach, separation), inverse_length);
+  return springForce(law, separation, dotProduct(relative_velocity, separation), inverse_length);
 }
 
 /// The force for damping 0. The same bits as springForce if w·d is finite.

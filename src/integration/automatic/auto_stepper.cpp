@@ -33,7 +33,7 @@ constexpr int kCounted = 6;
 /// Work between two races, in units of the work of a race.
 constexpr double kWorkPerRace = 25.0;
 
-/// Work before the first race, in force evaluations: about the work of a race.
+/// Work before the first race, about that of a race, in force evaluations.
 constexpr double kWorkBeforeFirstRace = 500.0;
 
 /// Least ratio of the paces for a switch.
@@ -210,7 +210,6 @@ StepStatistics AutoStepper::statistics() const {
   }
   sum.accepted = steps_;
   sum.last_step = last_step_;
-  sum.fastest_rate = active().stepper->statistics().fastest_rate;
   return sum;
 }
 

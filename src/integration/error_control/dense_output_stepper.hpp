@@ -18,10 +18,6 @@ struct StepStatistics {
   std::int64_t accepted = 0;  ///< accepted steps
   std::int64_t rejected = 0;  ///< steps whose error was too large
   double last_step = 0.0;     ///< size of the last accepted step, s
-  /// Estimate of the largest |λ| of the motion in the last step, 1/s, if the method gets it at no
-  /// cost; else 0. If last_step * fastest_rate is near the stability limit of the method, stability
-  /// limits the step size.
-  double fastest_rate = 0.0;
 
   /// Cost of all evaluations, in force evaluations of Taylor-8.
   double work() const { return static_cast<double>(force_evaluations) + extra_work; }

@@ -3,8 +3,9 @@
 //
 //     h_new = h * safety * e^(-7/8k) * e_old^(1/4k)
 //
-// e is the estimated error divided by the allowed error, e = O(h^k). Powers are computed from + - *
-// / and square roots only, so step sizes are the same bits on every machine.
+// e is the estimated error divided by the allowed error, e = O(h^k). Powers are computed with
+// correctly rounded operations and integer operations on the exponent, so step sizes are the same
+// bits on every machine.
 //
 // Reference: K. Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554, doi:10.1145/210232.210242;
 // the exponents are near those of Hairer, Nørsett, Wanner, Solving ODEs I, section II.4, and
@@ -13,8 +14,8 @@
 
 namespace spring_pendulum {
 
-/// Returns the k-th root of x with a relative error below 2e-5, enough for a step size. The
-/// bits are the same on every machine, as only + - * / are used.
+/// Returns the k-th root of x with a relative error below 2e-5, enough for a step size. It divides
+/// the binary logarithm, which it reads from the bits of x; the result is the same on every machine.
 /// \param x at least 0; treated as 1e-300 if it is smaller and not 0
 /// \param k 1..32
 double root(double x, int k);

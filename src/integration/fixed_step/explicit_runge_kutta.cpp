@@ -3,6 +3,7 @@
 #include "base/checks.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <thread>
 
 namespace spring_pendulum {
@@ -12,12 +13,12 @@ Eigen::Index roundedUp(Eigen::Index count) {
   return StateBuffer::paddedSize(count);
 }
 
-/// Border results are discarded; this limit keeps borders below a sixteenth of the work.
-Eigen::Index largestBorder(Eigen::Index block_size, std::size_t stages) {
+/// Halo results are discarded; this limit keeps halos below a sixteenth of the work.
+Eigen::Index largestHalo(Eigen::Index block_size, std::size_t stages) {
   return std::max(roundedUp(static_cast<Eigen::Index>(stages)), block_size / 32 / 8 * 8);
 }
 
-/// Blocks are at least half as long as this size, and a border is no longer than a block.
+/// Blocks are at least half as long as this size, and a halo is no longer than a block.
 Eigen::Index usableBlockSize(Eigen::Index wanted, std::size_t stages) {
   return std::max(roundedUp(wanted), 2 * roundedUp(static_cast<Eigen::Index>(stages)));
 }
@@ -37,26 +38,22 @@ Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index p
 ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                                        const EngineOptions& options)
     : options_(options),
-      constants_(chain, options.skip_masses),
+      constants_(chain),
       stages_(tableau.stages),
       tracks_dissipation_(options.track_dissipation && chain.spring().damping != 0.0),
       tableau_(tableau),
       kernel_(findAdvanceKernel(kernelsFor(options, chain.size()), tableau,
                                 {!skips().damping, !skips().gravity, tracks_dissipation_})) {
-  if (kernel_ == nullptr) {
-    plain_ = std::make_unique<PlainRungeKutta>(chain, tableau, options.track_dissipation,
-                                               kernelsFor(options, chain.size()));
-    return;
-  }
+  assert(kernel_ != nullptr);
   if (tracks_dissipation_) dissipated_ = DissipatedEnergy(chain.size());
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
-  if (!one_block) largest_border_ = largestBorder(options_.block_size, stages_);
-  const Eigen::Index rows = one_block ? chain.size() : options_.block_size + 2 * largest_border_;
+  if (!one_block) largest_halo_ = largestHalo(options_.block_size, stages_);
+  const Eigen::Index rows = one_block ? chain.size() : options_.block_size + 2 * largest_halo_;
   shares_.resize(static_cast<std::size_t>(greatestNumberOfShares(options_, chain.size())));
   for (Share& share : shares_) {
-    share.left.resize(largest_border_, 4);
-    share.right.resize(largest_border_, 4);
+    share.left.resize(largest_halo_, 4);
+    share.right.resize(largest_halo_, 4);
     share.block = StateBuffer(rows);
     if (tracks_dissipation_ && !one_block) share.dissipated = AlignedNumbers(share.block.pitch());
     share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
@@ -69,28 +66,14 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
 Skips ExplicitRungeKutta::skips() const {
   const KernelChain& chain = constants_.chain();
   Skips skips;
-  skips.damping = options_.skip_damping && chain.spring.damping == 0.0;
-  skips.gravity = options_.skip_gravity && chain.gravity == 0.0;
+  skips.damping = chain.spring.damping == 0.0;
+  skips.gravity = chain.gravity == 0.0;
   skips.masses = chain.mass_stride == 0;
   return skips;
 }
 
-double ExplicitRungeKutta::dissipatedEnergy() const {
-  return plain_ ? plain_->dissipatedEnergy() : dissipated_.total();
-}
-
-void ExplicitRungeKutta::restart() {
-  if (plain_) plain_->restart();
-  dissipated_.reset();
-}
-
 void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
   requireAdvance(constants_.chain().size, state.size(), time_step, steps);
-  if (plain_) {
-    plain_->advance(state, time_step, steps);
-    force_evaluations_ = plain_->forceEvaluations();
-    return;
-  }
   state.velocities().row(0).setZero();
   for (std::size_t i = 0; i < stages_; ++i) {
     const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
@@ -99,14 +82,14 @@ void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t st
   }
   const auto stages = static_cast<std::int64_t>(stages_);
   force_evaluations_ += steps * stages;
-  if (largest_border_ == 0) return stepWhole(state, steps);
+  if (largest_halo_ == 0) return stepWhole(state, steps);
   // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has at least one stage
-  const std::int64_t at_once = largest_border_ / stages;
+  const std::int64_t at_once = largest_halo_ / stages;
   const int threads = threadsFor(std::min(steps, at_once));
   for (; steps > 0; steps -= pass_.steps) {
     pass_.state = &state;
     pass_.steps = std::min(steps, at_once);
-    pass_.border = roundedUp(pass_.steps * stages);
+    pass_.halo = roundedUp(pass_.steps * stages);
     divide(threads);
     workers_->run(threads);
   }
@@ -135,8 +118,8 @@ void ExplicitRungeKutta::divide(int threads) {
     Share& share = shares_[static_cast<std::size_t>(i)];
     share.begin = std::min(size, i * share_size);
     share.end = std::min(size, share.begin + share_size);
-    const Eigen::Index left = std::min(pass_.border, share.begin);
-    const Eigen::Index right = std::min(pass_.border, size - share.end);
+    const Eigen::Index left = std::min(pass_.halo, share.begin);
+    const Eigen::Index right = std::min(pass_.halo, size - share.end);
     share.left.topRows(left) = pass_.state->values().middleRows(share.begin - left, left);
     share.right.topRows(right) = pass_.state->values().middleRows(share.end, right);
   }
@@ -154,15 +137,15 @@ void ExplicitRungeKutta::workOn(Share& share) {
 
 void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Index end) {
   auto state = pass_.state->values();
-  const Eigen::Index first = std::max<Eigen::Index>(0, begin - pass_.border);
-  const Eigen::Index last = std::min(state.rows(), end + pass_.border);
+  const Eigen::Index first = std::max<Eigen::Index>(0, begin - pass_.halo);
+  const Eigen::Index last = std::min(state.rows(), end + pass_.halo);
   const Eigen::Index own_end = std::min(last, share.end);
   auto block = share.block.values();
   block.topRows(begin - first) = share.left.topRows(begin - first);
   block.middleRows(begin - first, own_end - begin) = state.middleRows(begin, own_end - begin);
   block.middleRows(own_end - first, last - own_end) = share.right.topRows(last - own_end);
   if (end < share.end) {
-    share.left.topRows(pass_.border) = state.middleRows(end - pass_.border, pass_.border);
+    share.left.topRows(pass_.halo) = state.middleRows(end - pass_.halo, pass_.halo);
   }
   double* const dissipated = share.dissipated.data();
   if (tracks_dissipation_)

@@ -1,14 +1,16 @@
 // The fast engine for explicit Runge-Kutta tableaus with a fixed step.
 //
 // A long chain is divided into blocks that stay in the second-level cache through all steps of a
-// call. Information travels one particle per stage, so S steps of s stages need a border of S·s
-// particles on both sides of a block. The border is integrated together with the block; its errors
-// spread inwards from its outer end, and its results are discarded. Threads share the blocks. Every
-// particle sees the same arithmetic in the same order for all block sizes, numbers of threads,
-// instruction sets and skips, so the results are always the bits of `PlainRungeKutta`.
+// call (overlapped temporal blocking). Information travels one particle per stage, so S steps of s
+// stages need a halo of S·s particles on both sides of a block. The halo is integrated together with
+// the block; its errors spread inwards from its outer end, and its results are discarded. Threads
+// share the blocks. Every particle sees the same arithmetic in the same order for all block sizes,
+// numbers of threads and instruction sets, so the results are always the bits of `PlainRungeKutta`.
+//
+// Reference: S. Krishnamoorthy and others, PLDI 2007, 235-244, doi:10.1145/1250734.1250761
+// (overlapped tiles).
 #pragma once
 
-#include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/worker_threads.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/dissipated_energy.hpp"
@@ -32,24 +34,20 @@ struct EngineOptions {
   /// longer than the work.
   Eigen::Index least_work_per_thread = 50000;
   const ChainKernels* kernels = nullptr;  ///< null: the fastest kernels that the processor supports
-  /// Leave out terms that vanish for the chain.
-  bool skip_damping = true;
-  bool skip_gravity = true;
-  bool skip_masses = true;
-  bool track_dissipation = false;  ///< integrate the dissipated power as well
+  bool track_dissipation = false;         ///< integrate the dissipated power as well
 };
 
 /// `advance` sets the velocity of the first particle, which is fixed, to 0.
 class ExplicitRungeKutta final : public Integrator {
  public:
-  /// \param tableau any; `PlainRungeKutta` runs those without a kernel (see fast_tableaus.hpp)
+  /// \param tableau one that has a kernel (`findAdvanceKernel`)
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                      const EngineOptions& options = {});
 
   void advance(State& state, double time_step, std::int64_t steps) override;
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
-  double dissipatedEnergy() const override;
-  void restart() override;
+  double dissipatedEnergy() const override { return dissipated_.total(); }
+  void restart() override { dissipated_.reset(); }
   Skips skips() const override;
 
  private:
@@ -68,7 +66,7 @@ class ExplicitRungeKutta final : public Integrator {
   struct Pass {
     State* state = nullptr;
     std::int64_t steps = 0;
-    Eigen::Index border = 0;
+    Eigen::Index halo = 0;
   };
 
   /// Takes the steps of a chain that is one block.
@@ -84,9 +82,8 @@ class ExplicitRungeKutta final : public Integrator {
   bool tracks_dissipation_;
   const ButcherTableau& tableau_;
   AdvanceKernel kernel_;
-  std::unique_ptr<PlainRungeKutta> plain_;  ///< null if there is a kernel
   DissipatedEnergy dissipated_;
-  Eigen::Index largest_border_ = 0;  ///< 0: the whole chain is one block
+  Eigen::Index largest_halo_ = 0;  ///< 0: the whole chain is one block
   StepWeights weights_;
   Pass pass_;
   std::vector<Share> shares_;

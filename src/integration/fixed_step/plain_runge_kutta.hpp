@@ -1,6 +1,6 @@
 // An explicit Runge-Kutta method with a fixed step, computed stage by stage as the formula is
 // written, for any tableau. `ExplicitRungeKutta` gives the same bits in less time for the tableaus
-// that have a kernel.
+// that have a kernel; the method table chooses between them.
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"

@@ -1,6 +1,6 @@
 // Linearisation of a spring whose tension is an additional unknown.
 //
-// With the direction r, the separation d, the approach w, the length L and the tension T, the
+// With the direction r, the separation d, the relative velocity w, the length L and the tension T, the
 // force on one end is f = T r. Its change is
 //
 //     df = r dT + e (I - r rᵀ) dd ,   e = T / L ,
@@ -18,11 +18,11 @@ struct LinearSpring {
   PlaneVector<double> a{};  ///< derivative of the tension by the separation, N/m
   double e = 0.0;           ///< geometric stiffness, N/m
 
-  /// Returns dT in N for changes of the separation and the approach.
+  /// Returns dT in N for changes of the separation and the relative velocity.
   double tensionChange(double damping, const PlaneVector<double>& separation,
-                       const PlaneVector<double>& approach) const {
+                       const PlaneVector<double>& relative_velocity) const {
     return (a.x * separation.x + a.y * separation.y) +
-           damping * (r.x * approach.x + r.y * approach.y);
+           damping * (r.x * relative_velocity.x + r.y * relative_velocity.y);
   }
 
   /// Returns (df/dd) d.
@@ -35,24 +35,24 @@ struct LinearSpring {
 
 /// Returns the tension k_s (L - L_0) + k_d w·r, N.
 inline double springTension(const SpringLaw& law, const PlaneVector<double>& separation,
-                            const PlaneVector<double>& approach) {
+                            const PlaneVector<double>& relative_velocity) {
   const double square = separation.x * separation.x + separation.y * separation.y;
   const double inverse_length = inverseSquareRoot(square);
-  const double dot = approach.x * separation.x + approach.y * separation.y;
+  const double dot = relative_velocity.x * separation.x + relative_velocity.y * separation.y;
   return law.stiffness * (square * inverse_length - law.rest_length) +
          law.damping * (dot * inverse_length);
 }
 
 inline LinearSpring linearSpring(const SpringLaw& law, const PlaneVector<double>& separation,
-                                 const PlaneVector<double>& approach, double tension) {
+                                 const PlaneVector<double>& relative_velocity, double tension) {
   const double square = separation.x * separation.x + separation.y * separation.y;
   const double inverse_length = inverseSquareRoot(square);
   const PlaneVector<double> r{separation.x * inverse_length, separation.y * inverse_length};
-  const double rate = approach.x * r.x + approach.y * r.y;
+  const double rate = relative_velocity.x * r.x + relative_velocity.y * r.y;
   const double turn = law.damping * inverse_length;
   return {r,
-          {law.stiffness * r.x + turn * (approach.x - rate * r.x),
-           law.stiffness * r.y + turn * (approach.y - rate * r.y)},
+          {law.stiffness * r.x + turn * (relative_velocity.x - rate * r.x),
+           law.stiffness * r.y + turn * (relative_velocity.y - rate * r.y)},
           tension * inverse_length};
 }
 

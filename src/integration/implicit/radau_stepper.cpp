@@ -122,8 +122,8 @@ RadauStepper::Ends RadauStepper::endsOf(std::size_t spring, const Ends& start,
   const Increments& b = stages_.particles[spring + 1];
   return {{start.separation.x + (b.x[stage] - a.x[stage]),
            start.separation.y + (b.y[stage] - a.y[stage])},
-          {start.approach.x + (b.vx[stage] - a.vx[stage]),
-           start.approach.y + (b.vy[stage] - a.vy[stage])}};
+          {start.relative_velocity.x + (b.vx[stage] - a.vx[stage]),
+           start.relative_velocity.y + (b.vy[stage] - a.vy[stage])}};
 }
 
 void RadauStepper::predict(double h) {
@@ -152,7 +152,7 @@ void RadauStepper::predict(double h) {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     Row& tensions = stages_.tensions[i];
     const Ends ends = endsOf(i, begin());
-    tensions.fill(springTension(chain().spring(), ends.separation, ends.approach));
+    tensions.fill(springTension(chain().spring(), ends.separation, ends.relative_velocity));
     if (previous_length_ == 0.0) continue;
     for (std::size_t s = 0; s < kStages; ++s) {
       tensions[s] = radau::dot(tension_weights[s], previous_.tensions[i]);
@@ -163,7 +163,7 @@ void RadauStepper::predict(double h) {
 void RadauStepper::linearise() {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const Ends middle = endsOf(i, endsOf(i, begin()), kMiddleStage);
-    springs_[i] = linearSpring(chain().spring(), middle.separation, middle.approach,
+    springs_[i] = linearSpring(chain().spring(), middle.separation, middle.relative_velocity,
                                stages_.tensions[i][kMiddleStage]);
   }
 }
@@ -197,7 +197,7 @@ void RadauStepper::springForces(std::size_t spring, Row& fx, Row& fy) {
     const Ends ends = endsOf(spring, start, s);
     const PlaneVector<double>& d = ends.separation;
     const double unit = tensions[s] * inverseSquareRoot(d.x * d.x + d.y * d.y);
-    const double tension = springTension(law, d, ends.approach);
+    const double tension = springTension(law, d, ends.relative_velocity);
     const double residual = tension - tensions[s];
     fx[s] = unit * d.x + residual * r.x;
     fy[s] = unit * d.y + residual * r.y;
@@ -270,12 +270,13 @@ PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected)
   Ends ends = endsOf(spring, begin());
   double tension = previous_length_ > 0.0
                        ? previous_.tensions[spring].back()
-                       : springTension(chain().spring(), ends.separation, ends.approach);
+                       : springTension(chain().spring(), ends.separation, ends.relative_velocity);
   if (corrected) {
     const Ends change = endsOf(spring, change_);
     ends.separation.x += change.separation.x;
     ends.separation.y += change.separation.y;
-    tension += linear.tensionChange(chain().spring().damping, change.separation, change.approach);
+    tension +=
+        linear.tensionChange(chain().spring().damping, change.separation, change.relative_velocity);
   }
   const PlaneVector<double>& d = ends.separation;
   const double unit = tension * inverseSquareRoot(d.x * d.x + d.y * d.y);
@@ -341,7 +342,8 @@ double RadauStepper::stepExplicitly(double h) {
   }
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const Ends ends = endsOf(i, begin());
-    stages_.tensions[i].fill(springTension(chain().spring(), ends.separation, ends.approach));
+    stages_.tensions[i].fill(
+        springTension(chain().spring(), ends.separation, ends.relative_velocity));
   }
   setEndFromLastStage();
   return finite;

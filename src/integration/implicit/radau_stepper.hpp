@@ -92,7 +92,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
   /// Position and velocity of the right end of a spring relative to its left end.
   struct Ends {
     PlaneVector<double> separation;
-    PlaneVector<double> approach;
+    PlaneVector<double> relative_velocity;
   };
 
   void prepare(bool restarted) override;

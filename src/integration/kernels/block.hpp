@@ -67,7 +67,8 @@ template <typename Number>
 }
 
 /// Returns the velocities of the particles of a block relative to their left neighbours.
-[[gnu::always_inline]] inline PlaneVector<Pack> approachesOf(const Block& left, const Block& here) {
+[[gnu::always_inline]] inline PlaneVector<Pack> relativeVelocitiesOf(const Block& left,
+                                                                     const Block& here) {
   return {here.vx - leftNeighbours(left.vx, here.vx), here.vy - leftNeighbours(left.vy, here.vy)};
 }
 
@@ -77,7 +78,7 @@ template <typename Number>
                                                             std::ptrdiff_t block) {
   const std::ptrdiff_t springs = chain.size - 1 - block * kLanes;
   if (springs >= kLanes) return force;
-  return {only(force.x, 0, springs), only(force.y, 0, springs)};
+  return {only(force.x, springs), only(force.y, springs)};
 }
 
 /// Returns the forces of the springs between the particles of a block and their left neighbours, as
@@ -89,7 +90,7 @@ template <bool kDamped>
   const PlaneVector<Pack> separation = separationsOf(left, here);
   PlaneVector<Pack> force;
   if constexpr (kDamped) {
-    force = springForce(chain.spring, separation, approachesOf(left, here));
+    force = springForce(chain.spring, separation, relativeVelocitiesOf(left, here));
   } else {
     force = undampedSpringForce(chain.spring, separation);
   }
@@ -121,8 +122,8 @@ template <bool kGravity, bool kInner = false>
   }
   const std::ptrdiff_t particles = chain.size - 1 - block * kLanes;
   if (!kInner && particles < kLanes) {
-    slope = {only(slope.x, 0, particles), only(slope.y, 0, particles), only(slope.vx, 0, particles),
-             only(slope.vy, 0, particles)};
+    slope = {only(slope.x, particles), only(slope.y, particles), only(slope.vx, particles),
+             only(slope.vy, particles)};
   }
   return slope;
 }

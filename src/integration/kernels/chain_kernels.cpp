@@ -79,16 +79,16 @@ const ChainKernels& fastestChainKernels(std::ptrdiff_t particles) {
   return prefers_shorter ? *supported[1] : *supported.front();
 }
 
-KernelConstants::KernelConstants(const Chain& chain, bool skip_masses) {
-  const bool skipped = skip_masses && chain.equalMasses() && chain.size() > 1;
+KernelConstants::KernelConstants(const Chain& chain) {
+  const bool equal = chain.equalMasses() && chain.size() > 1;
   chain_.spring = chain.spring();
   chain_.gravity = chain.gravity();
-  chain_.mass_stride = skipped ? 0 : 1;
+  chain_.mass_stride = equal ? 0 : 1;
   chain_.size = chain.size();
   chain_.pitch = StateBuffer::pitchFor(chain.size());
-  inverse_masses_ = AlignedNumbers(skipped ? 8 : chain_.pitch);
+  inverse_masses_ = AlignedNumbers(equal ? 8 : chain_.pitch);
   chain_.inverse_masses = inverse_masses_.data();
-  if (skipped) {
+  if (equal) {
     std::fill_n(inverse_masses_.data(), 8, chain.inverseMasses()[1]);
   } else {
     std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, inverse_masses_.data());

@@ -56,7 +56,7 @@ struct StepWeights {
   double dissipation[ButcherTableau::kMaxStages] = {};  ///< h b_i k_d, kg
 };
 
-/// Blocks of a ring buffer in `Conveyor`: a power of two, at least the number of blocks between the
+/// Blocks of a ring buffer in `StagePipeline`: a power of two, at least the number of blocks between the
 /// first and the last stage.
 constexpr std::ptrdiff_t ringBlocks(std::size_t stages) {
   std::ptrdiff_t blocks = 8;
@@ -172,7 +172,7 @@ std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name);
 /// Returns the kernel for whole steps of a tableau, which is recognised by its coefficients; null
 /// if it is not one of `kFastTableaus`.
 AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTableau& tableau,
-                                StepNeeds needs);
+                                StepNeeds needs = {});
 
 /// Returns the fastest supported kernels, for long chains or for the given number of particles.
 const ChainKernels& fastestChainKernels();

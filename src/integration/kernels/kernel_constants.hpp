@@ -10,8 +10,8 @@ namespace spring_pendulum {
 /// Owns the memory to which a `KernelChain` points.
 class KernelConstants {
  public:
-  /// \param skip_masses whether to store equal masses once instead of for every particle
-  explicit KernelConstants(const Chain& chain, bool skip_masses = true);
+  /// Stores equal masses once instead of for every particle.
+  explicit KernelConstants(const Chain& chain);
 
   /// Returns the particles begin <= i < end as a chain of its own, with columns `pitch` apart.
   /// \param begin a multiple of 8

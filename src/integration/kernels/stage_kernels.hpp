@@ -64,7 +64,7 @@ void addDissipation(const KernelChain& callers_chain, const double* state, doubl
   for (std::ptrdiff_t block = 0; block < blocks; ++block) {
     const Block left = load(placeOf(state, chain.pitch, block - 1));
     const Block here = load(placeOf(state, chain.pitch, block));
-    const Pack rate = elongationRate(separationsOf(left, here), approachesOf(left, here));
+    const Pack rate = elongationRate(separationsOf(left, here), relativeVelocitiesOf(left, here));
     addDissipation(weight, rate, dissipated + block * kLanes);
   }
 }

@@ -204,10 +204,10 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
     const Pack square = squaredLength(separation);
     // 1/L_0 = 0 makes all forces of the springs in the padding 0.
     const Index springs = work.size - 1 - block * kLanes;
-    const Pack inverse = only(inverseSquareRoot(square), 0, springs);
+    const Pack inverse = only(inverseSquareRoot(square), springs);
     SpringSeries spring(work, block);
     spring.setSeparation(0, separation);
-    spring.setSeparation(1, approachesOf(left, here));
+    spring.setSeparation(1, relativeVelocitiesOf(left, here));
     spring.setLength(0, square * inverse);
     spring.setDirection({separation.x * inverse, separation.y * inverse});
     spring.setInverseLength(inverse);
@@ -229,7 +229,7 @@ template <Index n>
   PlaneVector<Pack> result{
       fused(inverse_mass, right.x, fused(left_inverse_mass, left.x, -(both * here.x))),
       fused(inverse_mass, right.y, fused(left_inverse_mass, left.y, -(both * here.y)))};
-  if (n == 0 && block == 0) result.y = result.y - only(Pack::all(kShare * work.gravity), 0, 1);
+  if (n == 0 && block == 0) result.y = result.y - only(Pack::all(kShare * work.gravity), 1);
   return result;
 }
 
@@ -243,7 +243,7 @@ template <Index n>
   double* accelerations = work.accelerations + n * 2 * work.pitch + first;
   const Pack inverse_mass = Pack::load(work.inverse_masses + first);
   Pack y = (right.y - here.y) * inverse_mass;
-  if (n == 0) y = y - only(Pack::all(work.gravity), 0, work.size - 1 - first);
+  if (n == 0) y = y - only(Pack::all(work.gravity), work.size - 1 - first);
   ((right.x - here.x) * inverse_mass).store(accelerations);
   y.store(accelerations + work.pitch);
 }

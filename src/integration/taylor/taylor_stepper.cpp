@@ -84,7 +84,6 @@ double TaylorStepper::longestAccurateStep() {
   // next = max(size[0] growth, size[1] growth², size[2] growth³, size[3] growth⁴)
   double next = 0.0;
   for (std::size_t back = 4; back-- > 0;) next = growth * std::max(next, size[back]);
-  statistics_.fastest_rate = order * ratio;
   if (next < kNoMotion) return kLongestStep;
   return std::clamp(root(allowed_rate_ * (order + 1) / next, order), kShortestStep, kLongestStep);
 }

@@ -2,7 +2,7 @@
 // of the motion from the state, without truncation error. Their size determines the step size, and
 // the series is summed at the end of the step.
 //
-// For a spring with separation d and approach w = d', the length L, the tension T and the force f
+// For a spring with separation d and relative velocity w = d', the length L, the tension T and the force f
 // are
 //
 //     L L = d·d      T = k_s (L - rest length) + k_d L'      u = T / L      f = u d

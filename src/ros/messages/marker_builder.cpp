@@ -3,6 +3,7 @@
 #include "ros/messages/state_builder.hpp"
 #include "ros/parameters/color.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
 
@@ -240,10 +241,7 @@ void MarkerBuilder::place(const PendulumRun& run, const State& state) {
     if (n == 0) continue;
     springs.push_back(particles[n - 1]);
     springs.push_back(particles[n]);
-    double length = 0.0;
-    for (Eigen::Index i = drawn_[n - 1]; i < drawn_[n]; ++i) {
-      length += (state.positions().row(i + 1) - state.positions().row(i)).norm();
-    }
+    const double length = springLengths(state, drawn_[n - 1], drawn_[n]);
     const auto thinned = static_cast<double>(drawn_[n] - drawn_[n - 1]);
     strains_.push_back(strainOf(length / thinned, run.chain().spring().rest_length));
   }

@@ -1,6 +1,7 @@
 #include "ros/messages/scene_view.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,12 +33,9 @@ Box intersection(const Box& a, const Box& b) {
 
 /// The larger of the length at the start and the sum of rest lengths, m; never 0.
 double reachOf(const Chain& chain, const State& start) {
-  const auto springs = static_cast<double>(chain.size() - 1);
-  double length = 0.0;
-  for (Eigen::Index i = 0; i + 1 < start.size(); ++i) {
-    length += (start.positions().row(i + 1) - start.positions().row(i)).norm();
-  }
-  const double reach = std::max(length, springs * chain.spring().rest_length);
+  const Eigen::Index springs = chain.size() - 1;
+  const double reach = std::max(springLengths(start, 0, springs),
+                                static_cast<double>(springs) * chain.spring().rest_length);
   return reach > 0.0 ? reach : 1.0;
 }
 

@@ -1,5 +1,7 @@
 #include "ros/messages/state_builder.hpp"
 
+#include <spring_pendulum/model/dynamics.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -11,12 +13,10 @@ double strainOf(double length, double rest_length) {
 
 double largestStretch(const Chain& chain, const State& state) {
   if (state.size() < 2) return 0.0;
-  const Eigen::Index springs = state.size() - 1;
-  const double longest =
-      (state.positions().bottomRows(springs) - state.positions().topRows(springs))
-          .rowwise()
-          .norm()
-          .maxCoeff();
+  double longest = 0.0;
+  for (Eigen::Index i = 0; i + 1 < state.size(); ++i) {
+    longest = std::max(longest, springLength(state, i));
+  }
   return strainOf(longest, chain.spring().rest_length);
 }
 

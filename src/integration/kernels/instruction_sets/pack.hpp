@@ -141,11 +141,9 @@ template <int kFirst, int... kLane>
   return numbers;
 }
 
-/// Returns the lanes begin <= lane < end of `pack`, and 0 in all others.
-[[gnu::always_inline]] inline Pack only(Pack pack, std::ptrdiff_t begin, std::ptrdiff_t end) {
-  const Pack lane = laneNumbers();
-  const Pack above = {lane.lanes < static_cast<double>(end) ? pack.lanes : Pack::Native{}};
-  return {lane.lanes >= static_cast<double>(begin) ? above.lanes : Pack::Native{}};
+/// Returns the first `count` lanes of `pack`, and 0 in all others.
+[[gnu::always_inline]] inline Pack only(Pack pack, std::ptrdiff_t count) {
+  return {laneNumbers().lanes < static_cast<double>(count) ? pack.lanes : Pack::Native{}};
 }
 
 }  // namespace

@@ -1,27 +1,27 @@
 // Whole steps of an explicit Runge-Kutta method in one pass over the chain, in place.
 //
-// Stage i of a block depends only on stage i-1 of that block and of its two neighbours. So all
-// stages move along the chain together, each some blocks behind the one before it, and the data
-// between them stays in the first-level cache. Each stage is split in two halves. The first ends
-// with the square root and the division; the second uses their result a tick later, so it does not
-// wait for the divider.
+// Stage i of a block depends only on stage i-1 of that block and of its two neighbours. So the
+// stages move along the chain as a wavefront, each some blocks behind the one before it, and the
+// data between them stays in the first-level cache. The loop is software pipelined: the first phase
+// of a stage ends with the square root and the division; the second uses their result in the next
+// iteration t, so it does not wait for the divider.
 //
-//     tick t:   stage 1 of blocks t and t-1,  stage 2 of t-3 and t-4,  ...  stage 4 of t-9 and t-10
+//     t:   stage 1 of blocks t and t-1,  stage 2 of t-3 and t-4,  ...,  stage 4 of t-9 and t-10
 //
-// The halves of one tick do not depend on each other. Here blocks are counted from the free end,
-// because the springs of a block need the block to the left, and its particles the springs to the
-// right. Short chains are kept in registers where these suffice. Chains whose workspace fits the
-// first-level cache complete each stage before the next.
+// Here blocks are counted from the free end, because the springs of a block need the block to the
+// left, and its particles the springs to the right. Short chains are kept in registers where these
+// suffice. Chains whose workspace fits the first-level cache complete each stage before the next.
+//
+// References: G. Wellein and others, COMPSAC 2009, 579-586, doi:10.1109/COMPSAC.2009.82
+// (wavefronts); M. Lam, PLDI 1988, 318-328, doi:10.1145/53990.54022 (software pipelining).
 #pragma once
 
 #include "integration/kernels/block.hpp"
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/fast_tableaus.hpp"
 #include "integration/kernels/weights_of.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 
 #include <cstddef>
-#include <iterator>
 #include <utility>
 
 namespace spring_pendulum {
@@ -30,10 +30,10 @@ namespace {
 /// The tableau is a template parameter, so the compiler knows which coefficients are zero. The
 /// weights, which contain the step size, are known only at run time.
 template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kDissipation>
-class Conveyor {
+class StagePipeline {
  public:
-  Conveyor(const KernelChain& chain, const StepWeights& weights, double* state, double* dissipated,
-           double* workspace)
+  StagePipeline(const KernelChain& chain, const StepWeights& weights, double* state,
+                double* dissipated, double* workspace)
       : chain_(chain),
         weights_(weights),
         state_(state),
@@ -62,13 +62,13 @@ class Conveyor {
 
   static constexpr std::ptrdiff_t kShortBlocks = kLanes == 8 ? 4 : 5;  ///< unrolled up to there
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
-  /// Ticks between the halves of a stage, so that about four halves of other stages run meanwhile.
+  /// Iterations between the phases of a stage; about four phases of other stages run meanwhile.
   static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
-  static constexpr std::ptrdiff_t kLead = 4;  ///< the same in blocks, where one stage runs alone
+  static constexpr std::ptrdiff_t kLead = 4;  ///< blocks between them where one stage runs alone
   static_assert(kShortBlocks + 1 > kLead, "wholeStage needs more than kLead blocks");
   static constexpr std::ptrdiff_t kBlocksBetweenStages = kLag + 2;
-  /// Ticks until the last stage finishes its first block.
-  static constexpr std::ptrdiff_t kFill = kBlocksBetweenStages * (kStages - 1) + kLag;
+  /// Iterations until the last stage finishes its first block.
+  static constexpr std::ptrdiff_t kPrologue = kBlocksBetweenStages * (kStages - 1) + kLag;
   static constexpr std::ptrdiff_t kBlockNumbers = 4 * kLanes;
 
   /// Whether a stage later than j + 1 needs slope j.
@@ -85,7 +85,7 @@ class Conveyor {
     }
     return false;
   }
-  /// Results of the first half of a stage.
+  /// Results of the first phase of a stage.
   struct Springs {
     PlaneVector<Pack> separation;
     Pack inverse_length, dot;
@@ -99,14 +99,14 @@ class Conveyor {
       Pack{}.store(forcesOf(i));
       Pack{}.store(forcesOf(i) + kLanes);
     }
-    std::ptrdiff_t tick = 0;
-    for (; tick <= kFill; ++tick) (halves<kStage>(tick), ...);
-    for (; tick < blocks_ - 1; ++tick) (innerHalves<kStage>(tick), ...);
-    for (; tick < blocks_ + kFill; ++tick) (halves<kStage>(tick), ...);
+    std::ptrdiff_t t = 0;
+    for (; t <= kPrologue; ++t) (iterateAtEnd<kStage>(t), ...);
+    for (; t < blocks_ - 1; ++t) (iterateInside<kStage>(t), ...);
+    for (; t < blocks_ + kPrologue; ++t) (iterateAtEnd<kStage>(t), ...);
   }
 
-  /// Steps that complete each stage before the next. The last `kLead` second halves of a stage
-  /// alternate with the first halves of the next one.
+  /// Steps that complete each stage before the next. The last `kLead` second phases of a stage
+  /// alternate with the first phases of the next one.
   template <std::size_t... kStage>
   [[gnu::always_inline]] void wholeSteps(std::ptrdiff_t steps,
                                          std::index_sequence<kStage...> /*stages*/) {
@@ -209,22 +209,23 @@ class Conveyor {
     }
   }
 
+  /// The phases of a stage in iteration t, where the stage may be past an end of the chain.
   template <std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void halves(std::ptrdiff_t tick) {
-    const std::ptrdiff_t turn = tick - kBlocksBetweenStages * kStage;
-    const std::ptrdiff_t block = blocks_ - 1 - turn;
-    if (turn >= kLag && turn - kLag < blocks_) finish<kStage, false>(block + kLag);
-    if (turn >= 0 && turn < blocks_) begin<kStage, Memory::kRings, false>(block);
+  [[gnu::always_inline]] void iterateAtEnd(std::ptrdiff_t t) {
+    const std::ptrdiff_t begun = t - kBlocksBetweenStages * kStage;  // blocks before this one
+    const std::ptrdiff_t block = blocks_ - 1 - begun;
+    if (begun >= kLag && begun - kLag < blocks_) finish<kStage, false>(block + kLag);
+    if (begun >= 0 && begun < blocks_) begin<kStage, Memory::kRings, false>(block);
   }
 
   template <std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void innerHalves(std::ptrdiff_t tick) {
-    const std::ptrdiff_t block = blocks_ - 1 - tick + kBlocksBetweenStages * kStage;
+  [[gnu::always_inline]] void iterateInside(std::ptrdiff_t t) {
+    const std::ptrdiff_t block = blocks_ - 1 - t + kBlocksBetweenStages * kStage;
     finish<kStage, true>(block + kLag);
     begin<kStage, Memory::kRings, true>(block);
   }
 
-  /// First half of a stage: separations and inverse lengths of the springs.
+  /// First phase of a stage: separations and inverse lengths of the springs.
   /// \tparam kInner whether there is a block to the left
   template <std::ptrdiff_t kStage, Memory kMemory, bool kInner>
   [[gnu::always_inline]] void begin(std::ptrdiff_t block) {
@@ -243,11 +244,12 @@ class Conveyor {
     Springs springs{};
     springs.separation = separationsOf(left, here);
     springs.inverse_length = inverseSquareRoot(squaredLength(springs.separation));
-    if constexpr (kDamped) springs.dot = dotProduct(approachesOf(left, here), springs.separation);
+    if constexpr (kDamped)
+      springs.dot = dotProduct(relativeVelocitiesOf(left, here), springs.separation);
     return springs;
   }
 
-  /// Second half of a stage: forces, slope, and the state of the next stage or the end of the step.
+  /// Second phase of a stage: forces, slope, and the state of the next stage or the end of the step.
   /// \tparam kInner whether there is a block to the right
   template <std::ptrdiff_t kStage, bool kInner>
   [[gnu::always_inline]] void finish(std::ptrdiff_t block) {
@@ -357,44 +359,6 @@ class Conveyor {
   double* const workspace_;
   const std::ptrdiff_t blocks_;
 };
-
-template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kDissipation>
-void advance(const KernelChain& chain, const StepWeights& weights, std::ptrdiff_t steps,
-             double* state, double* dissipated, double* workspace) {
-  // Adding a gravity of 0 changes no bit and costs little time; this saves a compiled variant.
-  using Short = Conveyor<kTableau, kDamped, true, kDissipation>;
-  if (Short::isShort(chain)) {
-    return Short(chain, weights, state, dissipated, workspace).advanceShort(steps);
-  }
-  Conveyor<kTableau, kDamped, kGravity, kDissipation>(chain, weights, state, dissipated, workspace)
-      .advance(steps);
-}
-
-template <const ButcherTableau& kTableau>
-AdvanceKernel advanceKernelFor(StepNeeds needs) {
-  if (!needs.damping) {
-    return needs.gravity ? advance<kTableau, false, true, false>
-                         : advance<kTableau, false, false, false>;
-  }
-  if (needs.dissipation) {
-    return needs.gravity ? advance<kTableau, true, true, true>
-                         : advance<kTableau, true, false, true>;
-  }
-  return needs.gravity ? advance<kTableau, true, true, false>
-                       : advance<kTableau, true, false, false>;
-}
-
-template <std::size_t... kIndex>
-AdvanceKernel advanceKernelAt(std::size_t tableau, StepNeeds needs,
-                              std::index_sequence<kIndex...> /*tableaus*/) {
-  AdvanceKernel kernel = nullptr;
-  ((kernel = kIndex == tableau ? advanceKernelFor<*kFastTableaus[kIndex]>(needs) : kernel), ...);
-  return kernel;
-}
-
-AdvanceKernel advanceKernel(std::size_t tableau, StepNeeds needs) {
-  return advanceKernelAt(tableau, needs, std::make_index_sequence<std::size(kFastTableaus)>());
-}
 
 }  // namespace
 }  // namespace spring_pendulum
