@@ -1,5 +1,4 @@
 // Tables in the documents agree with the code and with the measured results.
-#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
@@ -55,23 +54,6 @@ std::string replaced(std::string text, char from, const std::string& to) {
     text.replace(at, 1, to);
   }
   return text;
-}
-
-/// "| `--time-step SECONDS` | integration step size | s | 0.01 |"
-std::string documentedRow(const Option& option) {
-  const std::string value = option.isFlag() ? "" : " " + option.placeholder();
-  return fmt::format("| `--{}{}` | {} | {} | {} |", replaced(std::string(option.key), '_', "-"),
-                     replaced(value, '|', "\\|"), option.meaning, option.unit,
-                     option.isFlag() ? "" : option.text());
-}
-
-TEST(Documents, ListTheOptionsOfTheTable) {
-  const auto rows = tableRows("docs/exercise3.md", "| option | meaning | unit | default |");
-  Scenario defaults;
-  for (const Option& option : scenarioOptions(defaults)) {
-    if (option.key == "method") continue;  // the first argument
-    EXPECT_THAT(rows, testing::Contains(documentedRow(option))) << "add this row to the document";
-  }
 }
 
 std::string textOf(const std::string& path) {

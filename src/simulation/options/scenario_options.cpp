@@ -31,9 +31,9 @@ std::vector<Option> scenarioOptions(Scenario& s) {
   constexpr auto kFixedStep = AppliesTo::kFixedStep;
   constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
   return {
-      {"method", MethodName{&s.method}, "", "integration method"},
+      {"method", MethodName{&s.method}, "", "integration method, one of Exercise3 --list-methods"},
       {"particles", Text{&s.particles, "FILE", "a file"}, "",
-       "particle file, one line 'x y m' per particle"},
+       "particle file, one line 'x y m' per particle; the first particle is fixed"},
       {"output", Text{&s.output, "DIR", "a folder"}, "",
        "folder for the frame files, created if absent"},
       {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
@@ -43,7 +43,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
        "after a divergence: stop, or continue as long as every number is finite"},
       {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",
        "measure the position error against a reference run: while it is cheap, to the end, or "
-       "never"},
+       "never; the frames do not depend on it"},
       {"frames", Count{&s.frames, Range::atLeast(1)}, "", "number of frames, including the start"},
       {"steps_per_frame", Count{&s.steps_per_frame, Range::atLeast(1)}, "",
        "integration steps per frame", kFixedStep},
@@ -57,11 +57,11 @@ std::vector<Option> scenarioOptions(Scenario& s) {
       {"damping", Number{&s.damping, Range::atLeast(0)}, "N·s/m", "damping constant k_d"},
       {"rest_length", Number{&s.rest_length, Range::atLeast(0)}, "m",
        "length L_0 of an unloaded spring"},
-      {"gravity", Number{&s.gravity, Range::any()}, "m/s²", "gravity g, pointing down"},
+      {"gravity", Number{&s.gravity, Range::any()}, "m/s²", "gravity g (points down)"},
       {"wanted_error", Number{&s.wanted_error, Range::atLeast(0)}, "m",
-       "with --check: position error to find the cheapest method for; 0: none"},
+       "position error for which --check finds the cheapest method; 0: none"},
       {"threads", Count{&s.threads, Range::atLeast(0)}, "",
-       "largest number of threads; 0: one per processor core"},
+       "largest number of threads; 0: one per processor core; results do not depend on it"},
       {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",
        "do not integrate while all particles stay slower than this; 0: always integrate"},
   };
