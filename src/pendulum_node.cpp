@@ -27,6 +27,7 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kLastMessages = 0.5;  // s, for sending the last messages
+constexpr double kLastDeletion = 0.1;  // s, for sending the deletion of the markers
 
 /// The frame loop: advances the run, writes the frame, and publishes the state.
 void play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& files, RunLog& log,
@@ -106,6 +107,8 @@ int runNode() {
   log.finish(run, totals, files, publisher);
 
   if (interruption() == 0 && ros::ok()) ros::WallDuration(kLastMessages).sleep();
+  publisher.clear();
+  if (ros::ok()) ros::WallDuration(kLastDeletion).sleep();
   return run.verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 

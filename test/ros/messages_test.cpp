@@ -68,6 +68,74 @@ TEST(Markers, GridHasFewLinesFarFromTheOrigin) {
   }
 }
 
+TEST(Markers, GridIsBoundedAtExtremeLengths) {
+  for (const double length : {5e-324, 1e-320, 1e-300, 1e150, 1e300, 1.7e308}) {
+    Particles scene = horizontal(2);
+    scene.state.x()[1] = length;
+    Scenario scenario;
+    scenario.rest_length = scenario.stiffness = scenario.gravity = 0.0;
+    const PendulumRun run(scenario, scene, false, 0.0);
+    EXPECT_LT(markersOf(run, NodeOptions{}).markers[5].points.size(), 400U) << length;
+  }
+}
+
+TEST(Markers, ADivergedChainInItsOwnColourIsBroken) {
+  Scenario scenario;
+  scenario.method = findMethod("Euler");
+  scenario.damping = 0.0;
+  scenario.time_step = 0.5;
+  PendulumRun run(scenario, horizontal(3), false, 0.0);
+  NodeOptions options;
+  options.color = "#ff8000";
+  MarkerBuilder builder(run, options);
+  ShownState shown;
+  shown.follow(run);
+  const std_msgs::Header header;
+  EXPECT_EQ(builder.build(run, shown, header, "").markers[0].points.size(), 4U);
+  while (!run.isOver()) run.advance(false);
+  ASSERT_EQ(run.verdict().kind, VerdictKind::kDiverged);
+  const auto& springs = builder.build(run, shown, header, "").markers[0];
+  ASSERT_EQ(springs.points.size(), 8U);  // each spring in two pieces
+  EXPECT_DOUBLE_EQ(springs.points[1].x, 0.3);
+  EXPECT_DOUBLE_EQ(springs.points[2].x, 0.7);
+  EXPECT_EQ(springs.colors.size(), 8U);
+  for (const auto& color : springs.colors) EXPECT_EQ(rgba(color), rgba(*parseColor("#ff8000")));
+}
+
+TEST(Markers, RowsOfTextStartAtTheSameEdgeOfThePicture) {
+  std::vector<double> starts;
+  for (const char* method : {"Euler", "Runge-Kutta-4"}) {
+    Scenario scenario;
+    scenario.method = findMethod(method);
+    const PendulumRun run(scenario, horizontal(3), false, 0.0);
+    NodeOptions options;
+    options.text_rows = 2;
+    options.text_row = static_cast<std::int64_t>(starts.size());
+    const auto text = markersOf(run, options).markers[4];
+    EXPECT_EQ(text.header.frame_id, options.camera_frame);
+    EXPECT_EQ(text.text.rfind(method, 0), 0U);
+    // Measured in pictures of rviz: 0.49 text heights per character of these texts.
+    const double width = 0.49 * text.scale.z * static_cast<double>(text.text.size());
+    starts.push_back(text.pose.position.y + 0.5 * width);
+  }
+  EXPECT_GT(starts[0], 0.0);
+  EXPECT_NEAR(starts[0], starts[1], 0.02 * starts[0]);
+}
+
+TEST(Markers, OnlyTheFirstRowMovesTheCamera) {
+  const PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  NodeOptions options;
+  options.text_rows = 2;
+  for (const int row : {0, 1}) {
+    options.text_row = row;
+    MarkerBuilder builder(run, options);
+    ShownState shown;
+    shown.follow(run);
+    builder.build(run, shown, std_msgs::Header(), "");
+    EXPECT_EQ(builder.cameraChanges(), row == 0 ? 1 : 0);
+  }
+}
+
 TEST(Markers, SpringsAreColouredByStrainAndParticlesByMass) {
   Particles scene = horizontal(4);
   scene.state.x()[2] = 1.5;  // springs of 1, 0.5 and 3.5 m
@@ -121,10 +189,11 @@ TEST(Markers, TheReferenceIsASecondChainOnRequest) {
   NodeOptions options;
   options.show_reference = true;
   const auto markers = markersOf(run, options).markers;
-  ASSERT_EQ(markers.size(), 7U);
   ASSERT_NE(run.referenceState(), nullptr);
   ASSERT_EQ(markers[6].points.size(), 4U);
   EXPECT_EQ(markers[6].points[3].z, run.referenceState()->y()[2]);
+  // Otherwise the one that an earlier run has left is deleted.
+  EXPECT_EQ(markersOf(run, NodeOptions{}).markers[6].action, visualization_msgs::Marker::DELETE);
 }
 
 TEST(Markers, SlowMotionShowsStatesBetween) {
@@ -222,6 +291,12 @@ TEST(Parameters, EveryOptionReadsItsOwnDefault) {
     option.assign(text);
     EXPECT_EQ(option.text(), text) << option.key;
   }
+}
+
+TEST(Colors, OverstretchedSpringsDiffer) {
+  const auto full = strainColor(1.0), twice = strainColor(2.0), more = strainColor(8.0);
+  EXPECT_GT(full.r, twice.r + 0.1F);
+  EXPECT_GT(twice.r, more.r + 0.2F);
 }
 
 TEST(Colors, OnlyHexIsRead) {

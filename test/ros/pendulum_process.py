@@ -101,14 +101,18 @@ class PendulumNode:
 
 
 class Listener:
-    """Keeps all messages of a topic."""
+    """Keeps all messages of a topic. The deletion of all markers at the end is not kept, only noted."""
 
     def __init__(self, topic, message_type, keep=None):
         self.messages = []
+        self.deleted = False
         self.subscriber = rospy.Subscriber(topic, message_type, self._take)
         self.keep = keep
 
     def _take(self, message):
+        if hasattr(message, 'markers') and message.markers[0].action == 3:
+            self.deleted = True
+            return
         self.messages.append(message)
         if self.keep and len(self.messages) > self.keep:
             del self.messages[0]

@@ -13,7 +13,8 @@ from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
-from pendulum_process import Folder, Listener, PendulumNode, project, read_frames, run_exercise
+from pendulum_process import Folder, Listener, PendulumNode, project, read_frames, run_exercise, \
+    wait_until
 
 HORIZONTAL = project('data/horizontal_11.txt')
 
@@ -69,8 +70,8 @@ class Topics(unittest.TestCase):
         markers = self.listen('markers', MarkerArray)
         with PendulumNode(frames=5, wait_for_subscribers=1) as node:
             self.assertEqual(node.wait(), 0, node.output())
-        self.assertEqual(len(markers.wait_for(5)[-1].markers), 6)
-        names = ['springs', 'particles', 'anchor', 'trail', 'text', 'grid']
+        self.assertEqual(len(markers.wait_for(5)[-1].markers), 7)
+        names = ['springs', 'particles', 'anchor', 'trail', 'text', 'grid', 'reference']
         for message in markers.messages:
             self.assertEqual([m.ns for m in message.markers], names)
             for marker in message.markers:
@@ -78,6 +79,16 @@ class Topics(unittest.TestCase):
         text = markers.messages[-1].markers[4].text
         for part in ('finished', 'Runge-Kutta-4', '0.01 s', 't = 0.40 s', 'energy error', 'ok'):
             self.assertIn(part, text)
+
+    def test_markers_are_deleted_when_the_node_ends(self):
+        for at_end in ('exit', 'hold'):
+            markers = self.listen('markers', MarkerArray)
+            with PendulumNode(frames=3, wait_for_subscribers=1, at_end=at_end) as node:
+                markers.wait_for_any(lambda m: 'finished' in m.markers[4].text)
+                if at_end == 'hold':
+                    node.interrupt()
+                self.assertEqual(node.wait(), 0, node.output())
+            wait_until(lambda: markers.deleted, 'the deletion')
 
     def check_marker(self, marker):
         self.assertEqual((marker.id, marker.lifetime.to_sec()), (0, 0.0))

@@ -1,6 +1,7 @@
 #include "ros/messages/marker_builder.hpp"
 
 #include "ros/messages/state_builder.hpp"
+#include "ros/messages/text_width.hpp"
 #include "ros/parameters/color.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
@@ -26,9 +27,16 @@ constexpr double kSpringWidth = 0.35;    ///< in diameters
 constexpr double kLeastWidth = 0.0035;
 constexpr int kTextLines = 3;  ///< lines of text if only one chain is shown
 constexpr double kGridWidth = 0.0015;
-constexpr double kReferenceDepth = 0.004;
-constexpr double kGridDepth = 0.02;  ///< distance behind the plane of the motion
-constexpr double kGridReach = 1.5;   ///< in widths of the scene, for wide windows
+constexpr double kRowText = 0.8;   ///< height of the text if several chains are shown
+constexpr double kRowWidth = 0.7;  ///< a chain behind another one is this much wider, for every row
+/// Distance of springs, and of the next row's chain, behind the particles, in diameters: rviz draws a
+/// particle as a disc that faces the camera, so it is tilted by up to 28 degrees.
+constexpr double kDepth = 0.3;
+// In sizes of the picture, behind the plane of the motion:
+constexpr double kReferenceDepth = 0.015;
+constexpr double kGridDepth = 0.02;
+constexpr double kMostGridLines = 100.0;  ///< in each direction; measured: 86
+constexpr double kGridReach = 1.5;        ///< in widths of the scene, for wide windows
 
 /// Returns the strain shown in full colour: twice the strain of the first spring of the hanging
 /// chain.
@@ -112,54 +120,81 @@ MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
   markers_.markers = {
       emptyMarker("springs", Marker::LINE_LIST),     emptyMarker("particles", Marker::SPHERE_LIST),
       emptyMarker("anchor", Marker::CUBE),           emptyMarker("trail", Marker::LINE_STRIP),
-      emptyMarker("text", Marker::TEXT_VIEW_FACING), emptyMarker("grid", Marker::LINE_LIST)};
-  if (options.show_reference) {
-    markers_.markers.push_back(emptyMarker("reference", Marker::LINE_LIST));
-    markers_.markers[kReference].color.a = 0.4F;
-  }
+      emptyMarker("text", Marker::TEXT_VIEW_FACING), emptyMarker("grid", Marker::LINE_LIST),
+      emptyMarker("reference", Marker::LINE_LIST)};
+  markers_.markers[kReference].color.a = 0.4F;
   markers_.markers[kAnchor].color = anchorColor();
   markers_.markers[kAnchor].pose.position = pointOf(run.start(), 0);
   // rviz blends a line only if the colour of the marker is not opaque.
-  markers_.markers[kTrail].color.a = 0.5F;
+  markers_.markers[kTrail].color.a = 0.9F;
   markers_.markers[kGrid].color = gridColor();
   if (!options.color.empty()) markers_.markers[kText].color = *parseColor(options.color);
 }
 
 void MarkerBuilder::frame(const PendulumRun& run, const State& state) {
   const bool drawable = run.isFinite() && run.isShown();
+  // The other rows keep to the view of the first one.
+  const bool may_widen = drawable && isFirstRow();
   if (!view_) {
     view_.emplace(run, textLines());
-    if (drawable) view_->follow(state);
-  } else if (!drawable || !view_->follow(state)) {
+    if (may_widen) view_->follow(state);
+  } else if (!may_widen || !view_->follow(state)) {
     return;
   }
-  ++camera_changes_;
+  if (isFirstRow()) ++camera_changes_;
   const double size = view_->size();
   const double diameter = std::clamp(kDiameterShare * size / static_cast<double>(drawn_.size()),
                                      kLeastDiameter * size, kLargestDiameter * size);
   const double width = std::max(kSpringWidth * diameter, kLeastWidth * size);
-  setScale(markers_.markers[kSprings], width);
+  const auto row = static_cast<double>(options_.text_row);
+  setScale(markers_.markers[kSprings], width * (1.0 + kRowWidth * row));
   setScale(markers_.markers[kParticles], diameter);
   setScale(markers_.markers[kAnchor], 1.5 * diameter);
-  if (options_.show_reference) setScale(markers_.markers[kReference], width);
+  markers_.markers[kAnchor].scale.y = 0.01 * diameter;  // flat: its underside would be black
+  markers_.markers[kAnchor].pose.position.y = options_.y_offset - kDepth * diameter;
+  setScale(markers_.markers[kReference], width);
   setScale(markers_.markers[kTrail], 0.5 * width);
   setScale(markers_.markers[kGrid], kGridWidth * size);
-  setScale(markers_.markers[kText], view_->textHeight());
+  setScale(markers_.markers[kText],
+           view_->textHeight() * (options_.text_rows > 1 ? kRowText : 1.0));
+  markers_.markers[kParticles].pose.position.y = row * kDepth * diameter;
+  for (const MarkerIndex line : {kSprings, kTrail}) {
+    markers_.markers[line].pose.position.y = (row + 1.0) * kDepth * diameter;
+  }
   drawGrid();
 }
 
 void MarkerBuilder::placeText() {
   auto& text = markers_.markers[kText];
-  const auto lines = 1 + std::count(text.text.begin(), text.text.end(), '\n');
-  const double line = static_cast<double>(options_.text_row) + 0.5 * static_cast<double>(lines);
+  if (options_.text_rows > 1) {
+    placeRow(text);
+    return;
+  }
+  const auto lines = static_cast<double>(1 + std::count(text.text.begin(), text.text.end(), '\n'));
   text.pose.position = pointAt(view_->box().centerX(), options_.y_offset,
-                               view_->box().top + line * view_->lineDistance());
+                               view_->box().top + 0.5 * lines * view_->lineDistance());
+}
+
+/// Places a row of text at the upper left edge of the picture, wherever the camera is: rows of several
+/// nodes keep their distance from each other.
+void MarkerBuilder::placeRow(visualization_msgs::Marker& text) const {
+  const double width = textWidth(text.text) * text.scale.z;
+  const double right = 0.5 * width - view_->rowReach();
+  const double rows_above = static_cast<double>(options_.text_rows - options_.text_row) - 0.5;
+  const double up = view_->halfHeight() - rows_above * view_->lineDistance();
+  if (options_.camera_frame.empty()) {
+    text.pose.position =
+        pointAt(view_->box().centerX() + right, options_.y_offset, view_->cameraHeight() + up);
+  } else {
+    text.header.frame_id = options_.camera_frame;
+    text.pose.position = pointAt(view_->cameraDistance(), -right, up);
+  }
 }
 
 void MarkerBuilder::drawGrid() {
   auto& grid = markers_.markers[kGrid];
   grid.points.clear();
-  if (options_.text_row != 0) return;  // the node of the first row draws the grid
+  if (!isFirstRow()) return;
   const Box& box = view_->box();
   const double distance = view_->gridDistance(), size = view_->size();
   const double y = options_.y_offset + kGridDepth * size;
@@ -167,7 +202,10 @@ void MarkerBuilder::drawGrid() {
   const double bottom = distance * std::floor((box.bottom - 0.5 * size) / distance);
   const double right = box.right + kGridReach * size, top = box.top + 0.5 * size;
   // Counted in integers: far from the origin, x + distance rounds to x.
-  const double columns = (right - left) / distance, rows = (top - bottom) / distance;
+  const auto count = [&](double length) {
+    return length / distance < kMostGridLines ? static_cast<int>(length / distance) : 0;
+  };
+  const int columns = count(right - left), rows = count(top - bottom);
   for (int column = 0; column <= columns; ++column) {
     const double x = left + column * distance;
     grid.points.push_back(pointAt(x, y, bottom));
@@ -219,7 +257,7 @@ const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& r
   if (run.isFinite() && run.isShown()) place(run, shown.state());
   if (placed_) paint(run);
   drawTrail(shown);
-  if (options_.show_reference) drawReference(run);
+  drawReference(run);
   label(run, shown.time(), pace);
   placeText();
   for (const MarkerIndex list : {kSprings, kParticles, kTrail, kGrid}) {
@@ -250,7 +288,7 @@ void MarkerBuilder::place(const PendulumRun& run, const State& state) {
 void MarkerBuilder::drawReference(const PendulumRun& run) {
   auto& reference = markers_.markers[kReference];
   reference.points.clear();
-  const State* state = run.referenceState();
+  const State* state = options_.show_reference ? run.referenceState() : nullptr;
   if (state != nullptr && state->size() == run.state().size() && state->values().allFinite()) {
     for (std::size_t n = 1; n < drawn_.size(); ++n) {
       reference.points.push_back(pointOf(*state, drawn_[n - 1]));
@@ -263,21 +301,40 @@ void MarkerBuilder::drawReference(const PendulumRun& run) {
 }
 
 std_msgs::ColorRGBA MarkerBuilder::springColor(const PendulumRun& run, std::size_t spring) const {
-  if (run.verdict().kind == VerdictKind::kDiverged) return divergedColor();
   if (!options_.color.empty()) return *parseColor(options_.color);
+  if (run.verdict().kind == VerdictKind::kDiverged) return divergedColor();
   if (isBad(run.verdict().kind)) return doubtColor();
   return strainColor(strains_[spring] / full_color_strain_);
+}
+
+/// Marks a diverged chain that keeps its colour: its springs have gaps.
+void MarkerBuilder::breakSprings() {
+  constexpr double kEnd = 0.3;  ///< length of the rest at each end, in lengths of the spring
+  const auto& particles = markers_.markers[kParticles].points;
+  auto& springs = markers_.markers[kSprings].points;
+  springs.clear();
+  for (std::size_t n = 1; n < particles.size(); ++n) {
+    const geometry_msgs::Point &from = particles[n - 1], &to = particles[n];
+    const double dx = kEnd * (to.x - from.x), dz = kEnd * (to.z - from.z);
+    for (const auto& point : {from, pointAt(from.x + dx, from.y, from.z + dz),
+                              pointAt(to.x - dx, to.y, to.z - dz), to}) {
+      springs.push_back(point);
+    }
+  }
 }
 
 void MarkerBuilder::paint(const PendulumRun& run) {
   auto& springs = markers_.markers[kSprings];
   auto& particles = markers_.markers[kParticles];
+  const bool diverged = run.verdict().kind == VerdictKind::kDiverged;
+  if (diverged && !options_.color.empty()) breakSprings();
   springs.colors.clear();
   for (std::size_t spring = 0; spring < strains_.size(); ++spring) {
-    springs.colors.insert(springs.colors.end(), 2, springColor(run, spring));
+    const std::size_t points = springs.points.size() / strains_.size();
+    springs.colors.insert(springs.colors.end(), points, springColor(run, spring));
   }
   particles.colors.assign(particles.points.size(), divergedColor());
-  if (run.verdict().kind != VerdictKind::kDiverged && particles.points.size() > 1) {
+  if ((!diverged || !options_.color.empty()) && particles.points.size() > 1) {
     particles.colors = mass_colors_;
   }
 }
@@ -290,9 +347,9 @@ void MarkerBuilder::drawTrail(const ShownState& shown) {
     if (point.time > shown.time()) break;
     trail.points.push_back(point.point);
     std_msgs::ColorRGBA color =
-        options_.color.empty() ? mass_colors_.back() : *parseColor(options_.color);
+        options_.color.empty() ? lighter(mass_colors_.back()) : *parseColor(options_.color);
     const double age = (trail_.back().time - point.time) / options_.trail;
-    color.a = static_cast<float>(std::max(0.7 * (1.0 - age), 0.02));
+    color.a = static_cast<float>(std::max(0.9 * (1.0 - age), 0.02));
     trail.colors.push_back(color);
   }
 }
@@ -317,7 +374,8 @@ void MarkerBuilder::label(const PendulumRun& run, double time, const std::string
   }
   std::string& text = markers_.markers[kText].text;
   if (options_.text_rows > 1) {
-    text = joined({scenario.method.get().name + ": " + clock, position, error, verdict});
+    text = joined(
+        {scenario.method.get().name + ": " + clock, position.empty() ? error : position, verdict});
     return;
   }
   text = joined({scenario.method.get().name,

@@ -1,8 +1,9 @@
-// The chain as rviz markers: six for any length, and optionally one for the reference.
+// The chain as rviz markers: seven for any length.
 //
 // Springs are one LINE_LIST coloured by strain, particles one SPHERE_LIST coloured by mass. rviz
 // draws such a list in one batch; with one marker per particle it is unusable. Every marker has a
-// fixed namespace and id, so each message replaces the previous one. A long chain is thinned for
+// fixed namespace and id, so each message replaces the previous one, also that of another run; what is
+// not drawn is deleted. A long chain is thinned for
 // display, which the text mentions.
 #pragma once
 
@@ -39,7 +40,7 @@ class MarkerBuilder {
 
   /// Pose of a camera that shows the whole scene: x forward, z up. Valid after `build`.
   geometry_msgs::TransformStamped camera(const std_msgs::Header& header) const;
-  /// Number of camera moves by `build`.
+  /// Number of camera moves by `build`; always 0 for a chain that is not in the first row of text.
   int cameraChanges() const { return camera_changes_; }
 
  private:
@@ -48,12 +49,15 @@ class MarkerBuilder {
     geometry_msgs::Point point;
   };
 
+  bool isFirstRow() const { return options_.text_row == 0; }
   int textLines() const;
   void frame(const PendulumRun& run, const State& state);
   void placeText();
+  void placeRow(visualization_msgs::Marker& text) const;
   void drawGrid();
   geometry_msgs::Point pointOf(const State& state, Eigen::Index i) const;
   void place(const PendulumRun& run, const State& state);
+  void breakSprings();
   void paint(const PendulumRun& run);
   void drawReference(const PendulumRun& run);
   void drawTrail(const ShownState& shown);

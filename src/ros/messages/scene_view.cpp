@@ -13,6 +13,7 @@ constexpr double kAspect = 1.3;         ///< least ratio of width to height of t
 constexpr double kMargin = 0.05;        ///< around the scene, in sizes of the picture
 constexpr double kTextHeight = 0.04;    ///< in sizes of the picture
 constexpr double kLineDistance = 1.35;  ///< in text heights
+constexpr double kRowReach = 1.2;       ///< in half heights; the window of rviz is 1.27 wide
 constexpr double kGridLines = 8.0;      ///< least number in the height of the picture
 const double kHalfViewTangent = std::sqrt(2.0) - 1.0;  ///< tan of rviz's half angle, 22.5 degrees
 
@@ -147,9 +148,16 @@ double SceneView::cameraHeight() const {
   return 0.5 * (box_.bottom + box_.top + text_lines_ * lineDistance());
 }
 
+double SceneView::halfHeight() const {
+  return 0.5 * std::max(box_.height() + text_lines_ * lineDistance(), box_.width() / kAspect);
+}
+
+double SceneView::rowReach() const {
+  return kRowReach * halfHeight();
+}
+
 double SceneView::cameraDistance() const {
-  const double height = box_.height() + text_lines_ * lineDistance();
-  return 0.5 * std::max(height, box_.width() / kAspect) / kHalfViewTangent;
+  return halfHeight() / kHalfViewTangent;
 }
 
 }  // namespace spring_pendulum

@@ -34,6 +34,10 @@ class SceneView {
   /// Size of the picture in m: the unit of line widths and text heights.
   double size() const;
   double textHeight() const;
+  /// Half the height of the picture in the plane, with the text, m.
+  double halfHeight() const;
+  /// Distance of the left edge of rows of text from the middle, m.
+  double rowReach() const;
   /// Distance of the lines of text, m.
   double lineDistance() const;
   /// Distance of the grid lines, m: 1, 2 or 5 times a power of ten.

@@ -148,6 +148,16 @@ void Publisher::publishMarkers(const PendulumRun& run, const std_msgs::Header& h
   ++markers_built_;
 }
 
+void Publisher::clear() {
+  if (markers_.getNumSubscribers() == 0) return;
+  visualization_msgs::MarkerArray nothing;
+  nothing.markers.resize(1);
+  nothing.markers.front().header.frame_id = frame_id_;
+  nothing.markers.front().header.stamp = stamps_.next(0.0);
+  nothing.markers.front().action = visualization_msgs::Marker::DELETEALL;
+  markers_.publish(nothing);
+}
+
 bool Publisher::isNew(const PendulumStatus& status) const {
   return !status_sent_ || status.code != status_.code || status.text != status_.text;
 }

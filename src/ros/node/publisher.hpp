@@ -44,6 +44,9 @@ class Publisher {
   /// Publishes only the markers, for a state between the last two.
   void publishBetween(const PendulumRun& run, const Showing& showing);
 
+  /// Removes the markers from rviz, which keeps them when the node has ended.
+  void clear();
+
   std::int64_t markersBuilt() const { return markers_built_; }
   std::int64_t statesBuilt() const { return states_built_; }
 

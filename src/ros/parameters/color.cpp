@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 
 namespace spring_pendulum {
@@ -41,7 +42,9 @@ std_msgs::ColorRGBA strainColor(double strain) {
   static const std_msgs::ColorRGBA kShort = fromHex(0x2f7bff);
   static const std_msgs::ColorRGBA kRelaxed = fromHex(0xf2f2f2);
   static const std_msgs::ColorRGBA kStretched = fromHex(0xff3b20);
-  return mix(kRelaxed, strain < 0.0 ? kShort : kStretched, strain < 0.0 ? -strain : strain);
+  static const std_msgs::ColorRGBA kOverstretched = fromHex(0x8c0a32);
+  if (strain > 1.0) return mix(kStretched, kOverstretched, std::log2(strain) / 3.0);
+  return mix(kRelaxed, strain < 0.0 ? kShort : kStretched, std::abs(strain));
 }
 
 std_msgs::ColorRGBA massColor(double weight) {

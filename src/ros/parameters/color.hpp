@@ -12,7 +12,7 @@ namespace spring_pendulum {
 std::optional<std_msgs::ColorRGBA> parseColor(std::string_view text);
 
 /// Blue for a compressed spring, white for an unloaded spring, red for a stretched spring.
-/// \param strain -1 and below: full blue; 0: white; 1 and above: full red
+/// \param strain -1 and below: full blue; 0: white; 1: full red; 8 and above: dark red
 std_msgs::ColorRGBA strainColor(double strain);
 
 /// From pale yellow (light) to violet (heavy).
@@ -25,7 +25,7 @@ std_msgs::ColorRGBA lighter(const std_msgs::ColorRGBA& color);
 std_msgs::ColorRGBA anchorColor();
 std_msgs::ColorRGBA gridColor();
 std_msgs::ColorRGBA textColor();
-/// Colour of the whole chain if its energy is wrong but finite.
+/// Colour of the springs if the verdict is bad but the motion has not diverged.
 std_msgs::ColorRGBA doubtColor();
 /// Colour of the whole chain after a divergence.
 std_msgs::ColorRGBA divergedColor();

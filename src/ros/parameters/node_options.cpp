@@ -46,7 +46,9 @@ std::vector<Option> displayOptions(NodeOptions& o) {
        "draw the true motion, from the reference run, as a pale second chain"},
       {"y_offset", Number{&o.y_offset, Range::any()}, "m", "y coordinate of the plane of motion"},
       {"text_row", Count{&o.text_row, Range::atLeast(0)}, "",
-       "row of the text, counted upwards; the chain with row 0 draws the grid"},
+       "row of the text, counted upwards; row 0 draws the grid and sets the camera, and a higher "
+       "row "
+       "draws its chain wider and behind the others"},
       {"text_rows", Count{&o.text_rows, Range::atLeast(1)}, "",
        "number of chains that share the picture; with several, each has one line of text"},
       {"camera_frame",
