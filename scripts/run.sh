@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and runs a pendulum: frame files, an animation and, with ROS, a
 # bag. With a display, opens rviz on the running node.
-# Usage: scripts/run.sh [METHOD] [options of Exercise3]
+# Usage: scripts/run.sh [METHOD [FILE]] [options of Exercise3]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -13,8 +13,10 @@ particles=$project/data/particle.txt
 output=$project/output
 options=()
 answers=false
+has_file=false
 while [ $# -gt 0 ]; do
   option=$1; shift
+  case $option in -p) option=--particles ;; -o) option=--output ;; esac
   case $option in
     --check | --help | -h | --version | --list-methods | --no-frames) answers=true ;;
     --report-skips) ;;
@@ -29,7 +31,12 @@ while [ $# -gt 0 ]; do
       esac
       options+=("$option" "$value")
       continue ;;
-    *) die "unexpected '$option': scripts/run.sh [METHOD] [options of Exercise3]" ;;
+    *)
+      ! $has_file && [[ $option != -* ]] ||
+        die "unexpected '$option': scripts/run.sh [METHOD [FILE]] [options of Exercise3]"
+      has_file=true
+      particles=$(realpath -m "$option")
+      continue ;;
   esac
   options+=("$option")
 done

@@ -96,6 +96,7 @@ int run(const Scenario& scenario, const Switches& switches) {
   const std::string warning = stabilityWarning(chain, scenario);
   RunFiles files(scenario, switches.config);  // last, because it removes the frames of earlier runs
   printRemark(memory);
+  printRemark(remarkOn(scenario));
   printWarning(warning);
   State state = particles.state;
   const Summary summary = simulate(scenario, state, integrator, monitor, files);

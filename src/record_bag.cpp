@@ -67,6 +67,7 @@ int record(int argc, const char* const* argv) {
   const std::string warning = stabilityWarning(run.chain(), scenario);
   const BagSummary summary = recordBag(run, display, bag, [&] {
     printRemark(memoryRemark(scenario, run.chain().size()));
+    printRemark(remarkOn(scenario));
     printWarning(warning);
   });
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;

@@ -59,6 +59,10 @@ std::string inQuotes(std::string_view text) {
   return "'" + onOneLine(text.substr(0, kLongestQuote)) + (is_long ? "...'" : "'");
 }
 
+bool isSameName(std::string_view a, std::string_view b) {
+  return simplified(a) == simplified(b);
+}
+
 std::string closestName(std::string_view name, const std::vector<std::string>& known) {
   const std::string given = simplified(name.substr(0, 100));
   std::string closest, abbreviated;
@@ -80,8 +84,8 @@ std::string closestName(std::string_view name, const std::vector<std::string>& k
 }
 
 std::string unknownName(std::string_view kind, std::string_view name,
-                        const std::vector<std::string>& known) {
-  const std::string meant = closestName(name, known);
+                        const std::vector<std::string>& known, std::string meant) {
+  if (meant.empty()) meant = closestName(name, known);
   return fmt::format("unknown {} {}; {} {}s: {}", kind, inQuotes(name),
                      meant.empty() ? "known" : fmt::format("did you mean '{}'? Known", meant), kind,
                      fmt::join(known, ", "));

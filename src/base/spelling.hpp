@@ -13,13 +13,17 @@ std::string onOneLine(std::string_view text);
 /// Returns text in quotes for a message of one line: without control characters, truncated if long.
 std::string inQuotes(std::string_view text);
 
+/// Whether two names differ at most in case and punctuation: "runge_kutta4" and "Runge-Kutta-4".
+bool isSameName(std::string_view a, std::string_view b);
+
 /// Returns the name that was probably meant: another spelling ("runge_kutta4"), a typing error
 /// ("Oiler") or an abbreviation ("rk4") of exactly one of the `known` names. Else empty.
 std::string closestName(std::string_view name, const std::vector<std::string>& known);
 
 /// "unknown method 'rk4'; did you mean 'Runge-Kutta-4'? Known methods: Euler, Runge-Kutta-2, ..."
-/// \param kind "method", for example
+/// \param kind  "method", for example
+/// \param meant the name to suggest; empty: the closest one
 std::string unknownName(std::string_view kind, std::string_view name,
-                        const std::vector<std::string>& known);
+                        const std::vector<std::string>& known, std::string meant = "");
 
 }  // namespace spring_pendulum

@@ -191,6 +191,16 @@ void checkMethod(const Method& method) {
   }
 }
 
+/// Names of other methods and programs, and the method here that is nearest.
+constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
+    {"Backward-Euler", "Radau-9"},   {"BDF", "Radau-9"},
+    {"DOP853", "Dormand-Prince-8"},  {"Heun", "Runge-Kutta-2"},
+    {"Leapfrog", "Velocity-Verlet"}, {"LSODA", "Auto"},
+    {"Midpoint", "Runge-Kutta-2"},   {"ode45", "Dormand-Prince-5"},
+    {"RK45", "Dormand-Prince-5"},    {"Symplectic-Euler", "Semi-Implicit-Euler"},
+    {"Verlet", "Velocity-Verlet"},
+};
+
 std::vector<std::string> methodNames() {
   std::vector<std::string> names;
   for (const Method& method : methodTable()) names.push_back(method.name);
@@ -220,7 +230,14 @@ const Method& findMethod(std::string_view name) {
   for (const Method& method : methodTable()) {
     if (method.name == name) return method;
   }
-  throw InputError(unknownName("method", name, methodNames()));
+  for (const Method& method : methodTable()) {
+    if (isSameName(method.name, name)) return method;
+  }
+  std::string meant;
+  for (const auto& [other, nearest] : kOtherNames) {
+    if (isSameName(other, name)) meant = nearest;
+  }
+  throw InputError(unknownName("method", name, methodNames(), meant));
 }
 
 std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& chain,

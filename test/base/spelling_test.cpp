@@ -1,10 +1,14 @@
 // Suggestions for misspelt names.
 #include "base/spelling.hpp"
 
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
 namespace spring_pendulum {
@@ -33,6 +37,30 @@ TEST(Spelling, FindsTheMethodThatWasMeant) {
       {"", ""},
   };
   for (const auto& [given, meant] : rows) EXPECT_EQ(closestName(given, methods), meant) << given;
+}
+
+TEST(Spelling, MethodsAreFoundInAnyCase) {
+  for (const Method& method : methodTable()) {
+    std::string name = method.name;
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+      return c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    });
+    EXPECT_EQ(&findMethod(name), &method) << name;
+  }
+}
+
+TEST(Spelling, MethodsOfOtherProgramsHaveANearestOne) {
+  const std::pair<const char*, const char*> rows[] = {
+      {"DOP853", "Dormand-Prince-8"},  {"rk4", "Runge-Kutta-4"},  {"verlet", "Velocity-Verlet"},
+      {"leapfrog", "Velocity-Verlet"}, {"heun", "Runge-Kutta-2"}, {"lsoda", "Auto"}};
+  for (const auto& [given, nearest] : rows) {
+    try {
+      findMethod(given);
+      ADD_FAILURE() << given;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("did you mean '" + std::string(nearest) + "'"));
+    }
+  }
 }
 
 TEST(Spelling, QuotesOnOneLine) {

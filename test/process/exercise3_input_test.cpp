@@ -112,11 +112,13 @@ INSTANTIATE_TEST_SUITE_P(
                  2,
                  "METHOD: unknown method 'Oiler'; did you mean 'Euler'? Known methods: Euler, "
                  "Runge-Kutta-2, "},
-        BadInput{"MethodInOtherCase",
-                 {"euler"},
+        BadInput{"MethodOfAnotherProgram",
+                 {"DOP853"},
                  2,
-                 "METHOD: unknown method 'euler'; did you mean 'Euler'? "},
-        BadInput{"TwoMethods", {"Euler", "Euler"}, 2, "'Euler': give only one METHOD\n"},
+                 "METHOD: unknown method 'DOP853'; did you mean 'Dormand-Prince-8'? "},
+        BadInput{"TwoMethods", {"Euler", "euler"}, 2, "'euler': give only one METHOD\n"},
+        BadInput{"TwoFiles", {"Euler", "a", "b"}, 2, "'b': give only one particle file\n"},
+        BadInput{"AFileTwice", {"Euler", "a", "-p", "b"}, 2, "'a': give only one particle file\n"},
         BadInput{"UnknownOption",
                  {"Euler", "--frame", "5"},
                  2,
@@ -275,6 +277,35 @@ TEST(Exercise3, TellsWhenItsOutputIsLost) {
   const Result result = run({{"/bin/sh", "-c", EXERCISE3 " --help > /dev/full"}, folder.path()});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.errors, "standard output: could not be written: No space left on device\n");
+}
+
+TEST(Exercise3, UnderstandsWhatEverybodyTypes) {
+  const TemporaryFolder folder;
+  folder.write("mine.txt", kTwoParticles);
+  const Result expected = run(exercise3(
+      folder, {"Runge-Kutta-4", "--particles", "mine.txt", "--frames", "3", "--output", "a"}));
+  EXPECT_EQ(expected.status, 0) << expected.errors;
+  const std::vector<std::vector<std::string>> commands{
+      {"Runge-Kutta-4", "mine.txt", "--output", "b"},
+      {"runge-kutta-4", "-p", "mine.txt", "-o", "b"},
+      {"-ob", "RUNGE_KUTTA_4", "-pmine.txt"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {"--frames", "3"});
+    const Result result = run(exercise3(folder, command));
+    EXPECT_EQ(result.errors, "");
+    EXPECT_EQ(readFile(folder.path("b/frame_0002.txt")), readFile(folder.path("a/frame_0002.txt")));
+    std::filesystem::remove_all(folder.path("b"));
+  }
+  EXPECT_EQ(run(exercise3(folder, {"-h"})).output, run(exercise3(folder, {"--help"})).output);
+}
+
+TEST(Exercise3, RemarksThatTheChainFallsUpwards) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  const Result result = run(
+      exercise3(folder, {"Runge-Kutta-4", "--no-frames", "--frames", "3", "--gravity", "-9.81"}));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.errors, "gravity of -9.81 m/s² points up: the chain falls upwards\n");
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ const std::deque<Method>& methodTable();
 ///         with `stages` stages, there is neither tableau nor factory, or a number is out of range
 void registerMethod(const Method& method);
 
-/// Returns the method with this name.
+/// Returns the method with this name, or else one whose name differs only in case and punctuation.
 /// \throws InputError that lists the known names if there is no such method
 const Method& findMethod(std::string_view name);
 

@@ -26,6 +26,7 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr std::string_view kMethodKey = "method";
+constexpr std::string_view kParticlesKey = "particles";
 constexpr unsigned kLineLength = 90;
 
 /// `time-step` for `time_step`
@@ -35,10 +36,15 @@ std::string optionName(std::string_view key) {
   return name;
 }
 
+/// `particles,p`: the name for the parser, with a letter for the most frequent options.
+std::string withLetter(const std::string& name) {
+  return name == "particles" || name == "output" ? name + ',' + name[0] : name;
+}
+
 void addWithValue(po::options_description& description, const std::string& name,
                   const std::string& placeholder, const std::string& help) {
-  description.add_options()(name.c_str(), po::value<std::string>()->value_name(placeholder),
-                            help.c_str());
+  description.add_options()(withLetter(name).c_str(),
+                            po::value<std::string>()->value_name(placeholder), help.c_str());
 }
 
 /// All options except METHOD, for the parser and the help text.
@@ -67,7 +73,7 @@ std::string helpText(const ProgramText& program, const po::options_description& 
   std::ostringstream options;
   options << description;
   return fmt::format(
-      "{}\n\nUsage: {} METHOD [options]\nExample: {} {}\n\nMethods: {}\n\n{}\n"
+      "{}\n\nUsage: {} METHOD [FILE] [options]\nExample: {} {}\n\nMethods: {}\n\n{}\n"
       "Exit status: 0 done, 1 could not read or write, 2 wrong use or bad input,\n"
       "3 the motion diverged, 128 + n stopped by signal n.\n",
       program.purpose, program.name, program.name, program.example, knownMethodNames(),
@@ -113,18 +119,32 @@ bool has(const std::vector<po::option>& given, std::string_view name) {
                      [&](const po::option& option) { return option.string_key == name; });
 }
 
+/// Sets METHOD and FILE, which is short for --particles FILE.
+void setPositional(const std::vector<po::option>& given, OptionSet& options) {
+  std::size_t count = 0;
+  for (const po::option& argument : given) {
+    if (!argument.string_key.empty()) continue;
+    const std::string& text = argument.value.front();
+    if (++count == 1) {
+      options.set(options.find(kMethodKey, ""), text, "METHOD");
+      continue;
+    }
+    for (const Method& method : methodTable()) {
+      if (!isSameName(method.name, text)) continue;
+      throw InputError(fmt::format("{}: give only one METHOD", inQuotes(text)));
+    }
+    if (count > 2 || has(given, kParticlesKey)) {
+      throw InputError(fmt::format("{}: give only one particle file", inQuotes(text)));
+    }
+    options.set(options.find(kParticlesKey, ""), text, "FILE");
+  }
+}
+
 /// \returns the keys that were set
 std::vector<std::string_view> setOptions(const std::vector<po::option>& given, OptionSet& options) {
   std::vector<std::string_view> keys;
-  bool has_method = false;
+  setPositional(given, options);
   for (const po::option& argument : given) {
-    if (argument.string_key.empty()) {  // a positional argument
-      const std::string& method = argument.value.front();
-      if (has_method) throw InputError(fmt::format("{}: give only one METHOD", inQuotes(method)));
-      has_method = true;
-      options.set(options.find(kMethodKey, ""), method, "METHOD");
-      continue;
-    }
     for (const Option& option : options.options()) {
       if (optionName(option.key) != argument.string_key) continue;
       options.set(option, argument.value.empty() ? "true" : argument.value.front(),

@@ -1,5 +1,5 @@
-// The command line of all programs: METHOD, an option such as `--time-step X` for each key of the
-// option table, and common switches.
+// The command line of all programs: METHOD, the particle file, an option such as `--time-step X` for
+// each key of the option table, and common switches.
 #pragma once
 
 #include "simulation/options/option_set.hpp"

@@ -5,6 +5,7 @@
 #include "io/program/standard_streams.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
@@ -84,6 +85,8 @@ void RunLog::start(const PendulumRun& run, const NodeOptions& options, const Run
   if (!warning.empty()) ROS_WARN_STREAM(warning);
   const std::string memory = memoryRemark(scenario, run.chain().size());
   if (!memory.empty()) ROS_INFO_STREAM(memory);
+  const std::string remark = remarkOn(scenario);
+  if (!remark.empty()) ROS_INFO_STREAM(remark);
   logDisplayRate(run, options);
   if (!options.follow.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name << ": waiting for states of another node on "

@@ -89,6 +89,12 @@ void checkScenario(const Scenario& scenario) {
       scenario.frames, step.steps, numberText(step.time_step)));
 }
 
+std::string remarkOn(const Scenario& scenario) {
+  if (scenario.gravity >= 0.0) return "";
+  return fmt::format("gravity of {} m/s² points up: the chain falls upwards",
+                     numberText(scenario.gravity));
+}
+
 std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options) {
   std::vector<std::string_view> keys;
   for (const Option& option : options.options()) {

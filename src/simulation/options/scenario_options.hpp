@@ -19,6 +19,9 @@ std::vector<Option> scenarioOptions(Scenario& scenario);
 ///         counted in 64 bits, or the run would not end at a finite time
 void checkScenario(const Scenario& scenario);
 
+/// Returns a remark on values that are allowed but hardly meant; empty if there are none.
+std::string remarkOn(const Scenario& scenario);
+
 /// Returns the given options that the method does not use: options for error-controlled methods if
 /// the method has a fixed step, and the reverse.
 std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options);
