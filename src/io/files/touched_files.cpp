@@ -43,6 +43,10 @@ bool areSame(const Touched& a, const Touched& b) {
                                      areSame(a.path.parent_path(), b.path.parent_path()));
 }
 
+bool isOutput(const Touched& touched) {
+  return touched.use == Use::kOutput || touched.use == Use::kUnfinishedOutput;
+}
+
 /// Whether writing `a` would change or remove `b`.
 bool affects(const Touched& a, const Touched& b) {
   switch (a.use) {
@@ -52,7 +56,7 @@ bool affects(const Touched& a, const Touched& b) {
     case Use::kStandardOutput:
       return b.use == Use::kInput && areSame(a, b);
     case Use::kFrames:
-      return areSame(a, b) ||
+      return (isOutput(b) && areSame(a, b)) ||
              (isFrameName(b.path.filename().string()) && areSame(a.path, b.path.parent_path()));
     case Use::kOutput:
     case Use::kUnfinishedOutput:
