@@ -1,12 +1,15 @@
 #include "integration/automatic/auto_stepper.hpp"
 
 #include "base/numbers.hpp"
+#include "integration/error_control/nominal_cost.hpp"
 #include "integration/implicit/radau_stepper.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 #include "model/chain_modes.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace spring_pendulum {
 namespace {
@@ -33,18 +36,18 @@ constexpr int kCounted = 6;
 /// Work between two races, in units of the work of a race.
 constexpr double kWorkPerRace = 25.0;
 
+/// A method that has become slower by this factor since its race must race again.
+constexpr double kSlower = 2.0;
+
+/// Angular frequency in rad/s of a vibration so fast that its methods race even if it is hardly
+/// damped: steps are so short that a race takes a small part of any run.
+constexpr double kFastVibration = 1e3;
+
 /// Work before the first race, about that of a race, in force evaluations.
 constexpr double kWorkBeforeFirstRace = 500.0;
 
 /// Least ratio of the paces for a switch.
 constexpr double kHysteresis = 1.2;
-
-/// Cost of a force evaluation, in force evaluations of Taylor-8, measured for chains of 2 to 50
-/// particles. It is higher with order 4, whose steps have fewer terms to share the work that is
-/// done once per step.
-constexpr double kTaylorWork = 1.0;
-constexpr double kStabilizedTaylor4Work = 1.4;
-constexpr double kStabilizedTaylor8Work = 1.15;
 
 double fastestDampingRate(const Chain& chain) {
   return chain.spring().damping * largestSpringMode(chain);
@@ -71,25 +74,27 @@ bool needsOrder12(const Chain& chain, double tolerance) {
 
 }  // namespace
 
-bool AutoStepper::Pace::isFasterThan(const Pace& other) const {
-  return time * other.work > kHysteresis * other.time * work;
+bool AutoStepper::Pace::isFasterThan(const Pace& other, double factor) const {
+  return time * other.work > factor * other.time * work;
 }
 
 AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keeps_up_to)
     : chain_(chain),
       tolerance_(tolerance),
       keeps_up_to_(keeps_up_to),
-      fastest_rate_(fastestDampingRate(chain)) {
+      fastest_rate_(fastestDampingRate(chain)),
+      vibrates_fast_(std::sqrt(chain.spring().stiffness * largestSpringMode(chain)) >
+                     kFastVibration) {
   const bool order_12 = needsOrder12(chain, tolerance);
   explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
   successor_is_better_ = !order_12;
-  candidates_.push_back({order_12 ? "Taylor-12" : "Taylor-8", kTaylorWork,
-                         order_12 ? makeTaylor<12> : makeTaylor<8>});
-  candidates_.push_back({"Stabilized-Taylor-8", kStabilizedTaylor8Work, makeStabilizedTaylor<8>});
-  candidates_.push_back({"Stabilized-Taylor-4", kStabilizedTaylor4Work, makeStabilizedTaylor<4>});
-  if (fastest_rate_ >= kRateForImplicit) {
-    candidates_.push_back({"Radau-9", RadauStepper::workPerEvaluation(chain.size()), makeRadau});
-  }
+  const auto add = [&](std::string_view name, const NominalCost& cost, auto make) {
+    candidates_.push_back({name, cost.of(chain.size()) / kTaylorCost.of(chain.size()), make});
+  };
+  add(order_12 ? "Taylor-12" : "Taylor-8", kTaylorCost, order_12 ? makeTaylor<12> : makeTaylor<8>);
+  add("Stabilized-Taylor-8", kStabilizedTaylor8Cost, makeStabilizedTaylor<8>);
+  add("Stabilized-Taylor-4", kStabilizedTaylor4Cost, makeStabilizedTaylor<4>);
+  if (fastest_rate_ >= kRateForImplicit) add("Radau-9", kRadauCost, makeRadau);
   candidates_[0].stepper = candidates_[0].make(chain_, tolerance_);
 }
 
@@ -112,6 +117,8 @@ void AutoStepper::start(const State& state) {
   active_ = 0;
   recent_ = {};
   recent_steps_ = 0;
+  raced_ = {};
+  race_work_ = kWorkBeforeFirstRace;
   work_before_race_ = kWorkBeforeFirstRace;
   last_step_ = 0.0;
   startedAt(candidates_[0], state);
@@ -128,19 +135,30 @@ bool AutoStepper::isStiff() const {
   return active_ != 0 || last_step_ * fastest_rate_ > kStiffFrom * explicit_limit_;
 }
 
+bool AutoStepper::isTimeForRace() {
+  if (work_before_race_ <= 0.0) return true;
+  if (recent_.work < race_work_) return false;
+  if (raced_.isFasterThan(recent_, kSlower)) return true;
+  recent_ = {};
+  return false;
+}
+
 double AutoStepper::step() {
-  if (recent_steps_ >= kLeastSteps && isStiff()) {
-    if (active_ == 0 && successor_is_better_) {
+  if (recent_steps_ >= kLeastSteps) {
+    if (active_ == 0 && successor_is_better_ && isStiff()) {
       readState();
       change(1);
-    } else if (recent_.work >= work_before_race_) {
+      work_before_race_ = kWorkBeforeFirstRace;
+    } else if ((vibrates_fast_ || isStiff()) && isTimeForRace()) {
       race();
     }
   }
   Candidate& candidate = candidates_[active_];
   const std::int64_t before = evaluationsOf(candidate);
   last_step_ = candidate.stepper->step();
-  recent_.work += workSince(candidate, before);
+  const double work = workSince(candidate, before);
+  recent_.work += work;
+  work_before_race_ -= work;
   recent_.time += last_step_;
   ++recent_steps_;
   ++steps_;
@@ -173,18 +191,19 @@ void AutoStepper::race() {
   readState();
   double work = 0.0;
   std::size_t fastest = active_;
-  Pace best = recent_;
+  raced_ = recent_;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (i == active_) continue;
     const std::int64_t before = evaluationsOf(candidates_[i]);
     const Pace pace = paceOf(candidates_[i], state_);
     work += workSince(candidates_[i], before);
     release(candidates_[i]);
-    if (pace.isFasterThan(best)) {
+    if (pace.isFasterThan(raced_, kHysteresis)) {
       fastest = i;
-      best = pace;
+      raced_ = pace;
     }
   }
+  race_work_ = work;
   work_before_race_ = kWorkPerRace * work;
   change(fastest);
 }

@@ -67,7 +67,7 @@ class AutoStepper final : public DenseOutputStepper {
   struct Pace {
     double time = 0.0;  ///< s
     double work = 0.0;  ///< in force evaluations of Taylor-8
-    bool isFasterThan(const Pace& other) const;
+    bool isFasterThan(const Pace& other, double factor) const;
   };
 
   const Candidate& active() const { return candidates_[active_]; }
@@ -78,6 +78,9 @@ class AutoStepper final : public DenseOutputStepper {
   static double workSince(const Candidate& candidate, std::int64_t evaluations);
   Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
+  /// Whether the work since the last race suffices for another. Otherwise begins a new measurement of
+  /// the pace if one has finished.
+  bool isTimeForRace();
   DenseOutputStepper& startedAt(Candidate& candidate, const State& state);
   /// Frees the memory of a candidate that is not active, if the chain is long.
   void release(Candidate& candidate);
@@ -91,13 +94,16 @@ class AutoStepper final : public DenseOutputStepper {
   double tolerance_;
   Eigen::Index keeps_up_to_;
   double fastest_rate_;               ///< largest damping rate, 1/s
+  bool vibrates_fast_;                ///< see kFastVibration
   bool successor_is_better_ = false;  ///< candidate 1 beats candidate 0 in stiff motion
   double explicit_limit_ = 0.0;       ///< stability limit h|λ| of candidate 0
   std::vector<Candidate> candidates_;
   std::size_t active_ = 0;
-  Pace recent_;  ///< pace of the active method since its start or the last race
+  Pace recent_;  ///< latest pace of the active method
+  Pace raced_;   ///< pace with which it won the last race
   std::int64_t recent_steps_ = 0;
-  double work_before_race_ = 0.0;
+  double race_work_ = 0.0;         ///< of the last race
+  double work_before_race_ = 0.0;  ///< until the next race
   std::int64_t steps_ = 0;
   int switches_ = 0;
   double last_step_ = 0.0;

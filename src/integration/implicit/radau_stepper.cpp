@@ -1,5 +1,6 @@
 #include "integration/implicit/radau_stepper.hpp"
 
+#include "integration/error_control/nominal_cost.hpp"
 #include "integration/implicit/radau_sums.hpp"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]
 }  // namespace
 
 double RadauStepper::workPerEvaluation(Eigen::Index particles) {
-  return 2.1 * std::sqrt(static_cast<double>(std::max<Eigen::Index>(particles - 1, 1)));
+  return kRadauCost.of(particles) / kTaylorCost.of(particles);
 }
 
 StepStatistics RadauStepper::statistics() const {

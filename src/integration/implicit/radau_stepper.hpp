@@ -45,9 +45,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
   StepStatistics statistics() const override;
 
   /// Returns the cost of a force evaluation with its share of the linear algebra, in force
-  /// evaluations of Taylor-8. A fit to measurements: 2.2 for 2 particles, 7 for 11, 14 for 50, 23
-  /// for 100, 46 for 300. It grows with N because only the Taylor kernels use vector instructions,
-  /// which need long chains.
+  /// evaluations of Taylor-8.
   static double workPerEvaluation(Eigen::Index particles);
 
  private:

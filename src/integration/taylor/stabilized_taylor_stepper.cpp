@@ -19,6 +19,9 @@ double leastTimePerError(int order) {
   return order == 4 ? 1e-3 : 5e-3;
 }
 
+/// Shorter steps, in s, are taken near a collision, not in a vibration. There, only a few count.
+constexpr double kLeastVibration = 1e-6;
+
 /// Time in s over which a velocity error counts as a position error: 1/rate of the fastest mode, at
 /// most 1 s.
 double timeOfVelocityError(const Chain& chain, double fastest_rate) {
@@ -107,7 +110,7 @@ double StabilizedTaylorStepper::attempt(double h) {
   }
   const LargestChange error = kernels().taylorLargestSum(work, errorOf(*polynomial_, h));
   return std::max(time_of_velocity_error_ * error.velocity, error.position) *
-         std::max(1.0, least_time_per_error_ / h);
+         std::max(1.0, least_time_per_error_ / std::max(h, kLeastVibration));
 }
 
 void StabilizedTaylorStepper::sumAt(double time) const {

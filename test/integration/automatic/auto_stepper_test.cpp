@@ -76,6 +76,39 @@ TEST(Auto, WorksLessThanTheWrongMethods) {
   }
 }
 
+std::int64_t evaluationsOf(const char* method, test::Scene scene, double tolerance,
+                           double seconds) {
+  const auto integrator = makeIntegrator(method, scene.chain, {tolerance, false, 1});
+  integrator->advance(scene.start, seconds, 1);
+  return integrator->forceEvaluations();
+}
+
+// Order 4 is the cheapest in the first milliseconds only. Waiting for the next race took 46,000
+// evaluations.
+TEST(Auto, RacesAgainWhenAMethodBecomesSlower) {
+  const test::Scene scene = test::referenceScene("alternating_50");
+  const std::int64_t good = evaluationsOf("Stabilized-Taylor-8", scene, 1e-5, 1.0);
+  EXPECT_LT(evaluationsOf("Auto", scene, 1e-5, 1.0), 3 * good / 2);  // 13,800 and 12,100
+}
+
+// Fast vibration with little damping: accuracy limits the steps of the plain series to a third.
+TEST(Auto, LeavesThePlainSeriesInFastVibration) {
+  const Eigen::Vector4d masses(0.14, 0.12, 1.07, 3.09);
+  test::Scene scene{"", Chain(masses, SpringLaw{7.5e8, 7.1, 1.0}, 9.81), State(4)};
+  scene.start.x() << 0.0, 0.70, 0.20, -0.26;
+  scene.start.y() << 0.0, -0.71, -1.57, -2.46;
+  const std::int64_t plain = evaluationsOf("Taylor-8", scene, 1e-5, 0.02);
+  EXPECT_LT(evaluationsOf("Auto", scene, 1e-5, 0.02), plain / 2);
+}
+
+// On long chains an evaluation of the implicit method costs as much per particle as on short ones.
+TEST(Auto, TakesTheImplicitMethodOnALongChainWithAFewLightParticles) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Ones(3000);
+  masses.segment(1, 5).setConstant(1e-6);
+  const test::Scene scene{"", Chain(masses, SpringLaw{}, 9.81), test::straightLine(3000, 1.0, 0.0)};
+  EXPECT_EQ(methodAfter(scene, 1e-6, 0.01), "Radau-9");
+}
+
 // Whether the methods that are not at work are kept decides about memory alone.
 TEST(Auto, HasTheSameBitsIfItForgetsMethods) {
   for (const char* name : {"lighter_100", "feather_50"}) {
