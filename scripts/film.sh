@@ -4,7 +4,7 @@
 # Usage: film.sh BAG OUT.gif|OUT.mp4|OUT.png [options]
 #   --config FILE     rviz configuration [rviz/pendulum.rviz]
 #   --start S         s of the bag to skip at the start [0]
-#   --duration S      s to film [10]; a PNG shows the instant --start
+#   --duration S      s to film [to the end of the bag]; a PNG shows the instant --start
 #   --fps N           pictures per second [20]
 #   --size WxH        of the picture [800x600]
 #   --slow N          play and film N times slower, for a slow computer [2]
@@ -19,7 +19,7 @@ die() { printf '%s\n' "film.sh: $*" >&2; exit 1; }
 [ $# -ge 2 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 bag=$(realpath -m "$1") out=$(realpath -m "$2")
 shift 2
-config='' start=0 duration=10 fps=20 size=800x600 slow=2 rviz_args=--fullscreen
+config='' start=0 duration='' fps=20 size=800x600 slow=2 rviz_args=--fullscreen
 while [ $# -gt 0 ]; do
   case $1 in
     --window) rviz_args=--; shift; continue ;;
@@ -34,6 +34,7 @@ done
 case $out in *.gif | *.mp4 | *.png) ;; *) die "OUT must end in .gif, .mp4 or .png" ;; esac
 [[ $size =~ ^[0-9]+x[0-9]+$ ]] || die "--size is '$size': must be WIDTHxHEIGHT, for example 800x600"
 for option in start duration fps slow; do
+  [ "$option ${!option}" != 'duration ' ] || continue
   [[ ${!option} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--$option is '${!option}': must be a number"
   [[ $option = start || ${!option} = *[1-9]* ]] || die "--$option is '${!option}': must be above 0"
 done
@@ -47,11 +48,21 @@ done
 project=$(cd "$here/.." && pwd)
 [ -f "$project/package.xml" ] || project=$(rospack find spring_pendulum 2> /dev/null) ||
   die "ROS does not find the package spring_pendulum: source the setup.bash of your workspace first"
-topics=$(/usr/bin/python3 -c 'import rosbag, sys
-for name, info in rosbag.Bag(sys.argv[1]).get_type_and_topic_info()[1].items():
-    if info.msg_type == "visualization_msgs/MarkerArray": print(name)' "$bag" 2> /dev/null) ||
+calculate() { awk "BEGIN { printf \"%.4f\", ($1) }"; }
+short() { printf '%.3g' "$1"; }
+
+# The length of the bag in s, then its topics of markers.
+contents=$(/usr/bin/python3 -c 'import rosbag, sys
+bag = rosbag.Bag(sys.argv[1])
+topics = bag.get_type_and_topic_info()[1].items()
+print(bag.get_end_time() - bag.get_start_time() if topics else 0,
+      *[name for name, info in topics if info.msg_type == "visualization_msgs/MarkerArray"])' "$bag" 2> /dev/null) ||
   die "$bag is not a complete bag; rosbag reindex may repair it"
+read -r length topics <<< "$contents"
 [ -n "$topics" ] || die "$bag contains no markers (visualization_msgs/MarkerArray)"
+rest=$(calculate "$length - $start")
+[[ $rest != -* && $rest != 0.0000 ]] || die "--start is '$start': the bag is $(short "$length") s long"
+duration=$(calculate "${duration:-1e9} < $rest ? ${duration:-0} : $rest")
 
 work=$(mktemp -d)
 started=()
@@ -87,6 +98,7 @@ unset ROS_HOSTNAME
 # The configuration determines the size of rviz.
 sed -e "s/^  Width: .*/  Width: ${size%x*}/" -e "s/^  Height: .*/  Height: ${size#*x}/" "${config:-$project/rviz/pendulum.rviz}" \
   > "$work/film.rviz"
+say "starting rviz on a virtual display"
 start Xvfb -displayfd 3 -screen 0 "${size}x24" -nolisten tcp -noreset 3> "$work/display"
 until_true 20 Xvfb "the virtual display did not start" test -s "$work/display"
 export DISPLAY=:$(cat "$work/display")
@@ -106,8 +118,6 @@ for try in first second; do
   [ $try = first ] || give_up roslaunch "rviz ended right after its start, twice"
   say "rviz crashed at its start; trying again"
 done
-
-calculate() { awk "BEGIN { printf \"%.4f\", ($1) }"; }
 
 if [[ $out = *.png ]]; then
   # rviz leaves some of the first markers waiting if they come before their transform, so these are
@@ -136,18 +146,23 @@ start rosbag play --clock --quiet --delay 1 --rate "$(calculate "1 / $slow")" -s
   -u "$duration" "$bag"
 player=${started[-1]}
 tail --pid="$clock" -f /dev/null
+say "filming $(short "$duration") s of $(short "$length") s, $slow times slower"
 cut=$(calculate "$(stat -c %.6Y "$work/rostopic.log") + 0.4 - $camera_start")
-tail --pid="$player" -f /dev/null
+begin=$SECONDS
+until timeout 5 tail --pid="$player" -f /dev/null; do
+  say "filmed $(short "$(calculate "($SECONDS - $begin) / $slow")") of $(short "$duration") s"
+done
 kill -INT "$camera"
 tail --pid="$camera" -f /dev/null
 
 look=setpts=PTS/$slow,fps=$fps
-length=$(calculate "$duration * $slow - 0.3")
+filmed=$(calculate "$duration * $slow - 0.3")
+say "writing $out"
 if [[ $out = *.gif ]]; then
   look+=",split[a][b];[a]palettegen=max_colors=96[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"
-  ffmpeg -v error -y -ss "$cut" -t "$length" -i "$work/raw.mkv" -filter_complex "$look" "$out"
+  ffmpeg -v error -y -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -filter_complex "$look" "$out"
 else
-  ffmpeg -v error -y -ss "$cut" -t "$length" -i "$work/raw.mkv" -vf "$look" \
+  ffmpeg -v error -y -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -vf "$look" \
     -c:v libx264 -pix_fmt yuv420p -crf 20 -movflags +faststart "$out"
 fi
 say "$out: $(stat -c %s "$out") bytes"

@@ -196,6 +196,20 @@ class Rviz(unittest.TestCase):
                     'both chains')
             self.assertFalse(rosgraph.Master('/test').hasParam('/use_sim_time'))
 
+    def test_a_film_shows_the_whole_bag_and_tells_its_progress(self):
+        with Folder() as folder:
+            subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '121', '--bag', folder + '/a.bag',
+                            '--particles', project('data/particle.txt')], check=True,
+                           stdout=subprocess.DEVNULL)
+            done = subprocess.run([project('scripts/film.sh'), folder + '/a.bag', folder + '/a.gif', '--fps',
+                                   '10', '--slow', '1', '--size', '320x240'], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pictures = subprocess.run(['identify', folder + '/a.gif'], capture_output=True, text=True,
+                                      check=True).stdout.count('\n')
+        self.assertIn('filming 12 s of 12 s', done.stdout)
+        self.assertRegex(done.stdout, 'filmed [0-9.]+ of 12 s')
+        self.assertGreater(pictures, 110)  # measured: 117
+
     def test_the_comparison(self):
         colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61),
                   'Runge-Kutta-4': (63, 182, 255)}
