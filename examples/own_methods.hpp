@@ -26,6 +26,9 @@ class Heun : public spring_pendulum::Integrator {
       force_evaluations_ += 2;
     }
   }
+  double work() const override {
+    return 1e-8 * static_cast<double>(force_evaluations_ * chain_.size());
+  }
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
   double dissipatedEnergy() const override { return dissipated_energy_; }
   void restart() override { dissipated_energy_ = 0.0; }

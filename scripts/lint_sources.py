@@ -23,14 +23,15 @@ ROOMS = {
     'model': {},
     'integration': {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3,
                     'implicit': 3, 'automatic': 4},
-    'simulation': {'options': 1, 'advice': 1},
+    'simulation': {'options': 1, 'advice': 3},
     'io': {'files': 1, 'formats': 2, 'program': 3},
     'ros': {'parameters': 1, 'messages': 2, 'node': 3},
 }
 # Files directly in the folder of a layer come before its rooms, in these layers after them ...
 AFTER_THE_ROOMS = {'integration': 5, 'ros': 4}
-# ... except for these.
-BEFORE_THE_ROOMS = ('integrator', 'butcher_tableau', 'smallest_tolerance', 'pendulum_run')
+# ... except for these, and for these, which come between two rooms.
+BETWEEN_ROOMS = {'run': 2, 'run_report': 2}
+BEFORE_THE_ROOMS = ('integrator', 'butcher_tableau', 'smallest_tolerance', 'work')
 
 
 def git(*arguments):
@@ -57,6 +58,8 @@ def place(path):
     layer, room = parts[0], parts[1] if len(parts) > 2 else ''
     if room:
         return layer, ROOMS[layer][room], room
+    if path.stem in BETWEEN_ROOMS:
+        return layer, BETWEEN_ROOMS[path.stem], room
     return layer, 0 if path.stem in BEFORE_THE_ROOMS else AFTER_THE_ROOMS.get(layer, 0), room
 
 

@@ -10,7 +10,6 @@
 #include "ros/node/startup.hpp"
 #include "ros/parameters/parameter_watch.hpp"
 #include "ros/parameters/parameters.hpp"
-#include "simulation/interruptible.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
@@ -20,6 +19,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -30,27 +30,29 @@ constexpr double kLastMessages = 0.5;  // s, for sending the last messages
 constexpr double kLastDeletion = 0.1;  // s, for sending the deletion of the markers
 
 /// The frame loop: advances the run, writes the frame, and publishes the state.
-void play(PendulumRun& run, Player& player, Publisher& publisher, RunFiles& files, RunLog& log,
-          Totals& totals) {
+void play(Run& run, Integrator& integrator, Player& player, Publisher& publisher, RunFiles& files,
+          RunLog& log) {
   ParameterWatch parameters;
+  run.advance(integrator);
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
     if (action == Player::Action::kShowBetween) {
       publisher.publishBetween(run, player.showing());
       continue;
     }
-    if (action == Player::Action::kReset) run.reset();
-    if (action == Player::Action::kAdvance || action == Player::Action::kAdvanceFrame) {
-      const std::int64_t frame = run.frame(), steps = run.steps();
-      const ros::SteadyTime start = ros::SteadyTime::now();
-      run.advance(action == Player::Action::kAdvance && publisher.isWatched());
-      totals.seconds += (ros::SteadyTime::now() - start).toSec();
-      totals.frames += run.frame() - frame;
-      totals.steps += run.steps() - steps;
+    if (action == Player::Action::kReset) {
+      run.reset(integrator);
+      run.advance(integrator);
+    } else if (action == Player::Action::kAdvance && publisher.isWatched()) {
+      run.advancePart(integrator);
+    } else if (action != Player::Action::kShowAgain) {
+      run.advance(integrator);
     }
-    run.writeTo(files);
+    if (run.wasStopped()) return;  // inside a frame, which is discarded
+    files.write(run);
+    if (run.isOver()) files.finish();
     publisher.publish(run, player.showing());
-    log.follow(run, totals, files, publisher);
+    log.follow();
     parameters.look();
   }
 }
@@ -76,8 +78,10 @@ int runNode() {
   const NodeConfiguration configuration = readConfiguration();
   const Scenario& scenario = configuration.scenario;
   const NodeOptions& options = configuration.options;
-  PendulumRun run(scenario, readParticles(scenario, "_particles:=FILE"),
-                  options.track_energy || !scenario.energy.empty(), displayInterval(options));
+  Run run(
+      scenario, readParticles(scenario, "_particles:=FILE"),
+      {options.track_energy || !scenario.energy.empty(), displayInterval(options), interruption});
+  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   if (!configuration.unused.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name
                     << " does not use "
@@ -93,18 +97,14 @@ int runNode() {
                              "ROS_NAMESPACE=second");
   }
   RunFiles files(scenario);  // last, because it removes the frames of earlier runs
-  RunLog log;
-  log.start(run, options, files);
+  logStart(run, options, files);
   ROS_INFO_STREAM("parameters: " << configuration.values);
   publisher.waitForSubscribers(options);
   catchInterruptions();  // from now on ROS continues after a signal until the files are closed
-  Totals totals;
-  try {
-    play(run, player, publisher, files, log, totals);
-  } catch (const Interrupted&) {  // inside a frame, which is discarded
-  }
+  RunLog log(run, *integrator, files, publisher, options.at_end == AtEnd::kHold);
+  play(run, *integrator, player, publisher, files, log);
   files.finish();
-  log.finish(run, totals, files, publisher);
+  log.finish();
 
   if (interruption() == 0 && ros::ok()) ros::WallDuration(kLastMessages).sleep();
   publisher.clear();

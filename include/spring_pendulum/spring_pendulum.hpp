@@ -13,11 +13,13 @@
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
+#include <spring_pendulum/model/particles.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
+#include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>

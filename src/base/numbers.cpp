@@ -103,4 +103,11 @@ std::string roundedText(double value, int digits) {
   return fmt::format("{:.{}g}", rounded.value_or(value), std::max(digits, 3));
 }
 
+std::string durationText(double seconds) {
+  // Rounded first: 0.9996 s is "1 s", not "1e+03 ms".
+  if (seconds >= 99.95) return fmt::format("{:.0f} s", seconds);
+  if (seconds >= 0.9995) return fmt::format("{:.3g} s", seconds);
+  return fmt::format("{:.3g} ms", std::round(seconds * 1e5) / 100.0);
+}
+
 }  // namespace spring_pendulum

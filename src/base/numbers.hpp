@@ -36,4 +36,7 @@ std::string numberText(double value);
 /// {fmt} 6 writes 0.00024 as 0.0024.
 std::string roundedText(double value, int digits);
 
+/// Returns a time with three significant digits: "1.25 s", "3.07 ms", "0.04 ms".
+std::string durationText(double seconds);
+
 }  // namespace spring_pendulum

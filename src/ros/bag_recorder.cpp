@@ -1,14 +1,13 @@
 #include "ros/bag_recorder.hpp"
 
+#include "base/numbers.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/run_files.hpp"
-#include "io/program/interruption.hpp"
 #include "ros/messages/marker_builder.hpp"
 #include "ros/messages/stamps.hpp"
 #include "ros/messages/state_builder.hpp"
 #include "ros/node/publisher.hpp"
-#include "simulation/interruptible.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <boost/make_shared.hpp>
@@ -37,7 +36,7 @@ boost::shared_ptr<ros::M_string> connectionHeader(const std::string& topic, bool
 
 class BagRecorder {
  public:
-  BagRecorder(rosbag::Bag& bag, const PendulumRun& run, const NodeOptions& options,
+  BagRecorder(rosbag::Bag& bag, const Run& run, const NodeOptions& options,
               const std::string& prefix)
       : bag_(bag),
         frame_id_(options.frame_id),
@@ -50,7 +49,7 @@ class BagRecorder {
         status_header_(connectionHeader<PendulumStatus>(status_topic_, true)),
         camera_header_(connectionHeader<tf2_msgs::TFMessage>("/tf_static", true)) {}
 
-  void write(const PendulumRun& run) {
+  void write(const Run& run) {
     std_msgs::Header header;
     header.frame_id = frame_id_;
     header.stamp = stamps_.next(run.time());
@@ -76,7 +75,7 @@ class BagRecorder {
     ++messages_;
   }
 
-  void writeStatus(const PendulumRun& run, const std_msgs::Header& header) {
+  void writeStatus(const Run& run, const std_msgs::Header& header) {
     PendulumStatus status = statusOf(run, false);
     if (status.text == last_status_) return;
     last_status_ = status.text;
@@ -112,18 +111,13 @@ std::string topicPrefix(const std::string& name_space) {
   return prefix;
 }
 
-/// Records until the end of the run or a signal.
-void recordRun(PendulumRun& run, BagRecorder& recorder, RunFiles& files) {
-  recorder.write(run);
-  run.writeTo(files);
-  try {
-    while (!run.isOver() && interruption() == 0) {
-      run.advance(true);
-      recorder.write(run);
-      run.writeTo(files);
-    }
-  } catch (const Interrupted&) {  // inside a frame, which is discarded
+/// Records until the end of the run or a signal, also the status of a run that diverged.
+void recordRun(Run& run, Integrator& integrator, BagRecorder& recorder, RunFiles& files) {
+  while (run.advancePart(integrator)) {
+    recorder.write(run);
+    files.write(run);
   }
+  if (!run.isShown()) recorder.write(run);
 }
 
 }  // namespace
@@ -137,8 +131,8 @@ std::vector<Option> bagOptions(BagOptions& o) {
   };
 }
 
-BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOptions& to,
-                     const std::function<void()>& started) {
+std::string recordBag(Run& run, Integrator& integrator, const NodeOptions& options,
+                      const BagOptions& to, const std::function<void()>& started) {
   const Scenario& scenario = run.scenario();
   auto bag = std::make_unique<rosbag::Bag>();
   BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
@@ -149,8 +143,7 @@ BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOpti
   checkTouchedFiles(touched);
   OutputFile file(to.path);
   RunFiles files(scenario, to.config);
-  BagSummary summary;
-  summary.path = file.path();
+  std::int64_t messages = 0;
   bool has_earlier = false;
   try {
     has_earlier = to.append && file.copyEarlier();
@@ -158,9 +151,9 @@ BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOpti
     bag->open(file.unfinishedPath(),
               has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     started();
-    recordRun(run, recorder, files);
+    recordRun(run, integrator, recorder, files);
     bag->close();
-    summary.messages = recorder.messages();
+    messages = recorder.messages();
   } catch (const rosbag::BagException& error) {
     // The text of a BagIOException has neither the file nor the reason.
     const bool is_io = dynamic_cast<const rosbag::BagIOException*>(&error) != nullptr;
@@ -174,11 +167,11 @@ BagSummary recordBag(PendulumRun& run, const NodeOptions& options, const BagOpti
     static_cast<void>(bag.release());
     throw;
   }
-  summary.bytes = file.size();
+  std::string output =
+      fmt::format(", {}, {} bytes in {}", counted(messages, "message"), file.size(), file.path());
   file.finish();
   files.finish();
-  summary.frames = run.frame() + (run.isShown() ? 1 : 0);
-  return summary;
+  return output;
 }
 
 }  // namespace spring_pendulum

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ros/parameters/node_options.hpp"
-#include "ros/pendulum_run.hpp"
+#include <spring_pendulum/simulation/run.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -21,22 +21,15 @@ struct BagOptions {
 /// Returns the options of record_bag, bound to `options`.
 std::vector<Option> bagOptions(BagOptions& options);
 
-/// Numbers and texts for the closing line.
-struct BagSummary {
-  std::int64_t frames = 0;
-  std::int64_t messages = 0;
-  std::uintmax_t bytes = 0;  ///< size of the file
-  std::string path;          ///< absolute
-};
-
 /// Records a run. Stamps are simulated time, starting at `Stamps::simulatedStart()`. The same
 /// scenario and options give the same bytes. The bag is complete or absent, like every OutputFile;
 /// when appending, a longer copy replaces the bag at the end. After a signal, the bag ends with the
 /// last message before it.
 /// \param started called when nothing about the files can be refused any more, before the run
+/// \returns for the closing line: ", 501 messages, 123456 bytes in /home/me/pendulum.bag"
 /// \throws FileError naming the bag
-BagSummary recordBag(
-    PendulumRun& run, const NodeOptions& options, const BagOptions& to,
+std::string recordBag(
+    Run& run, Integrator& integrator, const NodeOptions& options, const BagOptions& to,
     const std::function<void()>& started = [] {});
 
 }  // namespace spring_pendulum

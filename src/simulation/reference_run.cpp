@@ -1,5 +1,4 @@
 #include "base/checks.hpp"
-#include "integration/error_control/dense_output_integrator.hpp"
 #include "model/chain_modes.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
@@ -30,11 +29,8 @@ constexpr double kSafety = 3.0;
 /// Smallest distance that can be resolved, relative to the largest coordinate.
 constexpr double kRounding = 1e-14;
 
-/// Work that is always allowed, in particles times force evaluations of Taylor-8: up to 0.2 s, as 2
-/// to 5 ns were measured for each. An evaluation costs as if the chain had `kOverhead` more
-/// particles.
-constexpr double kFreeWork = 4e7;
-constexpr double kOverhead = 8.0;
+/// Work that is always allowed, see Integrator::work.
+constexpr double kFreeWork = 0.12;  // s
 /// Longer chains are measured only on request, because a reference run would need much memory.
 constexpr Eigen::Index kMostParticles = 100'000;
 
@@ -95,10 +91,7 @@ struct ReferenceRun::Trajectory {
   Trajectory(std::string_view method, const Chain& chain, State start, double tolerance)
       : integrator(makeIntegrator(method, chain, {tolerance, false, 1})), state(std::move(start)) {}
 
-  DenseOutputIntegrator& controlled() const {
-    return dynamic_cast<DenseOutputIntegrator&>(*integrator);
-  }
-  double work() const { return controlled().statistics().work(); }
+  double work() const { return integrator->work(); }
 
   std::unique_ptr<Integrator> integrator;
   State state;
@@ -158,7 +151,7 @@ void ReferenceRun::advance(double time_step, std::int64_t steps, double run_work
   for (const Trajectory& trajectory : trajectories_) left -= trajectory.work();
   for (Trajectory& trajectory : trajectories_) {
     left += trajectory.work();
-    if (!trajectory.controlled().advanceWithin(trajectory.state, time_step, steps, left)) {
+    if (trajectory.integrator->advanceWithin(trajectory.state, time_step, steps, left) < steps) {
       stop(Status::kCostTooMuch);
       return;
     }
@@ -204,7 +197,7 @@ void ReferenceRun::stop(Status status) {
 
 double ReferenceRun::allowedWork(double run_work) const {
   if (always_) return std::numeric_limits<double>::infinity();
-  return std::max(kFreeWork / (static_cast<double>(chain_.size()) + kOverhead), run_work);
+  return std::max(kFreeWork, run_work);
 }
 
 }  // namespace spring_pendulum

@@ -23,27 +23,4 @@ bool isAtRest(const Chain& chain, const State& state, double duration, double to
   return true;
 }
 
-void SleepingIntegrator::advance(State& state, double time_step, std::int64_t steps) {
-  const double duration = time_step * static_cast<double>(steps);
-  if (tolerance_ > 0.0 && isAtRest(chain_, state, duration, tolerance_)) {
-    asleep_ = true;
-    ++slept_calls_;
-    return;
-  }
-  if (asleep_) {
-    // The integrator keeps data from before the sleep. Its restart also clears the dissipated
-    // energy.
-    dissipated_before_ += integrator_->dissipatedEnergy();
-    integrator_->restart();
-  }
-  asleep_ = false;
-  integrator_->advance(state, time_step, steps);
-}
-
-void SleepingIntegrator::restart() {
-  asleep_ = false;
-  dissipated_before_ = 0.0;
-  integrator_->restart();
-}
-
 }  // namespace spring_pendulum

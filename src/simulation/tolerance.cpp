@@ -8,14 +8,13 @@
 
 namespace spring_pendulum {
 
-void checkTolerance(const Scenario& scenario, const Chain& chain, const State& start) {
-  if (scenario.method.get().hasFixedStep()) return;
+void checkTolerance(double tolerance, const Chain& chain, const State& start) {
   const double least = smallestTolerance(chain, start);
-  if (scenario.tolerance >= least) return;
+  if (tolerance >= least) return;
   throw InputError(
       fmt::format("tolerance: must be at least {:.1e} m for this scene, because of the rounding "
                   "errors of its positions; got {}",
-                  1.05 * least, numberText(scenario.tolerance)));
+                  1.05 * least, numberText(tolerance)));
 }
 
 }  // namespace spring_pendulum

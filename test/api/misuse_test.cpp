@@ -1,5 +1,4 @@
 // Wrong use of every public function ends in an InputError, also in a release build.
-#include "simulation/run_monitor.hpp"
 #include <spring_pendulum/spring_pendulum.hpp>
 
 #include <gtest/gtest.h>
@@ -183,11 +182,10 @@ TEST(Misuse, ScenariosThatWereNotValidated) {
       wrong.time_step = wrong.frame_interval = wrong.tolerance = value;
       wrong.frames = wrong.steps_per_frame = -1;
       const auto integrator = makeIntegrator("Euler", chain());
-      State state = horizontal();
       try {
-        RunMonitor monitor(wrong, chain(), horizontal(), true);
-        monitor.judge(value, state, *integrator);
-        monitor.follow(value, -1);
+        spring_pendulum::Run run(wrong, {chain().masses(), horizontal()}, {true});
+        run.advance(*integrator);
+        run.advance(*integrator);
         ADD_FAILURE() << method << " " << value;
       } catch (const InputError&) {
       }
@@ -203,6 +201,7 @@ class Wrong final : public Integrator {
     state.values().setConstant(kNan);
   }
   void restart() override {}
+  double work() const override { return kNan; }
   std::int64_t forceEvaluations() const override { return -1; }
   double dissipatedEnergy() const override { return kNan; }
 };
@@ -222,15 +221,10 @@ TEST(Misuse, MethodsOfPrograms) {
   EXPECT_THROW(registerMethod(method), InputError);
   Scenario scenario;
   scenario.method = findMethod("Wrong");
-  RunMonitor monitor(scenario, chain(), horizontal(), true);
-  const auto integrator = makeIntegrator("Wrong", chain());
-  State state = horizontal();
-  integrator->advance(state, 0.01, 1);
-  EXPECT_THROW(monitor.judge(0.01, state, *integrator), InputError);
-  State nothing_finite = horizontal();
-  nothing_finite.values().setConstant(kNan);
-  EXPECT_EQ(monitor.judge(0.02, nothing_finite, *integrator).kind, VerdictKind::kDiverged);
-  EXPECT_FALSE(monitor.isShown());
+  spring_pendulum::Run run(scenario, {chain().masses(), horizontal()}, {true});
+  const auto integrator = run.makeIntegrator();
+  EXPECT_TRUE(run.advance(*integrator));
+  EXPECT_THROW(run.advance(*integrator), InputError);
 }
 
 TEST(Misuse, MessagesNameTheValue) {

@@ -6,6 +6,7 @@
 #include "ros/parameters/parameters.hpp"
 #include "simulation/options/option_set.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/io/particle_file.hpp>
 
 #include <gmock/gmock.h>
 
@@ -16,6 +17,7 @@
 #include <array>
 #include <map>
 
+#include <support/program_run.hpp>
 #include <support/temporary_folder.hpp>
 
 namespace spring_pendulum {
@@ -32,7 +34,7 @@ std::array<float, 4> rgba(const std_msgs::ColorRGBA& color) {
   return {color.r, color.g, color.b, color.a};
 }
 
-visualization_msgs::MarkerArray markersOf(const PendulumRun& run, const NodeOptions& options) {
+visualization_msgs::MarkerArray markersOf(const Run& run, const NodeOptions& options) {
   MarkerBuilder builder(run, options);
   builder.trackTip(run);
   ShownState shown;
@@ -42,7 +44,7 @@ visualization_msgs::MarkerArray markersOf(const PendulumRun& run, const NodeOpti
 
 TEST(Markers, LongChainsAreThinnedAndKeepBothEnds) {
   for (const Eigen::Index particles : {2, 3, 9, 10, 11, 12, 100, 101}) {
-    const PendulumRun run(Scenario{}, horizontal(particles), false, 0.0);
+    const test::ProgramRun run(Scenario{}, horizontal(particles), {false, 0.0});
     NodeOptions options;
     options.display_limit = 10;
     const auto markers = markersOf(run, options).markers;
@@ -61,7 +63,7 @@ TEST(Markers, GridHasFewLinesFarFromTheOrigin) {
   for (const double left : {0.0, 1e17, -1e17, 1e100}) {
     Particles scene = horizontal(2);
     scene.state.x() << left, left + std::max(16.0, 1e-15 * left);
-    const PendulumRun run(Scenario{}, scene, false, 0.0);
+    const test::ProgramRun run(Scenario{}, scene, {false, 0.0});
     const auto grid = markersOf(run, NodeOptions{}).markers[5].points;
     EXPECT_GT(grid.size(), 40U) << left;
     EXPECT_LT(grid.size(), 400U) << left;
@@ -74,7 +76,7 @@ TEST(Markers, GridIsBoundedAtExtremeLengths) {
     scene.state.x()[1] = length;
     Scenario scenario;
     scenario.rest_length = scenario.stiffness = scenario.gravity = 0.0;
-    const PendulumRun run(scenario, scene, false, 0.0);
+    const test::ProgramRun run(scenario, scene, {false, 0.0});
     EXPECT_LT(markersOf(run, NodeOptions{}).markers[5].points.size(), 400U) << length;
   }
 }
@@ -84,7 +86,7 @@ TEST(Markers, ADivergedChainInItsOwnColourIsBroken) {
   scenario.method = findMethod("Euler");
   scenario.damping = 0.0;
   scenario.time_step = 0.5;
-  PendulumRun run(scenario, horizontal(3), false, 0.0);
+  test::ProgramRun run(scenario, horizontal(3), {false, 0.0});
   NodeOptions options;
   options.color = "#ff8000";
   MarkerBuilder builder(run, options);
@@ -92,7 +94,7 @@ TEST(Markers, ADivergedChainInItsOwnColourIsBroken) {
   shown.follow(run);
   const std_msgs::Header header;
   EXPECT_EQ(builder.build(run, shown, header, "").markers[0].points.size(), 4U);
-  while (!run.isOver()) run.advance(false);
+  while (!run.isOver()) run.advance();
   ASSERT_EQ(run.verdict().kind, VerdictKind::kDiverged);
   const auto& springs = builder.build(run, shown, header, "").markers[0];
   ASSERT_EQ(springs.points.size(), 8U);  // each spring in two pieces
@@ -107,7 +109,7 @@ TEST(Markers, RowsOfTextStartAtTheSameEdgeOfThePicture) {
   for (const char* method : {"Euler", "Runge-Kutta-4"}) {
     Scenario scenario;
     scenario.method = findMethod(method);
-    const PendulumRun run(scenario, horizontal(3), false, 0.0);
+    const test::ProgramRun run(scenario, horizontal(3), {false, 0.0});
     NodeOptions options;
     options.text_rows = 2;
     options.text_row = static_cast<std::int64_t>(starts.size());
@@ -123,7 +125,7 @@ TEST(Markers, RowsOfTextStartAtTheSameEdgeOfThePicture) {
 }
 
 TEST(Markers, OnlyTheFirstRowMovesTheCamera) {
-  const PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  const test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
   NodeOptions options;
   options.text_rows = 2;
   for (const int row : {0, 1}) {
@@ -141,7 +143,7 @@ TEST(Markers, SpringsAreColouredByStrainAndParticlesByMass) {
   scene.state.x()[2] = 1.5;  // springs of 1, 0.5 and 3.5 m
   scene.state.x()[3] = 5.0;
   scene.masses.view() << 1.0, 1.0, 10.0, 100.0;
-  const PendulumRun run(Scenario{}, scene, false, 0.0);
+  const test::ProgramRun run(Scenario{}, scene, {false, 0.0});
   const auto markers = markersOf(run, NodeOptions{}).markers;
   const auto& springs = markers[0].colors;
   EXPECT_EQ(springs[0].r, springs[0].b);  // relaxed: no hue
@@ -154,7 +156,7 @@ TEST(Markers, SpringsAreColouredByStrainAndParticlesByMass) {
 }
 
 TEST(Markers, OneColourForTheWholeChainOnRequest) {
-  const PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  const test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
   NodeOptions options;
   options.color = "#ff8000";
   const auto markers = markersOf(run, options).markers;
@@ -163,13 +165,13 @@ TEST(Markers, OneColourForTheWholeChainOnRequest) {
 }
 
 TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
-  PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
   NodeOptions options;
   options.trail = 1.0;
   MarkerBuilder builder(run, options);
   for (int i = 0; i < 30; ++i) {
     builder.trackTip(run);
-    run.advance(false);
+    run.advance();
   }
   const std_msgs::Header header;
   ShownState shown;
@@ -184,8 +186,8 @@ TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
 }
 
 TEST(Markers, TheReferenceIsASecondChainOnRequest) {
-  PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
-  run.advance(false);
+  test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
+  run.advance();
   NodeOptions options;
   options.show_reference = true;
   const auto markers = markersOf(run, options).markers;
@@ -197,16 +199,16 @@ TEST(Markers, TheReferenceIsASecondChainOnRequest) {
 }
 
 TEST(Markers, SlowMotionShowsStatesBetween) {
-  PendulumRun run(Scenario{}, horizontal(3), false, 0.0);
+  test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
   ShownState shown;
   for (int i = 0; i < 5; ++i) {
-    run.advance(false);
+    run.advance();
     shown.follow(run);
   }
   const State before = run.state();
-  PendulumRun truth(Scenario{}, horizontal(3), false, 0.05);
-  for (int i = 0; i < 11; ++i) truth.advance(true);
-  run.advance(false);
+  test::ProgramRun truth(Scenario{}, horizontal(3), {false, 0.05});
+  for (int i = 0; i < 11; ++i) truth.advancePart();
+  run.advance();
   shown.follow(run, 0.0);
   EXPECT_EQ(shown.state().positions(), before.positions());
   shown.follow(run, 0.5);
@@ -220,8 +222,8 @@ TEST(Markers, SlowMotionShowsStatesBetween) {
 
 TEST(StateMessage, LiesInThePlaneXZ) {
   Scenario scenario;
-  PendulumRun run(scenario, horizontal(3), true, 0.0);
-  run.advance(false);
+  test::ProgramRun run(scenario, horizontal(3), {true, 0.0});
+  run.advance();
   const PendulumState message = StateBuilder(0.25).build(run, std_msgs::Header());
   EXPECT_EQ(message.positions[2].x, run.state().x()[2]);
   EXPECT_EQ(message.positions[2].y, 0.25);
@@ -238,12 +240,12 @@ TEST(StateMessage, LiesInThePlaneXZ) {
 TEST(StateMessage, LargestStretchIsRelativeToTheRestLength) {
   Scenario scenario;
   scenario.rest_length = 0.5;
-  const PendulumRun run(scenario, horizontal(3), false, 0.0);
+  const test::ProgramRun run(scenario, horizontal(3), {false, 0.0});
   EXPECT_DOUBLE_EQ(largestStretch(run.chain(), run.state()), 1.0);
   scenario.rest_length = 0.0;
-  const PendulumRun loose(scenario, horizontal(3), false, 0.0);
+  const test::ProgramRun loose(scenario, horizontal(3), {false, 0.0});
   EXPECT_DOUBLE_EQ(largestStretch(loose.chain(), loose.state()), 1.0);
-  const PendulumRun alone(scenario, horizontal(1), false, 0.0);
+  const test::ProgramRun alone(scenario, horizontal(1), {false, 0.0});
   EXPECT_EQ(largestStretch(alone.chain(), alone.state()), 0.0);
 }
 
@@ -254,8 +256,8 @@ TEST(Bag, IsReadBackByTheLibrary) {
   scenario.particles = PROJECT_DIR "/data/particle.txt";
   BagOptions options;
   options.path = folder.path() + "/one.bag";
-  PendulumRun run(scenario, readParticleFile(scenario.particles), true, 1.0 / 30.0);
-  const BagSummary summary = recordBag(run, NodeOptions{}, options);
+  spring_pendulum::Run run(scenario, readParticleFile(scenario.particles), {true, 1.0 / 30.0});
+  const std::string output = recordBag(run, *run.makeIntegrator(), NodeOptions{}, options);
   rosbag::Bag bag(options.path);
   std::map<std::string, int> counts;
   ros::Time last;
@@ -268,8 +270,8 @@ TEST(Bag, IsReadBackByTheLibrary) {
   EXPECT_EQ(counts["/state"], 16);
   EXPECT_EQ(counts["/status"], 2);
   EXPECT_EQ(counts["/tf_static"], 1);
-  EXPECT_EQ(summary.messages, 35);
-  EXPECT_EQ(summary.frames, 6);
+  EXPECT_EQ(output.find(", 35 messages, "), 0U) << output;
+  EXPECT_EQ(run.shownFrames(), 6);
 }
 
 TEST(Parameters, RawValuesBecomeTheTextThatWasMeant) {

@@ -1,7 +1,11 @@
 // The visible part of a scene, for scenes of any size.
 #include "ros/messages/scene_view.hpp"
 
+#include <spring_pendulum/io/particle_file.hpp>
+
 #include <gtest/gtest.h>
+
+#include <support/program_run.hpp>
 
 namespace spring_pendulum {
 namespace {
@@ -25,13 +29,13 @@ TEST(SceneView, HoldsTheWholeMotionOfEveryShippedScene) {
                            "two_masses", "hanging_plucked"}) {
     SCOPED_TRACE(name);
     const Scenario scenario;
-    PendulumRun run(scenario, readParticleFile(std::string(PROJECT_DIR "/data/") + name + ".txt"),
-                    false, 0.0);
+    test::ProgramRun run(scenario,
+                         readParticleFile(std::string(PROJECT_DIR "/data/") + name + ".txt"));
     SceneView view(run, 3);
     Box motion{0.0, 0.0, 0.0, 0.0};
     bool widened = false;
     while (!run.isOver()) {
-      run.advance(false);
+      run.advance();
       widened = view.follow(run.state()) || widened;
       ASSERT_TRUE(shows(view, run.state())) << run.time();
       motion.include({run.state().x().minCoeff(), run.state().x().maxCoeff(),
@@ -49,7 +53,7 @@ TEST(SceneView, ScalesWithTheScene) {
   double last = 0.0;
   for (const double spacing : {1e-3, 1.0, 1e3}) {
     scenario.rest_length = spacing;
-    const PendulumRun run(scenario, horizontal(11, spacing), false, 0.0);
+    const test::ProgramRun run(scenario, horizontal(11, spacing), {false, 0.0});
     const SceneView view(run, 3);
     EXPECT_NEAR(view.cameraDistance(), 10.0 * spacing * 1.1 / 1.3 / 2.0 / 0.41421356, spacing);
     EXPECT_NEAR(view.gridDistance(), spacing, 1e-9 * spacing);
@@ -59,14 +63,14 @@ TEST(SceneView, ScalesWithTheScene) {
 }
 
 TEST(SceneView, OneParticleHasAPicture) {
-  const PendulumRun run(Scenario{}, horizontal(1, 1.0), false, 0.0);
+  const test::ProgramRun run(Scenario{}, horizontal(1, 1.0), {false, 0.0});
   const SceneView view(run, 3);
   EXPECT_GT(view.size(), 0.5);
   EXPECT_LT(view.size(), 2.0);
 }
 
 TEST(SceneView, WidensForAMotionThatLeavesItButNotForEver) {
-  const PendulumRun run(Scenario{}, horizontal(6, 1.0), false, 0.0);
+  const test::ProgramRun run(Scenario{}, horizontal(6, 1.0), {false, 0.0});
   SceneView view(run, 3);
   State state = run.start();
   EXPECT_FALSE(view.follow(state));

@@ -44,6 +44,19 @@ class Integrator {
   ///         finite and positive, or `steps` is negative
   virtual void advance(State& state, double time_step, std::int64_t steps) = 0;
 
+  /// Advances like `advance`, but stops early once `work()` has reached `most_work` s. To go on, call
+  /// it again with the remaining steps; a run with stops has the bits of a run without. Takes at
+  /// least one step if `work()` is below `most_work`, except that an error-controlled method may
+  /// stop between two output times, which leaves `state` unchanged.
+  /// \returns the number of completed steps
+  virtual std::int64_t advanceWithin(State& state, double time_step, std::int64_t steps,
+                                     double most_work);
+
+  /// Nominal computing time since construction, s: numbers of operations times the time that each
+  /// takes on one core of a current processor. It is counted, not measured by a clock, so a limit on
+  /// it stops every run at the same place on every machine.
+  virtual double work() const = 0;
+
   /// Number of evaluations of F for the whole chain since construction.
   virtual std::int64_t forceEvaluations() const = 0;
 
@@ -64,6 +77,9 @@ class Integrator {
 
  protected:
   Integrator() = default;
+
+ private:
+  double step_work_ = 0.0;  ///< of the last steps in `advanceWithin`, s per step
 };
 
 }  // namespace spring_pendulum

@@ -5,8 +5,7 @@
 // and a missing newline at the end are accepted. Numbers are decimal, with a point in every locale.
 #pragma once
 
-#include <spring_pendulum/base/aligned_numbers.hpp>
-#include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/model/particles.hpp>
 
 #include <string>
 #include <string_view>
@@ -14,12 +13,7 @@
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// N >= 1 particles at rest.
-struct Particles {
-  AlignedNumbers masses;  ///< N masses, kg
-  State state;            ///< N positions; none is -0.0, so that x + 0 has the bits of x
-};
-
+/// Returns particles at rest.
 /// \throws FileError if the file can't be read
 /// \throws InputError with file and line for the first invalid line
 Particles readParticleFile(const std::string& path);

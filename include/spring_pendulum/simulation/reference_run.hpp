@@ -57,8 +57,8 @@ class ReferenceRun {
 
   /// Advances the reference by `steps` steps of `time_step` s, like Integrator::advance. Does
   /// nothing once the measurement has stopped.
-  /// \param run_work cost of the run so far, in force evaluations of Taylor-8. The reference may
-  ///   cost as much or about 0.2 s, whichever is more.
+  /// \param run_work cost of the run so far, s, see Integrator::work. The reference may cost as much
+  ///   or about 0.1 s, whichever is more.
   void advance(double time_step, std::int64_t steps, double run_work);
 
   /// Measures how much small perturbations have grown, see `growth()`. Call it once per frame; then

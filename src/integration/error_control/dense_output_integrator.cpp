@@ -79,8 +79,8 @@ void DenseOutputIntegrator::advance(State& state, double time_step, std::int64_t
   advanceWithin(state, time_step, steps, std::numeric_limits<double>::infinity());
 }
 
-bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::int64_t steps,
-                                          double most_work) {
+std::int64_t DenseOutputIntegrator::advanceWithin(State& state, double time_step,
+                                                  std::int64_t steps, double most_work) {
   requireAdvance(started_ ? particles_ : state.size(), state.size(), time_step, steps);
   if (!started_) {
     stepper_->start(state);  // checks the size of the state
@@ -96,24 +96,24 @@ bool DenseOutputIntegrator::advanceWithin(State& state, double time_step, std::i
     outputs_ = 0;
   }
   output_step_ = time_step;
-  if (steps == 0) return true;
-  outputs_ += steps;
-  const double output_time = output_origin_ + static_cast<double>(outputs_) * time_step;
+  if (steps == 0) return 0;
+  const double output_time = output_origin_ + static_cast<double>(outputs_ + steps) * time_step;
   while (!diverged_ && step_end_ < output_time) {
     // Without a limit, the statistics need not be collected in every step.
-    if (std::isfinite(most_work) && statistics().work() >= most_work) return false;
+    if (std::isfinite(most_work) && work() >= most_work) return 0;
     takeStep();
   }
+  outputs_ += steps;
   if (diverged_) {
     state.values()
         .bottomRows(state.size() - 1)
         .setConstant(std::numeric_limits<double>::quiet_NaN());
-    return true;
+    return steps;
   }
   const double fraction = std::min((output_time - step_begin_) / step_length_, 1.0);
   stepper_->interpolate(fraction, state);
   dissipated_in_step_ = dissipated(fraction);
-  return true;
+  return steps;
 }
 
 }  // namespace spring_pendulum

@@ -12,6 +12,7 @@
 #include "integration/kernels/dissipated_energy.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
+#include "integration/work.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
@@ -35,11 +36,10 @@ class DenseOutputIntegrator final : public Integrator {
   /// that the steps did not reach.
   void advance(State& state, double time_step, std::int64_t steps) override;
 
-  /// Like `advance`, but stops when the work since construction (StepStatistics::work) reaches
-  /// `most_work`.
-  /// \returns whether the output time was reached; if not, `state` is unchanged and only `restart`
-  ///          may be called
-  bool advanceWithin(State& state, double time_step, std::int64_t steps, double most_work);
+  /// \returns 0 or `steps`
+  std::int64_t advanceWithin(State& state, double time_step, std::int64_t steps,
+                             double most_work) override;
+  double work() const override { return nominalTaylorTime(particles_) * statistics().work(); }
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
   double dissipatedEnergy() const override { return dissipated_before_step_ + dissipated_in_step_; }
   void restart() override;

@@ -7,6 +7,7 @@
 #include "integration/kernels/dissipated_energy.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
+#include "integration/work.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
@@ -22,6 +23,9 @@ class PlainRungeKutta : public Integrator {
                   const ChainKernels& kernels = fastestChainKernels());
 
   void advance(State& state, double time_step, std::int64_t steps) override;
+  double work() const override {
+    return nominalFixedStepTime(constants_.chain().size) * static_cast<double>(force_evaluations_);
+  }
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
   double dissipatedEnergy() const override { return dissipated_.total(); }
   void restart() override { dissipated_.reset(); }

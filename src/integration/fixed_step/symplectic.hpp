@@ -24,6 +24,7 @@
 #include "integration/kernels/dissipated_energy.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
+#include "integration/work.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
@@ -36,6 +37,9 @@ namespace spring_pendulum {
 class SymplecticMethod : public Integrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
+  double work() const final {
+    return nominalFixedStepTime(chain_.size()) * static_cast<double>(force_evaluations_);
+  }
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
   double dissipatedEnergy() const final { return dissipated_.total(); }
   void restart() final;

@@ -27,11 +27,11 @@ RunFiles::RunFiles(const Scenario& scenario, const std::string& config) {
   if (writesFrames(scenario)) frames_.emplace(scenario.output, scenario.frames);
 }
 
-void RunFiles::write(std::int64_t frame, const State& state, const EnergyEntry& entry,
-                     double position_error) {
-  if (finished_ || frame < next_frame_) return;
-  if (frames_) frames_->write(frame, state);
-  if (energy_) energy_->write(frame, entry, position_error);
+void RunFiles::write(const Run& run) {
+  const std::int64_t frame = run.frame();
+  if (finished_ || frame < next_frame_ || !run.isAtFrame() || !run.isShown()) return;
+  if (frames_) frames_->write(frame, run.state());
+  if (energy_) energy_->write(frame, run.energyEntry(), run.positionError().now);
   next_frame_ = frame + 1;
 }
 

@@ -4,7 +4,7 @@
 #include "io/files/touched_files.hpp"
 #include "io/formats/background_frame_writer.hpp"
 #include "io/formats/energy_file.hpp"
-#include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstdint>
@@ -27,11 +27,9 @@ class RunFiles {
   /// \throws InputError, FileError as checkTouchedFiles, EnergyFile and FrameWriter
   explicit RunFiles(const Scenario& scenario, const std::string& config = "");
 
-  /// Writes a frame unless it has been written before.
-  /// \param position_error m; NaN if not measured
+  /// Writes the current frame of a run unless it has been written before or must not be shown.
   /// \throws FileError naming the file
-  void write(std::int64_t frame, const State& state, const EnergyEntry& entry,
-             double position_error);
+  void write(const Run& run);
 
   /// Closes the files. No write after this.
   void finish();

@@ -1,23 +1,52 @@
 #include "io/program/closing.hpp"
 
+#include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
+#include "simulation/advice/stability_warning.hpp"
+#include "simulation/memory.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace spring_pendulum {
+namespace {
 
-std::string durationText(double seconds) {
-  // Rounded first: 0.9996 s is "1 s", not "1e+03 ms".
-  if (seconds >= 99.95) return fmt::format("{:.0f} s", seconds);
-  if (seconds >= 0.9995) return fmt::format("{:.3g} s", seconds);
-  return fmt::format("{:.3g} ms", std::round(seconds * 1e5) / 100.0);
+/// Returns a line with a remark; empty if there is none.
+std::string line(const std::string& remark) {
+  return remark.empty() ? "" : remark + "\n";
 }
+
+std::string warningLine(const std::string& warning) {
+  return warning.empty() ? "" : line("warning: " + warning);
+}
+
+std::string memoryLine(const Run& run) {
+  return line(memoryRemark(run.scenario(), run.chain().size()));
+}
+
+/// Returns a line "skipped: ..." for each kind of work that a run skips because its scenario does not
+/// need it.
+std::string skippedWork(const Run& run, const Integrator& integrator) {
+  const Skips skips = integrator.skips();
+  std::string text;
+  if (skips.damping) text += "skipped: velocity differences: damping is 0\n";
+  if (skips.gravity) text += "skipped: gravity: it is 0\n";
+  if (skips.masses) {
+    text += "skipped: reading masses: all moving particles have the same mass\n";
+  }
+  if (run.scenario().damping == 0.0) {
+    text += "skipped: dissipated energy: damping is 0\n";
+  } else if (!run.tracksDissipation()) {
+    text += "skipped: dissipated energy: expensive for this run; --energy FILE computes it\n";
+  }
+  if (run.scenario().no_frames) text += "skipped: frame files: not written\n";
+  return text;
+}
+
+}  // namespace
 
 std::string writingText(const RunFiles& files) {
   const std::string destination = files.destination();
@@ -30,22 +59,28 @@ void printClosingLine(const std::string& text) {
   flushOutput();
 }
 
-void printRemark(const std::string& text) {
-  if (!text.empty()) printError(text + "\n");
+void printAnswers(const Run& run, const Integrator& integrator, const Switches& switches) {
+  if (switches.report_skips) printOutput(skippedWork(run, integrator));
+  if (!switches.check) return;
+  printError(memoryLine(run));
+  printOutput(describeStability(run.chain(), run.start(), run.scenario()));
 }
 
-void printWarning(const std::string& text) {
-  if (!text.empty()) printRemark("warning: " + text);
+std::string remarksOn(const Run& run) {
+  return memoryLine(run) + line(remarkOn(run.scenario())) +
+         warningLine(stabilityWarning(run.chain(), run.scenario()));
 }
 
-int conclude(const Scenario& scenario, const Chain& chain, const State& start,
-             const Verdict& verdict, const std::string& tolerance_remark) {
+int conclude(const Run& run) {
+  const Verdict& verdict = run.verdict();
   if (verdict.kind == VerdictKind::kDiverged) {
-    printError(fmt::format("{}; {}\n", verdict.text, remedyForDivergence(chain, start, scenario)));
+    printError(fmt::format("{}; {}\n", verdict.text,
+                           remedyForDivergence(run.chain(), run.start(), run.scenario())));
     return kDiverged;
   }
-  if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) printWarning(verdict.text);
-  printWarning(tolerance_remark);
+  if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive)
+    printError(warningLine(verdict.text));
+  printError(warningLine(run.toleranceRemark()));
   return interruption() == 0 ? kDone : kSignalled + interruption();
 }
 

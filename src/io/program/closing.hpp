@@ -1,18 +1,14 @@
-// What a program prints when a run begins badly or has ended.
+// What a program prints before and after a run.
 #pragma once
 
 #include "io/formats/run_files.hpp"
-#include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/state.hpp>
-#include <spring_pendulum/simulation/scenario.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
+#include "io/program/command_line.hpp"
+#include <spring_pendulum/integration/integrator.hpp>
+#include <spring_pendulum/simulation/run.hpp>
 
 #include <string>
 
 namespace spring_pendulum {
-
-/// Returns a wall-clock time with three significant digits: "1.25 s", "3.07 ms", "0.04 ms".
-std::string durationText(double seconds);
 
 /// Returns ", 3.07 ms writing to /home/me/frames"; empty if the run writes no frames.
 std::string writingText(const RunFiles& files);
@@ -21,14 +17,15 @@ std::string writingText(const RunFiles& files);
 /// \throws FileError if it can't be written
 void printClosingLine(const std::string& text);
 
-/// Print one line to standard error; nothing if `text` is empty.
-void printRemark(const std::string& text);
-void printWarning(const std::string& text);
+/// Prints what --report-skips and --check ask for.
+void printAnswers(const Run& run, const Integrator& integrator, const Switches& switches);
+
+/// Returns lines for standard error: a remark if the run needs much memory, a warning if its step size
+/// is too large.
+std::string remarksOn(const Run& run);
 
 /// Prints the warnings on a run that has ended, or its divergence with a remedy.
-/// \param tolerance_remark as RunMonitor::toleranceRemark
 /// \returns the exit status of the program
-int conclude(const Scenario& scenario, const Chain& chain, const State& start,
-             const Verdict& verdict, const std::string& tolerance_remark);
+int conclude(const Run& run);
 
 }  // namespace spring_pendulum

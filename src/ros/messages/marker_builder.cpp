@@ -106,8 +106,7 @@ void hideIfEmpty(visualization_msgs::Marker& marker) {
 
 }  // namespace
 
-MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
-    : options_(options) {
+MarkerBuilder::MarkerBuilder(const Run& run, const NodeOptions& options) : options_(options) {
   const Chain& chain = run.chain();
   const Eigen::Index stride =
       std::max<Eigen::Index>(chain.size() - 2, 0) / (options.display_limit - 1) + 1;
@@ -131,7 +130,7 @@ MarkerBuilder::MarkerBuilder(const PendulumRun& run, const NodeOptions& options)
   if (!options.color.empty()) markers_.markers[kText].color = *parseColor(options.color);
 }
 
-void MarkerBuilder::frame(const PendulumRun& run, const State& state) {
+void MarkerBuilder::frame(const Run& run, const State& state) {
   const bool drawable = run.isFinite() && run.isShown();
   // The other rows keep to the view of the first one.
   const bool may_widen = drawable && isFirstRow();
@@ -238,7 +237,7 @@ geometry_msgs::Point MarkerBuilder::pointOf(const State& state, Eigen::Index i) 
   return point;
 }
 
-void MarkerBuilder::trackTip(const PendulumRun& run) {
+void MarkerBuilder::trackTip(const Run& run) {
   if (!trail_.empty() && run.time() < trail_.back().time) trail_.clear();
   if (options_.trail <= 0.0 || drawn_.size() < 2 || !run.isFinite() || !run.isShown()) return;
   if (!trail_.empty() && run.time() == trail_.back().time) return;
@@ -248,8 +247,7 @@ void MarkerBuilder::trackTip(const PendulumRun& run) {
   }
 }
 
-const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& run,
-                                                            const ShownState& shown,
+const visualization_msgs::MarkerArray& MarkerBuilder::build(const Run& run, const ShownState& shown,
                                                             const std_msgs::Header& header,
                                                             const std::string& pace) {
   for (visualization_msgs::Marker& marker : markers_.markers) marker.header = header;
@@ -266,7 +264,7 @@ const visualization_msgs::MarkerArray& MarkerBuilder::build(const PendulumRun& r
   return markers_;
 }
 
-void MarkerBuilder::place(const PendulumRun& run, const State& state) {
+void MarkerBuilder::place(const Run& run, const State& state) {
   auto& particles = markers_.markers[kParticles].points;
   auto& springs = markers_.markers[kSprings].points;
   particles.clear();
@@ -285,7 +283,7 @@ void MarkerBuilder::place(const PendulumRun& run, const State& state) {
   }
 }
 
-void MarkerBuilder::drawReference(const PendulumRun& run) {
+void MarkerBuilder::drawReference(const Run& run) {
   auto& reference = markers_.markers[kReference];
   reference.points.clear();
   const State* state = options_.show_reference ? run.referenceState() : nullptr;
@@ -300,7 +298,7 @@ void MarkerBuilder::drawReference(const PendulumRun& run) {
   hideIfEmpty(reference);
 }
 
-std_msgs::ColorRGBA MarkerBuilder::springColor(const PendulumRun& run, std::size_t spring) const {
+std_msgs::ColorRGBA MarkerBuilder::springColor(const Run& run, std::size_t spring) const {
   if (!options_.color.empty()) return *parseColor(options_.color);
   if (run.verdict().kind == VerdictKind::kDiverged) return divergedColor();
   if (isBad(run.verdict().kind)) return doubtColor();
@@ -323,7 +321,7 @@ void MarkerBuilder::breakSprings() {
   }
 }
 
-void MarkerBuilder::paint(const PendulumRun& run) {
+void MarkerBuilder::paint(const Run& run) {
   auto& springs = markers_.markers[kSprings];
   auto& particles = markers_.markers[kParticles];
   const bool diverged = run.verdict().kind == VerdictKind::kDiverged;
@@ -358,7 +356,7 @@ int MarkerBuilder::textLines() const {
   return std::max(kTextLines, static_cast<int>(options_.text_rows));
 }
 
-void MarkerBuilder::label(const PendulumRun& run, double time, const std::string& pace) {
+void MarkerBuilder::label(const Run& run, double time, const std::string& pace) {
   const Scenario& scenario = run.scenario();
   const bool fixed_step = scenario.method.get().hasFixedStep();
   const EnergyEntry entry = run.energyEntry();

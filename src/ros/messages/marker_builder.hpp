@@ -10,7 +10,7 @@
 #include "ros/messages/scene_view.hpp"
 #include "ros/messages/shown_state.hpp"
 #include "ros/parameters/node_options.hpp"
-#include "ros/pendulum_run.hpp"
+#include <spring_pendulum/simulation/run.hpp>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <std_msgs/Header.h>
@@ -25,16 +25,16 @@ namespace spring_pendulum {
 
 class MarkerBuilder {
  public:
-  MarkerBuilder(const PendulumRun& run, const NodeOptions& options);
+  MarkerBuilder(const Run& run, const NodeOptions& options);
 
   /// Adds the tip to the trail; a time before the last one starts a new trail.
-  void trackTip(const PendulumRun& run);
+  void trackTip(const Run& run);
 
   /// If the state of a diverged motion can't be drawn, the chain keeps its last shape and changes
   /// its colour.
   /// \param pace speed of the run for the text: "1.00 x real time"
   /// \returns a reference that is valid until the next call
-  const visualization_msgs::MarkerArray& build(const PendulumRun& run, const ShownState& shown,
+  const visualization_msgs::MarkerArray& build(const Run& run, const ShownState& shown,
                                                const std_msgs::Header& header,
                                                const std::string& pace);
 
@@ -51,18 +51,18 @@ class MarkerBuilder {
 
   bool isFirstRow() const { return options_.text_row == 0; }
   int textLines() const;
-  void frame(const PendulumRun& run, const State& state);
+  void frame(const Run& run, const State& state);
   void placeText();
   void placeRow(visualization_msgs::Marker& text) const;
   void drawGrid();
   geometry_msgs::Point pointOf(const State& state, Eigen::Index i) const;
-  void place(const PendulumRun& run, const State& state);
+  void place(const Run& run, const State& state);
   void breakSprings();
-  void paint(const PendulumRun& run);
-  void drawReference(const PendulumRun& run);
+  void paint(const Run& run);
+  void drawReference(const Run& run);
   void drawTrail(const ShownState& shown);
-  void label(const PendulumRun& run, double time, const std::string& pace);
-  std_msgs::ColorRGBA springColor(const PendulumRun& run, std::size_t spring) const;
+  void label(const Run& run, double time, const std::string& pace);
+  std_msgs::ColorRGBA springColor(const Run& run, std::size_t spring) const;
 
   NodeOptions options_;
   std::vector<Eigen::Index> drawn_;               ///< indices of the drawn particles

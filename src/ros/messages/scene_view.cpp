@@ -95,7 +95,7 @@ void Box::include(const Box& other) {
   top = std::max(top, other.top);
 }
 
-SceneView::SceneView(const PendulumRun& run, int text_lines) : text_lines_(text_lines) {
+SceneView::SceneView(const Run& run, int text_lines) : text_lines_(text_lines) {
   const Scenario& scenario = run.scenario();
   const State& start = run.start();
   const double reach = reachOf(run.chain(), start);

@@ -1,7 +1,7 @@
 // The visible part of the plane of motion, and the camera that shows it.
 #pragma once
 
-#include "ros/pendulum_run.hpp"
+#include <spring_pendulum/simulation/run.hpp>
 
 namespace spring_pendulum {
 
@@ -23,7 +23,7 @@ struct Box {
 class SceneView {
  public:
   /// \param text_lines lines of text above the scene
-  SceneView(const PendulumRun& run, int text_lines);
+  SceneView(const Run& run, int text_lines);
 
   /// Widens the frame if the chain has left it.
   /// \returns whether the frame changed

@@ -20,13 +20,13 @@ double largestStretch(const Chain& chain, const State& state) {
   return strainOf(longest, chain.spring().rest_length);
 }
 
-const PendulumState& StateBuilder::build(const PendulumRun& run, const std_msgs::Header& header) {
+const PendulumState& StateBuilder::build(const Run& run, const std_msgs::Header& header) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const EnergyEntry entry = run.energyEntry();
   message_.header = header;
   message_.method = run.scenario().method.get().name;
   message_.frame = run.frame();
-  message_.at_frame = run.atFrame() ? 1 : 0;
+  message_.at_frame = run.isAtFrame() ? 1 : 0;
   message_.time = run.time();
   message_.kinetic_energy = entry.energy.kinetic;
   message_.gravity_energy = entry.energy.gravity;

@@ -1,8 +1,8 @@
 // Builds the message of the topic `state`.
 #pragma once
 
-#include "ros/pendulum_run.hpp"
 #include <spring_pendulum/PendulumState.h>
+#include <spring_pendulum/simulation/run.hpp>
 
 #include <std_msgs/Header.h>
 
@@ -10,7 +10,7 @@ namespace spring_pendulum {
 
 /// Sets the four fields for the position error of the messages `state` and `status`.
 template <typename Message>
-void setPositionError(const PendulumRun& run, Message& message) {
+void setPositionError(const Run& run, Message& message) {
   const PositionError error = run.positionError();
   message.position_error = error.now;
   message.largest_position_error = error.largest;
@@ -24,7 +24,7 @@ class StateBuilder {
   explicit StateBuilder(double y_offset) : y_offset_(y_offset) {}
 
   /// \returns a reference that is valid until the next call
-  const PendulumState& build(const PendulumRun& run, const std_msgs::Header& header);
+  const PendulumState& build(const Run& run, const std_msgs::Header& header);
 
  private:
   void copyState(const State& state);

@@ -31,7 +31,7 @@ bool isWanted() {
 
 }  // namespace
 
-Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
+Player::Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
                const NodeOptions& options)
     : run_(run), options_(options), pacer_(options.real_time_factor, options.display_rate) {
   pause_ = private_node.advertiseService("pause", &Player::onPause, this);

@@ -5,8 +5,8 @@
 #include "ros/node/pacer.hpp"
 #include "ros/node/publisher.hpp"
 #include "ros/parameters/node_options.hpp"
-#include "ros/pendulum_run.hpp"
 #include <spring_pendulum/PendulumState.h>
+#include <spring_pendulum/simulation/run.hpp>
 
 #include <ros/node_handle.h>
 #include <std_srvs/SetBool.h>
@@ -28,7 +28,7 @@ class Player {
   };
 
   /// \param run must outlive the player
-  Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const PendulumRun& run,
+  Player(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
          const NodeOptions& options);
 
   /// Serves callbacks until the next action is due.
@@ -56,7 +56,7 @@ class Player {
   bool isAtExit() const;
   void serveUntilDue();
 
-  const PendulumRun& run_;
+  const Run& run_;
   NodeOptions options_;
   Pacer pacer_;
   bool paused_ = false;

@@ -30,7 +30,7 @@ std::uint32_t queueLength(std::int64_t message_bytes) {
 
 }  // namespace
 
-PendulumStatus statusOf(const PendulumRun& run, bool paused) {
+PendulumStatus statusOf(const Run& run, bool paused) {
   PendulumStatus status;
   const Verdict& verdict = run.verdict();
   setPositionError(run, status);
@@ -56,7 +56,7 @@ PendulumStatus statusOf(const PendulumRun& run, bool paused) {
   return status;
 }
 
-Publisher::Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options)
+Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options)
     : frame_id_(options.frame_id),
       camera_frame_(options.camera_frame),
       publishes_clock_(options.publish_clock),
@@ -103,7 +103,7 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   }
 }
 
-void Publisher::publish(const PendulumRun& run, const Showing& showing) {
+void Publisher::publish(const Run& run, const Showing& showing) {
   const PendulumStatus status = statusOf(run, showing.paused);
   if (markers_.getNumSubscribers() > 0) shown_.follow(run, showing.share);
   if (!showing.due && !isNew(status)) return;
@@ -126,7 +126,7 @@ void Publisher::publish(const PendulumRun& run, const Showing& showing) {
   if (isNew(status)) publishStatus(status, header.stamp);
 }
 
-void Publisher::publishBetween(const PendulumRun& run, const Showing& showing) {
+void Publisher::publishBetween(const Run& run, const Showing& showing) {
   if (markers_.getNumSubscribers() == 0) return;
   shown_.follow(run, showing.share);
   std_msgs::Header header;
@@ -135,7 +135,7 @@ void Publisher::publishBetween(const PendulumRun& run, const Showing& showing) {
   publishMarkers(run, header, showing.pace);
 }
 
-void Publisher::publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
+void Publisher::publishMarkers(const Run& run, const std_msgs::Header& header,
                                const std::string& pace) {
   const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, shown_, header, pace);
   if (!camera_frame_.empty() && marker_builder_.cameraChanges() != camera_changes_sent_) {

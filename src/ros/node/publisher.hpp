@@ -18,7 +18,7 @@ namespace spring_pendulum {
 
 /// PendulumStatus code and text for a run.
 /// \param paused whether the user has paused the run
-PendulumStatus statusOf(const PendulumRun& run, bool paused);
+PendulumStatus statusOf(const Run& run, bool paused);
 
 /// How to show a state.
 struct Showing {
@@ -30,7 +30,7 @@ struct Showing {
 
 class Publisher {
  public:
-  Publisher(ros::NodeHandle& node, const PendulumRun& run, const NodeOptions& options);
+  Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options);
 
   /// Whether a topic that shows states between the frames has subscribers.
   bool isWatched() const;
@@ -40,9 +40,9 @@ class Publisher {
 
   /// Publishes the state on all topics with subscribers, and the status if it has changed. In slow
   /// motion, the markers are left to `publishBetween`.
-  void publish(const PendulumRun& run, const Showing& showing);
+  void publish(const Run& run, const Showing& showing);
   /// Publishes only the markers, for a state between the last two.
-  void publishBetween(const PendulumRun& run, const Showing& showing);
+  void publishBetween(const Run& run, const Showing& showing);
 
   /// Removes the markers from rviz, which keeps them when the node has ended.
   void clear();
@@ -53,8 +53,7 @@ class Publisher {
  private:
   std::uint32_t subscribers() const;
   bool isNew(const PendulumStatus& status) const;
-  void publishMarkers(const PendulumRun& run, const std_msgs::Header& header,
-                      const std::string& pace);
+  void publishMarkers(const Run& run, const std_msgs::Header& header, const std::string& pace);
   void publishStatus(PendulumStatus status, const ros::Time& stamp);
 
   std::string frame_id_;

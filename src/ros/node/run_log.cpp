@@ -21,7 +21,7 @@ namespace {
 constexpr int kMostChoices = 5;  ///< number of logged choices of Auto
 
 /// Logs if the display rate exceeds the number of states per second that a fixed step gives.
-void logDisplayRate(const PendulumRun& run, const NodeOptions& options) {
+void logDisplayRate(const Run& run, const NodeOptions& options) {
   if (!run.scenario().method.get().hasFixedStep() || options.real_time_factor <= 0.0) return;
   const double states = options.real_time_factor / run.scenario().time_step;
   if (options.display_rate <= states * (1.0 + 1e-9)) return;
@@ -60,22 +60,7 @@ void logFatal(const std::string& text) {
   }
 }
 
-std::string closingLine(const PendulumRun& run, const Totals& totals, const RunFiles& files,
-                        const Publisher& publisher) {
-  const std::string report = run.integrator().report();
-  return fmt::format(
-      "{}{}: {}, {}, {}{}, {} integrating{}, {} marker and {} state messages built, "
-      "{}, verdict: {}",
-      run.scenario().method.get().name, report.empty() ? "" : " (" + report + ")",
-      counted(run.chain().size(), "particle"), counted(totals.frames, "frame"),
-      run.scenario().method.get().hasFixedStep() ? counted(totals.steps, "step") + ", " : "",
-      counted(run.integrator().forceEvaluations(), "force evaluation"),
-      durationText(totals.seconds), writingText(files), publisher.markersBuilt(),
-      publisher.statesBuilt(), run.measurements(), run.verdict().text);
-}
-
-void RunLog::start(const PendulumRun& run, const NodeOptions& options, const RunFiles& files) {
-  holds_ = options.at_end == AtEnd::kHold;
+void logStart(const Run& run, const NodeOptions& options, const RunFiles& files) {
   const Scenario& scenario = run.scenario();
   ROS_INFO_STREAM(scenario.method.get().name
                   << " on "
@@ -94,46 +79,50 @@ void RunLog::start(const PendulumRun& run, const NodeOptions& options, const Run
   }
 }
 
-void RunLog::follow(const PendulumRun& run, const Totals& totals, const RunFiles& files,
-                    const Publisher& publisher) {
-  const Verdict& verdict = run.verdict();
-  const std::string& method = run.scenario().method.get().name;
+std::string RunLog::closingLine() const {
+  return run_.closingLine(
+      integrator_, fmt::format("{}, {} marker and {} state messages built", writingText(files_),
+                               publisher_.markersBuilt(), publisher_.statesBuilt()));
+}
+
+void RunLog::follow() {
+  const Verdict& verdict = run_.verdict();
+  const std::string& method = run_.scenario().method.get().name;
   if (verdict.kind > said_verdict_) {
     said_verdict_ = verdict.kind;
     if (verdict.kind == VerdictKind::kDiverged) {
       ROS_ERROR_STREAM(method << ": " << verdict.text << "; "
-                              << remedyForDivergence(run.chain(), run.start(), run.scenario()));
+                              << remedyForDivergence(run_.chain(), run_.start(), run_.scenario()));
     } else if (verdict.kind != VerdictKind::kNotChecked) {
       ROS_WARN_STREAM(method << ": " << verdict.text);
     }
   }
-  if (!said_tolerance_ && !run.toleranceRemark().empty()) {
+  if (!said_tolerance_ && !run_.toleranceRemark().empty()) {
     said_tolerance_ = true;
-    ROS_WARN_STREAM(method << ": " << run.toleranceRemark());
+    ROS_WARN_STREAM(method << ": " << run_.toleranceRemark());
   }
-  sayChoice(run);
-  if (!run.isOver() || said_frames_ != 0) return;
-  said_frames_ = totals.frames;
-  ROS_INFO_STREAM(closingLine(run, totals, files, publisher));
+  sayChoice();
+  if (!run_.isOver() || said_frames_ != 0) return;
+  said_frames_ = run_.shownFrames();
+  ROS_INFO_STREAM(closingLine());
   if (holds_) {
     ROS_INFO_STREAM(method << ": the last frame stays shown until Ctrl-C (at_end: hold)");
   }
 }
 
-void RunLog::finish(const PendulumRun& run, const Totals& totals, const RunFiles& files,
-                    const Publisher& publisher) const {
-  if (said_frames_ == totals.frames) return;
-  logInfo(closingLine(run, totals, files, publisher));
+void RunLog::finish() const {
+  if (said_frames_ == run_.shownFrames()) return;
+  logInfo(closingLine());
 }
 
-void RunLog::sayChoice(const PendulumRun& run) {
-  if (choices_said_ == kMostChoices || run.frame() == 0) return;
-  const std::string report = run.integrator().report();
+void RunLog::sayChoice() {
+  if (choices_said_ == kMostChoices || run_.frame() == 0) return;
+  const std::string report = integrator_.report();
   const std::string choice = switchesOf(report);
   if (choice.empty() || choice == said_choice_) return;
   said_choice_ = choice;
   ++choices_said_;
-  ROS_INFO_STREAM(run.scenario().method.get().name << " chose " << report);
+  ROS_INFO_STREAM(run_.scenario().method.get().name << " chose " << report);
 }
 
 }  // namespace spring_pendulum

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// Allowed work of a trial after a divergence, see `TrialBench`: about 0.02 s.
-constexpr double kRemedyWork = 2e6;
+/// Allowed work of a trial after a divergence, s, see `TrialBench`.
+constexpr double kRemedyWork = 0.006;
 
 bool isStable(const Trial& trial) {
   return trial.affordable && trial.verdict.kind < VerdictKind::kGainedEnergy;

@@ -1,7 +1,6 @@
 #include "simulation/advice/trial.hpp"
 
-#include "integration/error_control/dense_output_integrator.hpp"
-#include "simulation/integrator_settings.hpp"
+#include "integration/work.hpp"
 #include <spring_pendulum/simulation/reference_run.hpp>
 
 #include <algorithm>
@@ -9,34 +8,6 @@
 #include <optional>
 
 namespace spring_pendulum {
-namespace {
-
-/// Overhead of a force evaluation, in particles.
-constexpr double kOverhead = 4.0;
-
-/// Work of one force evaluation, in particles.
-double weight(const Chain& chain) {
-  return static_cast<double>(chain.size()) + kOverhead;
-}
-
-/// Advances by one frame, or until the work equals `most` force evaluations.
-/// \returns whether the frame was finished
-bool advanceWithin(Integrator& integrator, State& state, const FrameSteps& frame, double most) {
-  if (auto* controlled = dynamic_cast<DenseOutputIntegrator*>(&integrator)) {
-    return controlled->advanceWithin(state, frame.time_step, frame.steps, most);
-  }
-  integrator.advance(state, frame.time_step, frame.steps);
-  return true;
-}
-
-double workDone(const Method& method, const Chain& chain, const Integrator& integrator) {
-  const auto* controlled = dynamic_cast<const DenseOutputIntegrator*>(&integrator);
-  if (controlled != nullptr) return controlled->statistics().work();
-  return workPerEvaluation(method, chain.size()) *
-         static_cast<double>(integrator.forceEvaluations());
-}
-
-}  // namespace
 
 Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
                       const FrameSteps& frame, std::int64_t frames, bool with_reference,
@@ -55,12 +26,12 @@ Trial TrialBench::run(const Method& method, std::optional<double> tolerance,
   ReferenceRun reference(chain_, start_, options);
   State state = start_;
   Trial trial;
-  const double most = most_work_ / weight(chain_);
   if (fixed) trial.affordable = frames <= affordableFrames(method, frame);
   for (std::int64_t n = 1; n <= frames && trial.affordable; ++n) {
-    trial.affordable = advanceWithin(*integrator, state, frame, most);
+    trial.affordable =
+        integrator->advanceWithin(state, frame.time_step, frame.steps, most_work_) == frame.steps;
     trial.evaluations = integrator->forceEvaluations();
-    trial.work = workDone(method, chain_, *integrator);
+    trial.work = integrator->work();
     const double time = frame.timeOfFrame(n);
     if (with_reference) {
       reference.advance(frame.time_step, frame.steps, trial.work);
@@ -94,15 +65,15 @@ Trial TrialBench::run(const Method& method, double step, bool with_reference,
 
 std::int64_t TrialBench::affordableFrames(const Method& method, const FrameSteps& frame) const {
   const double evaluations = static_cast<double>(frame.steps) * method.stages;
-  return static_cast<std::int64_t>(most_work_ / weight(chain_) / evaluations);
+  return static_cast<std::int64_t>(most_work_ / nominalFixedStepTime(chain_.size()) / evaluations);
 }
 
 double TrialBench::workOf(const Method& method, double step) const {
-  return duration_ / step * method.stages * workPerEvaluation(method, chain_.size());
+  return duration_ / step * method.stages * nominalFixedStepTime(chain_.size());
 }
 
 double TrialBench::leastStep(const Method& method) const {
-  return duration_ * method.stages * weight(chain_) / most_work_;
+  return duration_ * method.stages * nominalFixedStepTime(chain_.size()) / most_work_;
 }
 
 }  // namespace spring_pendulum

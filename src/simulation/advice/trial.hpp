@@ -20,16 +20,15 @@ struct Trial {
   bool measured = false;  ///< whether the reference run covers the whole trial
   bool reference_too_costly = false;
   std::int64_t evaluations = 0;  ///< force evaluations, without those of the reference run
-  double work = 0.0;             ///< their cost, in force evaluations of Taylor-8
+  double work = 0.0;             ///< their cost, s, see Integrator::work
 };
 
 /// Makes trial runs of a chain from a start, with any method and step size. Refers to the chain and
 /// the start, which must outlive the bench.
 class TrialBench {
  public:
-  /// Allowed work of a trial without its reference run, in force evaluations times particles: about
-  /// 0.2 s.
-  static constexpr double kMostWork = 2e7;
+  /// Allowed work of a trial without its reference run, s, see Integrator::work.
+  static constexpr double kMostWork = 0.06;
 
   /// \param duration       duration of the run, s
   /// \param frame_interval approximate time between judged states, s
@@ -58,7 +57,7 @@ class TrialBench {
   /// Smallest step size of an affordable trial, s.
   double leastStep(const Method& method) const;
 
-  /// Work of a run with a fixed step, in force evaluations of Taylor-8.
+  /// Work of a run with a fixed step, s.
   double workOf(const Method& method, double step) const;
 
   double duration() const { return duration_; }

@@ -1,7 +1,6 @@
 // Options that say how a run is computed and shown change no bit of its frames and not its verdict,
 // whatever their combination: threads, energy, states between frames, sleep, reset, frame interval.
 #include "integration/fixed_step/plain_runge_kutta.hpp"
-#include "ros/pendulum_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "support/program_run.hpp"
 #include "support/random_scenes.hpp"
 
 namespace spring_pendulum {
@@ -29,12 +29,7 @@ Scenario scenarioOf(const Method& method, const test::Scene& scene) {
   scenario.frame_interval = 0.05;
   scenario.tolerance = 1e-4;
   scenario.threads = 1;
-  const SpringLaw& spring = scene.chain.spring();
-  scenario.stiffness = spring.stiffness;
-  scenario.damping = spring.damping;
-  scenario.rest_length = spring.rest_length;
-  scenario.gravity = scene.chain.gravity();
-  return scenario;
+  return test::scenarioFor(scene, scenario);
 }
 
 /// The simplest program: one call of `advance` per frame, and the plain code where there is one.
@@ -64,16 +59,16 @@ struct Outcome {
   std::string remark;
 };
 
-Outcome outcomeOf(PendulumRun& run, std::mt19937& random) {
+Outcome outcomeOf(test::ProgramRun& run, std::mt19937& random) {
   Outcome outcome;
   for (;;) {
-    if (run.atFrame() && run.isShown()) {
+    if (run.isAtFrame() && run.isShown()) {
       outcome.frames.push_back(run.state());
       const auto dissipated = run.energyEntry().dissipated;
       if (dissipated) outcome.dissipated.push_back(*dissipated);
     }
     if (run.isOver()) break;
-    run.advance(random() % 4 != 0);
+    random() % 4 != 0 ? run.advancePart() : run.advance();
   }
   outcome.verdict = run.verdict().text;
   outcome.measurements = run.measurements();
@@ -120,15 +115,15 @@ TEST(RandomOptions, ChangeNoBitAndNoVerdict) {
       Scenario scenario = scenarioOf(method, scene);
       SCOPED_TRACE(std::string(method.name) + ", " + scene.name);
       std::mt19937 random(seed);
-      PendulumRun plain(scenario, particles, false, 0.0);
+      test::ProgramRun plain(scenario, particles, {false, 0.0});
       const Outcome expected = outcomeOf(plain, random);
       expectSameFrames(expected.frames, framesOfThePlainProgram(scenario, scene), 1);
 
       const Options options(random);
       scenario.threads = options.threads;
       scenario.sleep = options.sleep;
-      PendulumRun run(scenario, particles, options.track_energy, options.display_interval);
-      for (int i = 0; i < options.reset_after && !run.isOver(); ++i) run.advance(true);
+      test::ProgramRun run(scenario, particles, {options.track_energy, options.display_interval});
+      for (int i = 0; i < options.reset_after && !run.isOver(); ++i) run.advancePart();
       run.reset();
       const Outcome outcome = outcomeOf(run, random);
       EXPECT_EQ(outcome.frames.size(), expected.frames.size());
@@ -143,7 +138,7 @@ TEST(RandomOptions, ChangeNoBitAndNoVerdict) {
       scenario.frames = 4 * (kFrames - 1) + 1;
       scenario.frame_interval /= 4.0;
       scenario.steps_per_frame /= 4;
-      PendulumRun finer(scenario, particles, options.track_energy, options.display_interval);
+      test::ProgramRun finer(scenario, particles, {options.track_energy, options.display_interval});
       expectSameFrames(outcomeOf(finer, random).frames, expected.frames, 4);
     }
   }

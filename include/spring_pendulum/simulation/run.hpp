@@ -1,0 +1,157 @@
+// One run of a scenario: the simulation loop of every program.
+//
+//     Run run(scenario, particles);
+//     const auto integrator = run.makeIntegrator();
+//     while (run.advance(*integrator)) show(run.state());
+//     print(run.closingLine(*integrator));
+//
+// A run owns the chain, its state, the judge and the reference run, and keeps the time. It knows no
+// file and no ROS. Judging happens at frames only, so what a run says about itself depends neither on
+// the display rate nor on the number of threads.
+#pragma once
+
+#include <spring_pendulum/integration/integrator.hpp>
+#include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#pragma GCC visibility push(default)
+namespace spring_pendulum {
+
+struct RunOptions {
+  /// Compute the energy balance whatever it costs. Without this, a run computes it if that takes at
+  /// most about 50 ms or 10 % of the run.
+  bool energy_balance = false;
+  /// Simulated time in s between the states at which `advancePart` stops; 0: only at frames. A frame
+  /// of n steps is divided into parts of whole steps, or into 2^q output intervals of an
+  /// error-controlled method. Neither changes a bit of the frames.
+  double display_interval = 0.0;
+  /// Asked about every 20 ms of computing time; when it returns true, the run stops inside the frame.
+  std::function<bool()> stop = {};
+};
+
+class Run {
+ public:
+  /// \throws InputError for a value out of its range, a tolerance below the rounding errors of the
+  ///   positions, or an initial energy beyond the range of double
+  /// \throws std::runtime_error if the run is expected to need more memory than there is
+  Run(const Scenario& scenario, const Particles& particles, const RunOptions& options = {});
+
+  /// Makes the integrator of the scenario's method for this run.
+  std::unique_ptr<Integrator> makeIntegrator() const;
+
+  /// Advances to the next frame and judges it. The first call stays at frame 0, the start.
+  /// \param integrator the same in every call
+  /// \returns whether this frame may be shown and written. If not, the run is over: the last frame
+  ///   was reached before, the motion has diverged, or `RunOptions::stop` has stopped the run.
+  bool advance(Integrator& integrator);
+
+  /// Like `advance`, but stops at the end of the next part of the frame; see
+  /// `RunOptions::display_interval`.
+  bool advancePart(Integrator& integrator);
+
+  /// Returns to the start, as before the first call of `advance`, and discards the verdict. The closing
+  /// line counts the work of all rounds.
+  void reset(Integrator& integrator);
+
+  /// Whether no frame follows.
+  bool isOver() const;
+  /// Whether `RunOptions::stop` has stopped the run inside a frame. Only `reset` may follow.
+  bool wasStopped() const { return stopped_; }
+  /// Whether the current frame may be shown: yes unless the motion has diverged; after a divergence
+  /// only if `Scenario::on_divergence` is `kContinue` and the energy is finite.
+  bool isShown() const;
+  /// Whether the current state is that of a frame.
+  bool isAtFrame() const { return part_ == 0; }
+  /// Whether every number of the state is finite.
+  bool isFinite() const { return state_.values().allFinite(); }
+
+  const Scenario& scenario() const { return scenario_; }
+  const Chain& chain() const { return chain_; }
+  const State& start() const { return start_; }
+  const State& state() const { return state_; }
+  /// The last frame that was reached, counted from 0.
+  std::int64_t frame() const { return frame_; }
+  /// Number of shown frames since construction, over all rounds.
+  std::int64_t shownFrames() const { return totals_.frames; }
+  /// Simulated time, s.
+  double time() const { return timeOfPart(part_); }
+  /// Simulated time after `advancePart`, s.
+  double nextTime() const { return timeOfPart(part_ + 1); }
+
+  /// The verdict on the run so far.
+  const Verdict& verdict() const { return judge_.worst(); }
+  /// The energy balance of the current state.
+  EnergyEntry energyEntry() const;
+  /// Whether the dissipated energy is computed.
+  bool tracksDissipation() const { return tracks_dissipation_; }
+  /// Position error of the current state, and the largest one at the frames so far.
+  PositionError positionError() const;
+  /// The state of the reference run at `time()`; null if there is none or it has stopped.
+  const State* referenceState() const;
+
+  /// One line: work, times, what was measured, verdict.
+  /// \param output put after the time of integrating: ", 3.07 ms writing to /home/me/frames"
+  std::string closingLine(const Integrator& integrator, const std::string& output = "") const;
+  /// What was measured: "largest position error 0.00024 m at t = 9.8 s, energy balance not checked".
+  std::string measurements() const;
+  /// A line if the position error exceeds ten times the tolerance of an error-controlled method; else
+  /// empty.
+  std::string toleranceRemark() const;
+
+ private:
+  /// Numbers for the closing line, over all rounds.
+  struct Totals {
+    std::int64_t frames = 0;             ///< shown
+    std::int64_t integrated_frames = 0;  ///< of these, without frame 0
+    std::int64_t slept_frames = 0;       ///< of these
+    double seconds = 0.0;                ///< wall-clock time spent integrating
+    double reference_seconds = 0.0;      ///< wall-clock time of the reference run
+  };
+
+  bool advanceTo(std::int64_t part, Integrator& integrator);
+  bool integrate(std::int64_t steps, Integrator& integrator);
+  void follow(std::int64_t steps);
+  bool sleeps(Integrator& integrator);
+  void judgeFrame();
+  void noteTolerance();
+  std::int64_t stepOfPart(std::int64_t part) const;
+  double timeOfPart(std::int64_t part) const;
+
+  Scenario scenario_;
+  RunOptions options_;
+  Chain chain_;
+  State start_;
+  State state_;
+  FrameSteps frame_steps_;  ///< with shorter steps for an error-controlled method
+  std::int64_t parts_;      ///< per frame
+  bool tracks_dissipation_;
+  Judge judge_;
+  std::optional<ReferenceRun> reference_;
+  bool started_ = false;    ///< whether `advance` was called since the start or a reset
+  std::int64_t frame_ = 0;  ///< last frame
+  std::int64_t part_ = 0;   ///< completed parts of the next frame
+  bool stopped_ = false;
+  bool asleep_ = false;
+  double dissipated_before_sleep_ = 0.0;  ///< J
+  double dissipated_ = 0.0;               ///< J, until the current state
+  double work_at_start_ = 0.0;            ///< of the integrator, s
+  double work_ = 0.0;                     ///< until the last judged frame, s
+  double worst_residual_ = 0.0;           ///< largest relative residual of the energy balance
+  double exceeded_time_ = 0.0;            ///< s, of the first error above ten tolerances; 0: none
+  double exceeded_growth_ = 0.0;          ///< of perturbations until then
+  Totals totals_;
+};
+
+}  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -1,0 +1,247 @@
+#include "integration/work.hpp"
+#include "model/chain_modes.hpp"
+#include "simulation/memory.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include "simulation/sleep.hpp"
+#include "simulation/tolerance.hpp"
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+/// Work between two questions whether to stop, see Integrator::work.
+constexpr double kWorkBetweenStops = 0.005;  // s
+/// Work of a run whose energy balance is always computed; it takes less than the run.
+constexpr double kCheapWork = 0.05;  // s
+/// Number of particles from which on the kernels of explicit Runge-Kutta methods track the dissipated
+/// energy at a cost of less than 10 %.
+constexpr Eigen::Index kLongChain = 100;
+/// Largest number of parts of a frame: more than any display needs, few enough to avoid overflow.
+constexpr double kMostParts = 1024.0;
+constexpr std::int64_t kMostThreads = 1024;
+
+/// Adds the wall-clock time of its lifetime to a sum in s.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// Expected number of steps of an error-controlled method: about twenty per second, and more if
+/// springs vibrate or stability limits the step size.
+double expectedSteps(const Chain& chain, double duration) {
+  const double mode = largestSpringMode(chain);  // 1/kg
+  const double per_second =
+      20.0 + 0.5 * std::sqrt(chain.spring().stiffness * mode) + 0.1 * chain.spring().damping * mode;
+  return per_second * duration;
+}
+
+/// Expected work of a run, s, see Integrator::work.
+double expectedWork(const Method& method, const Chain& chain, const FrameSteps& frame,
+                    std::int64_t frames) {
+  const double intervals = static_cast<double>(frames - 1) * static_cast<double>(frame.steps);
+  const double steps =
+      method.hasFixedStep() ? intervals : expectedSteps(chain, intervals * frame.time_step);
+  return steps * method.stages *
+         (method.hasFixedStep() ? nominalFixedStepTime(chain.size())
+                                : nominalTaylorTime(chain.size()));
+}
+
+bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain) {
+  const Method& method = scenario.method;
+  if (method.hasFixedStep() && method.tableau != nullptr && chain.size() >= kLongChain) return true;
+  return expectedWork(method, chain, frameSteps(scenario), scenario.frames) <= kCheapWork;
+}
+
+JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation) {
+  const Method& method = scenario.method;
+  return {tracks_dissipation, method.symplectic ? scenario.time_step : 0.0,
+          method.hasFixedStep() ? 0.0 : scenario.tolerance};
+}
+
+/// Number of states shown per frame.
+std::int64_t partsPerFrame(const Scenario& scenario, double display_interval) {
+  // `sleep` is checked once per frame: states between the frames would not move.
+  if (display_interval <= 0.0 || scenario.sleep > 0.0) return 1;
+  const FrameSteps frame = frameSteps(scenario);
+  const double wanted = std::clamp(frame.timeOfFrame(1) / display_interval, 1.0, kMostParts);
+  // The subtrahend ensures that rounding does not give a frame of exactly 3 intervals 4 parts.
+  if (scenario.method.get().hasFixedStep()) {
+    return std::min(static_cast<std::int64_t>(std::ceil(wanted - 1e-9)), frame.steps);
+  }
+  std::int64_t parts = 1;
+  while (static_cast<double>(parts) < wanted - 1e-9) parts *= 2;
+  return parts;
+}
+
+const Scenario& checked(const Scenario& scenario) {
+  checkScenario(scenario);
+  return scenario;
+}
+
+}  // namespace
+
+Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions& options)
+    : scenario_(checked(scenario)),
+      options_(options),
+      chain_(particles.masses, scenario.spring(), scenario.gravity),
+      start_(particles.state),
+      state_(particles.state),
+      frame_steps_(frameSteps(scenario)),
+      parts_(partsPerFrame(scenario, options.display_interval)),
+      tracks_dissipation_(scenario.damping > 0.0 &&
+                          (options.energy_balance || energyBalanceIsCheap(scenario, chain_))),
+      judge_(chain_, start_, judgeOptions(scenario, tracks_dissipation_)) {
+  checkMemory(scenario, chain_.size());
+  ReferenceOptions reference;
+  reference.always = scenario.reference == ReferenceUse::kAlways;
+  if (!scenario.method.get().hasFixedStep()) {
+    checkTolerance(scenario.tolerance, chain_, start_);
+    frame_steps_ = {scenario.frame_interval / static_cast<double>(parts_), parts_};
+    reference.run_tolerance = scenario.tolerance;
+  }
+  if (scenario.reference != ReferenceUse::kNever) reference_.emplace(chain_, start_, reference);
+  judgeFrame();
+}
+
+std::unique_ptr<Integrator> Run::makeIntegrator() const {
+  const int threads = static_cast<int>(std::min(scenario_.threads, kMostThreads));
+  return spring_pendulum::makeIntegrator(scenario_.method, chain_,
+                                         {scenario_.tolerance, tracks_dissipation_, threads});
+}
+
+bool Run::advance(Integrator& integrator) {
+  return advanceTo(parts_, integrator);
+}
+
+bool Run::advancePart(Integrator& integrator) {
+  return advanceTo(part_ + 1, integrator);
+}
+
+bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
+  if (!started_) {
+    started_ = true;
+    work_at_start_ = integrator.work();
+    if (isShown()) ++totals_.frames;
+    return isShown();
+  }
+  if (isOver()) return false;
+  const std::int64_t steps = stepOfPart(part) - stepOfPart(part_);
+  if (!integrate(steps, integrator)) {
+    stopped_ = true;
+    return false;
+  }
+  follow(steps);
+  part_ = part % parts_;
+  dissipated_ = dissipated_before_sleep_ + integrator.dissipatedEnergy();
+  if (part_ != 0) return true;
+  ++frame_;
+  work_ = integrator.work() - work_at_start_;
+  judgeFrame();
+  if (!isShown()) return false;
+  ++totals_.frames;
+  ++(asleep_ ? totals_.slept_frames : totals_.integrated_frames);
+  return true;
+}
+
+bool Run::integrate(std::int64_t steps, Integrator& integrator) {
+  const Stopwatch stopwatch(totals_.seconds);
+  if (scenario_.sleep > 0.0 && sleeps(integrator)) return true;
+  while (steps > 0) {
+    if (options_.stop && options_.stop()) return false;
+    steps -= integrator.advanceWithin(state_, frame_steps_.time_step, steps,
+                                      integrator.work() + kWorkBetweenStops);
+  }
+  return true;
+}
+
+bool Run::sleeps(Integrator& integrator) {
+  if (isAtRest(chain_, state_, frame_steps_.timeOfFrame(1), scenario_.sleep)) {
+    asleep_ = true;
+    return true;
+  }
+  if (asleep_) {
+    // The integrator keeps data from before the sleep. Its restart also clears the dissipated energy.
+    dissipated_before_sleep_ += integrator.dissipatedEnergy();
+    integrator.restart();
+    asleep_ = false;
+  }
+  return false;
+}
+
+void Run::follow(std::int64_t steps) {
+  if (!reference_ || !reference_->isMeasuring()) return;
+  const Stopwatch stopwatch(totals_.reference_seconds);
+  reference_->advance(frame_steps_.time_step, steps, work_);
+}
+
+void Run::judgeFrame() {
+  if (reference_) reference_->measureGrowth();
+  judge_.judge(time(), state_, dissipated_, reference_ ? &*reference_ : nullptr);
+  worst_residual_ =
+      std::max(worst_residual_, std::abs(judge_.entry().relative_residual.value_or(0.0)));
+  noteTolerance();
+}
+
+void Run::reset(Integrator& integrator) {
+  integrator.restart();
+  judge_.restart();
+  if (reference_) reference_->restart();
+  state_ = start_;
+  frame_ = part_ = 0;
+  started_ = stopped_ = asleep_ = false;
+  dissipated_before_sleep_ = dissipated_ = work_ = 0.0;
+  worst_residual_ = exceeded_time_ = exceeded_growth_ = 0.0;
+  judgeFrame();
+}
+
+bool Run::isOver() const {
+  return stopped_ || frame_ >= scenario_.frames - 1 || !isShown();
+}
+
+bool Run::isShown() const {
+  if (judge_.latest().kind != VerdictKind::kDiverged) return true;
+  return scenario_.on_divergence == OnDivergence::kContinue &&
+         std::isfinite(judge_.entry().energy.total());
+}
+
+EnergyEntry Run::energyEntry() const {
+  return isAtFrame() ? judge_.entry() : judge_.balance().entry(time(), state_, dissipated_);
+}
+
+PositionError Run::positionError() const {
+  PositionError error = judge_.positionError();
+  if (isAtFrame()) return error;
+  error.now = reference_ ? reference_->errorOf(state_) : std::numeric_limits<double>::quiet_NaN();
+  return error;
+}
+
+const State* Run::referenceState() const {
+  return reference_ && reference_->isMeasuring() ? &reference_->state() : nullptr;
+}
+
+std::int64_t Run::stepOfPart(std::int64_t part) const {
+  // part * steps / parts without overflow of the product.
+  const std::int64_t quotient = frame_steps_.steps / parts_;
+  const std::int64_t remainder = frame_steps_.steps % parts_;
+  return part * quotient + part * remainder / parts_;
+}
+
+double Run::timeOfPart(std::int64_t part) const {
+  return static_cast<double>(frame_ * frame_steps_.steps + stepOfPart(part)) *
+         frame_steps_.time_step;
+}
+
+}  // namespace spring_pendulum

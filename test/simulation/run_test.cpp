@@ -1,0 +1,210 @@
+// The loop of a run: frames, parts of frames, stops, sleep, resets.
+#include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/program_run.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+Particles scene() {
+  return readParticleFile(PROJECT_DIR "/data/particle.txt");
+}
+
+Scenario scenarioOf(std::string_view method) {
+  Scenario scenario;
+  scenario.method = findMethod(method);
+  scenario.frames = 8;
+  return scenario;
+}
+
+/// The states at the frames.
+std::vector<State::Matrix> frames(test::ProgramRun& run, bool in_between) {
+  std::vector<State::Matrix> states{run.state().values()};
+  while (!run.isOver()) {
+    in_between ? run.advancePart() : run.advance();
+    if (run.isAtFrame()) states.emplace_back(run.state().values());
+  }
+  return states;
+}
+
+TEST(Run, StatesInBetweenLeaveTheBitsOfTheFramesForEveryMethod) {
+  for (const Method& method : methodTable()) {
+    SCOPED_TRACE(method.name);
+    const Scenario scenario = scenarioOf(method.name);
+    test::ProgramRun plain(scenario, scene(), {false, 0.0});
+    const auto expected = frames(plain, false);
+    ASSERT_EQ(expected.size(), 8U);
+    for (const double interval : {0.06, 1.0 / 30.0, 0.0126, 0.001}) {
+      test::ProgramRun shown(scenario, scene(), {true, interval});
+      EXPECT_TRUE(frames(shown, true) == expected) << interval;
+      EXPECT_EQ(shown.time(), plain.time());
+    }
+  }
+}
+
+TEST(Run, AChainThatMayFallAsleepIsShownFrameByFrame) {
+  Scenario scenario = scenarioOf("Runge-Kutta-4");
+  scenario.sleep = 1e-3;
+  test::ProgramRun run(scenario, scene(), {false, 0.01});
+  run.advancePart();
+  EXPECT_EQ(run.frame(), 1);
+}
+
+TEST(Run, AFrameIsCutIntoWholeSteps) {
+  test::ProgramRun run(scenarioOf("Runge-Kutta-4"), scene(), {false, 1.0 / 30.0});
+  std::vector<double> times;
+  for (int i = 0; i < 6; ++i) {
+    const double next = run.nextTime();
+    run.advancePart();
+    EXPECT_EQ(run.time(), next);
+    times.push_back(run.time());
+  }
+  // A frame of 10 steps in 3 parts of 3, 3 and 4.
+  const std::vector<double> expected{3 * 0.01,  6 * 0.01,  10 * 0.01,
+                                     13 * 0.01, 16 * 0.01, 20 * 0.01};
+  EXPECT_EQ(times, expected);
+  EXPECT_EQ(run.frame(), 2);
+}
+
+TEST(Run, NeverCutsFinerThanAStep) {
+  test::ProgramRun run(scenarioOf("Euler"), scene(), {false, 1e-9});
+  run.advancePart();
+  EXPECT_EQ(run.time(), 0.01);
+  EXPECT_FALSE(run.isAtFrame());
+}
+
+TEST(Run, ResetGivesTheSameRunAgain) {
+  test::ProgramRun run(scenarioOf("Runge-Kutta-2"), scene(), {true, 0.05});
+  const auto first = frames(run, true);
+  const double dissipated = run.energyEntry().dissipated.value();
+  EXPECT_GT(dissipated, 0.0);
+  run.reset();
+  EXPECT_EQ(run.time(), 0.0);
+  EXPECT_EQ(run.energyEntry().dissipated.value(), 0.0);
+  EXPECT_TRUE(frames(run, false) == first);
+  EXPECT_EQ(run.energyEntry().dissipated.value(), dissipated);
+}
+
+TEST(Run, MeasuresThePositionErrorAlsoBetweenFrames) {
+  Scenario scenario = scenarioOf("Euler");
+  test::ProgramRun plain(scenario, scene(), {true, 0.0}), shown(scenario, scene(), {true, 0.02});
+  frames(plain, false);
+  shown.advancePart();
+  ASSERT_FALSE(shown.isAtFrame());
+  EXPECT_GT(shown.positionError().now, 0.0);
+  EXPECT_EQ(shown.positionError().largest, 0.0);  // of frame 0
+  ASSERT_NE(shown.referenceState(), nullptr);
+  frames(shown, true);
+  EXPECT_GT(shown.positionError().largest, 1e-3);
+  EXPECT_EQ(shown.positionError().largest, plain.positionError().largest);
+  EXPECT_EQ(shown.verdict().kind, plain.verdict().kind);
+  scenario.reference = ReferenceUse::kNever;
+  const test::ProgramRun unmeasured(scenario, scene(), {true, 0.0});
+  EXPECT_EQ(unmeasured.referenceState(), nullptr);
+  EXPECT_EQ(unmeasured.verdict().kind, VerdictKind::kNotChecked);
+}
+
+TEST(Run, EndsWhereTheMotionDiverges) {
+  Scenario scenario = scenarioOf("Euler");
+  scenario.frames = 500;
+  const Particles particles = readParticleFile(PROJECT_DIR "/data/horizontal_11.txt");
+  test::ProgramRun run(scenario, particles, {false, 0.0});
+  while (run.advance()) {
+  }
+  EXPECT_FALSE(run.isShown());
+  EXPECT_LT(run.frame(), 499);
+  scenario.on_divergence = OnDivergence::kContinue;
+  test::ProgramRun continued(scenario, particles, {false, 0.0});
+  while (continued.advance()) {
+  }
+  EXPECT_GT(continued.frame(), run.frame());
+  EXPECT_EQ(continued.verdict().kind, VerdictKind::kDiverged);
+}
+
+/// Stops when asked for the n-th time.
+RunOptions stoppingAt(int& asked, int last) {
+  return {false, 0.0, [&asked, last] { return ++asked >= last; }};
+}
+
+TEST(Run, StopsInsideALongFrameWithEveryMethod) {
+  for (const Method& method : methodTable()) {
+    Scenario scenario = scenarioOf(method.name);
+    scenario.steps_per_frame = std::int64_t{1} << 50U;
+    scenario.frame_interval = 1e6;
+    scenario.reference = ReferenceUse::kNever;
+    int asked = 0;
+    test::ProgramRun run(scenario, scene(), stoppingAt(asked, 3));
+    EXPECT_FALSE(run.advance()) << method.name;
+    EXPECT_TRUE(run.wasStopped()) << method.name;
+    EXPECT_TRUE(run.isOver()) << method.name;
+    EXPECT_EQ(run.frame(), 0) << method.name;
+    EXPECT_FALSE(run.advance()) << method.name;
+    EXPECT_EQ(asked, 3) << method.name;
+  }
+}
+
+TEST(Run, AskingWhetherToStopLeavesTheBitsOfTheFramesForEveryMethod) {
+  for (const Method& method : methodTable()) {
+    SCOPED_TRACE(method.name);
+    Scenario scenario = scenarioOf(method.name);
+    scenario.frames = 3;
+    scenario.steps_per_frame = 450'000;
+    scenario.time_step = 1e-4;
+    scenario.frame_interval = 20.0;
+    scenario.reference = ReferenceUse::kNever;
+    int asked = 0;
+    test::ProgramRun run(scenario, scene(), stoppingAt(asked, 1'000'000));
+    const auto integrator = makeIntegrator(method, run.chain());
+    State state = run.start();
+    const FrameSteps frame = frameSteps(scenario);
+    while (run.advance()) integrator->advance(state, frame.time_step, frame.steps);
+    EXPECT_TRUE(run.state().values() == state.values());
+    EXPECT_GE(asked, method.hasFixedStep() ? 4 : 2);
+  }
+}
+
+Particles hanging(double below) {
+  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
+  Particles particles{chain.masses(), test::hangingAtRest(chain)};
+  particles.state.y()[2] -= below;
+  return particles;
+}
+
+TEST(Run, SkipsTheStepsOfAChainAtRestOnlyOnRequest) {
+  Scenario scenario;
+  scenario.frames = 10;
+  test::ProgramRun awake(scenario, hanging(0.0));
+  awake.advance();
+  EXPECT_EQ(awake.integrator().forceEvaluations(), 40);
+  scenario.sleep = 1e-9;
+  test::ProgramRun asleep(scenario, hanging(0.0));
+  while (asleep.advance()) {
+  }
+  EXPECT_EQ(asleep.integrator().forceEvaluations(), 0);
+  EXPECT_TRUE(asleep.state().values() == asleep.start().values());
+  EXPECT_NE(asleep.closingLine(asleep.integrator()).find("(9 at rest, not integrated)"),
+            std::string::npos);
+}
+
+// Measured: asleep in 2295 frames of 3000, 5.1e-7 m from where it would have gone.
+TEST(Run, FallsAsleepCloseToWhereTheChainWouldHaveComeToRest) {
+  Scenario scenario;
+  scenario.frames = 3001;
+  test::ProgramRun awake(scenario, hanging(0.5), {true});
+  scenario.sleep = 1e-6;
+  test::ProgramRun run(scenario, hanging(0.5), {true});
+  while (awake.advance() && run.advance()) {
+  }
+  EXPECT_NEAR(static_cast<double>(run.integrator().forceEvaluations()), 40 * 705, 40 * 20);
+  EXPECT_LT((run.state().positions() - awake.state().positions()).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_NEAR(run.energyEntry().dissipated.value(), awake.energyEntry().dissipated.value(), 1e-6);
+  EXPECT_EQ(run.verdict().kind, VerdictKind::kOk);
+}
+
+}  // namespace
+}  // namespace spring_pendulum

@@ -1,0 +1,48 @@
+// A run with its integrator, at frame 0.
+#pragma once
+
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <memory>
+
+#include "support/scenes.hpp"
+
+namespace spring_pendulum::test {
+
+/// Returns a scenario with the springs and the gravity of a scene.
+inline Scenario scenarioFor(const Scene& scene, Scenario scenario = {}) {
+  scenario.stiffness = scene.chain.spring().stiffness;
+  scenario.damping = scene.chain.spring().damping;
+  scenario.rest_length = scene.chain.spring().rest_length;
+  scenario.gravity = scene.chain.gravity();
+  return scenario;
+}
+
+class ProgramRun : public Run {
+ public:
+  ProgramRun(const Scenario& scenario, const Particles& particles, const RunOptions& options = {})
+      : Run(scenario, particles, options), integrator_(makeIntegrator()) {
+    advance();
+  }
+  /// A run of the scene, with its springs and its gravity.
+  ProgramRun(const Scenario& scenario, const Scene& scene, const RunOptions& options = {})
+      : ProgramRun(scenarioFor(scene, scenario), {scene.chain.masses(), scene.start}, options) {}
+
+  bool advance() { return Run::advance(*integrator_); }
+  bool advancePart() { return Run::advancePart(*integrator_); }
+  /// Advances to the first frame at or after `seconds`, or to the end of the run.
+  void advanceTo(double seconds) {
+    while (time() < seconds - 1e-9 && advance()) {
+    }
+  }
+  void reset() {
+    Run::reset(*integrator_);
+    advance();
+  }
+  Integrator& integrator() { return *integrator_; }
+
+ private:
+  std::unique_ptr<Integrator> integrator_;
+};
+
+}  // namespace spring_pendulum::test
