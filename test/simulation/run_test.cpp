@@ -1,4 +1,5 @@
 // The loop of a run: frames, parts of frames, stops, sleep, resets.
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
@@ -69,6 +70,14 @@ TEST(Run, AFrameIsCutIntoWholeSteps) {
                                      13 * 0.01, 16 * 0.01, 20 * 0.01};
   EXPECT_EQ(times, expected);
   EXPECT_EQ(run.frame(), 2);
+}
+
+TEST(Run, ToleranceOfAFixedStepMethodIsNotUsed) {
+  Scenario scenario = scenarioOf("Euler");
+  scenario.tolerance = 1e-300;
+  EXPECT_EQ(test::ProgramRun(scenario, scene()).frame(), 0);
+  scenario.method = findMethod("Auto");
+  EXPECT_THROW(test::ProgramRun(scenario, scene()), InputError);
 }
 
 TEST(Run, NeverCutsFinerThanAStep) {
