@@ -7,6 +7,7 @@
 #include "io/program/standard_streams.hpp"
 #include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
