@@ -158,7 +158,7 @@ bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
 
 bool Run::integrate(std::int64_t steps, Integrator& integrator) {
   const Stopwatch stopwatch(totals_.seconds);
-  if (scenario_.sleep > 0.0 && sleeps(integrator)) return true;
+  if (scenario_.sleep > 0.0 && sleeps(integrator)) return !(options_.stop && options_.stop());
   while (steps > 0) {
     if (options_.stop && options_.stop()) return false;
     steps -= integrator.advanceWithin(state_, frame_steps_.time_step, steps,

@@ -64,8 +64,11 @@ TEST(StabilityAdvice, LargestAccurateStepKeepsOnePercentOfTheLength) {
         findStepLimits(method, scene.chain, scene.start, 0.01, kDuration, kFrameInterval);
     ASSERT_GT(limits.accurate, 0.0);
     EXPECT_LE(limits.accurate, limits.stable);
-    EXPECT_LE(bench.run(method, limits.accurate, true).position_error.largest, allowed);
-    EXPECT_GT(bench.run(method, 1.5 * limits.accurate, true).position_error.largest, allowed);
+    const auto errorAt = [&](double step) {
+      return bench.run(method, step, ReferenceUse::kAuto).position_error.largest;
+    };
+    EXPECT_LE(errorAt(limits.accurate), allowed);
+    EXPECT_GT(errorAt(1.5 * limits.accurate), allowed);
   });
 }
 
@@ -105,7 +108,8 @@ TEST(StabilityAdvice, TheMethodFoundKeepsTheWantedError) {
     ASSERT_TRUE(std::regex_search(text, found, advice)) << text;
     const TrialBench bench(scene.chain, scene.start, kDuration, kFrameInterval);
     for (const double share : {1.0, 0.95, 0.9}) {
-      const Trial trial = bench.run(findMethod(found.str(1)), share * std::stod(found[2]), true);
+      const Trial trial =
+          bench.run(findMethod(found.str(1)), share * std::stod(found[2]), ReferenceUse::kAuto);
       EXPECT_TRUE(trial.measured) << scene.name;
       EXPECT_LE(trial.position_error.largest, scenario.wanted_error) << scene.name << ": " << text;
     }

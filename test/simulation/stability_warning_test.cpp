@@ -1,6 +1,4 @@
-#include "simulation/advice/stability_warning.hpp"
-
-#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

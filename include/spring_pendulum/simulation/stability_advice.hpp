@@ -1,12 +1,12 @@
 // Advice on the step size, from trial runs.
 //
-// A trial takes milliseconds, so `--check` performs the run, measures its position error against a
+// Most runs take milliseconds, so `--check` performs the run, measures its position error against a
 // reference run and its energy balance, and searches for the largest step size that passes. The
-// work of a trial is bounded by a number of force evaluations, not by a clock.
+// work of a trial is bounded by nominal computing time (Integrator::work), not by a clock.
 //
-// For a chain too large for a trial, the advice is the stability limit of the linearised motion. It
-// is found by trial runs of a single spring with the rate of the fastest mode of the chain, and of
-// a pendulum with the frequency of its slowest mode.
+// A chain too large for a trial gets the stability limit of its linearised motion instead. The limit
+// follows from the stability function of the method at the eigenvalues of the fastest mode, and of
+// the slowest one if the method is unstable without damping.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -14,6 +14,7 @@
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
+#include <functional>
 #include <string>
 
 #pragma GCC visibility push(default)
@@ -26,22 +27,34 @@ struct StepLimits {
                           ///< this takes, would take too long
 };
 
-/// Finds the limits of a fixed-step method within 2 % by trial runs. Every smaller step size tried
-/// passes, too.
+/// Finds the limits of a fixed-step method within 2 % by trial runs, with three significant digits.
+/// Every smaller step size tried passes, too.
 /// \param first          first step size to try, s
 /// \param duration       duration of the run, s
 /// \param frame_interval time between frames, s
+/// \throws InputError if the method is error-controlled, or a time is not finite and positive
 StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
                           double first, double duration, double frame_interval);
 
-/// Largest stable step size in s of the linearised chain, with a margin; infinite without springs.
+/// Largest stable step size in s of the linearised chain, with a margin; infinite without springs
+/// and for error-controlled methods, 0 if none is known.
 double linearStepLimit(const Method& method, const Chain& chain, double duration);
 
 /// The text that `--check` prints: one or more lines.
+/// \throws InputError for a value of the scenario out of its range
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario);
 
+/// One line if the time step is clearly above the stability limit of the method, whatever the
+/// positions of the particles; else empty. O(N), negligible compared with a run.
+/// \param start if not null, the first steps of the run are tried as well, for about 0.02 s
+std::string stabilityWarning(const Chain& chain, const Scenario& scenario,
+                             const State* start = nullptr);
+
 /// One line with a remedy for a motion that diverged.
-std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario);
+/// \param stop asked during the trials; when it returns true, the result is empty
+/// \throws InputError for a value of the scenario out of its range
+std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario,
+                                const std::function<bool()>& stop = {});
 
 }  // namespace spring_pendulum
 #pragma GCC visibility pop

@@ -5,7 +5,6 @@
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
-#include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -75,8 +74,9 @@ std::string remarksOn(const Run& run) {
 int conclude(const Run& run) {
   const Verdict& verdict = run.verdict();
   if (verdict.kind == VerdictKind::kDiverged) {
-    printError(fmt::format("{}; {}\n", verdict.text,
-                           remedyForDivergence(run.chain(), run.start(), run.scenario())));
+    const std::string remedy =
+        remedyForDivergence(run.chain(), run.start(), run.scenario(), interruption);
+    printError(verdict.text + (remedy.empty() ? "" : "; " + remedy) + "\n");
     return kDiverged;
   }
   if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive)

@@ -2,8 +2,8 @@
 
 #include "base/numbers.hpp"
 #include "io/program/closing.hpp"
+#include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
-#include "simulation/advice/stability_warning.hpp"
 #include "simulation/memory.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -91,8 +91,9 @@ void RunLog::follow() {
   if (verdict.kind > said_verdict_) {
     said_verdict_ = verdict.kind;
     if (verdict.kind == VerdictKind::kDiverged) {
-      ROS_ERROR_STREAM(method << ": " << verdict.text << "; "
-                              << remedyForDivergence(run_.chain(), run_.start(), run_.scenario()));
+      const std::string remedy =
+          remedyForDivergence(run_.chain(), run_.start(), run_.scenario(), interruption);
+      ROS_ERROR_STREAM(method << ": " << verdict.text << (remedy.empty() ? "" : "; ") << remedy);
     } else if (verdict.kind != VerdictKind::kNotChecked) {
       ROS_WARN_STREAM(method << ": " << verdict.text);
     }

@@ -24,6 +24,8 @@ constexpr double kLinearMargin = 0.25;
 /// Number of steps above which the growth no longer increases: rounding errors of ln |R| add up.
 constexpr double kMostSteps = 1e12;
 
+constexpr auto kMostStages = static_cast<int>(ButcherTableau::kMaxStages);
+
 /// Growth and number of steps that make a spring clearly unstable, and the share of the step size
 /// at which it grows: the limits of methods without a tableau are up to 1.62 times too small.
 constexpr double kClearGrowth = 1e8;
@@ -35,7 +37,8 @@ Complex increment(const Method& method, Complex z) {
   Complex sum = 0.0;
   if (method.tableau == nullptr) {
     Complex term = 1.0;
-    for (int i = 1; i <= method.order; ++i) sum += term *= z / static_cast<double>(i);
+    const int stages = std::min(method.order, kMostStages);
+    for (int i = 1; i <= stages; ++i) sum += term *= z / static_cast<double>(i);
     return sum;
   }
   std::array<Complex, ButcherTableau::kMaxStages> slopes{};
@@ -90,7 +93,8 @@ double growthPerStep(const Method& method, double swing, double decay) {
   return std::max(growthOf(method, center - radius), growthOf(method, center + radius));
 }
 
-bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step, double steps) {
+bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step,
+                       double duration) {
   const double mode = stiffestSpring(chain);
   const double frequency = std::sqrt(chain.spring().stiffness * mode);
   const double damping = chain.spring().damping * mode;
@@ -98,7 +102,7 @@ bool isClearlyUnstable(const Method& method, const Chain& chain, double time_ste
   const double step = kClearShare * time_step;
   const double growth = growthPerStep(method, step * frequency, step * damping);
   // Not a number if |R|² exceeds the range of double.
-  return !(std::min(steps, kClearSteps) * growth < std::log(kClearGrowth));
+  return !(std::min(duration / time_step, kClearSteps) * growth < std::log(kClearGrowth));
 }
 
 double linearStepLimit(const Method& method, const Chain& chain, double duration) {

@@ -22,8 +22,8 @@ namespace spring_pendulum {
 /// \param decay h c
 double growthPerStep(const Method& method, double swing, double decay);
 
-/// Whether the stiffest spring of the chain alone grows by a factor of 1e8 within the run and 500
-/// steps, even at 0.6 times the time step. Then the chain is unstable in every shape. O(N).
-bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step, double steps);
+/// Whether the oscillation of the stiffest spring alone grows by a factor of 1e8 within the run and
+/// 500 steps, even at 0.6 times the time step. Then the chain is unstable in every shape. O(N).
+bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step, double duration);
 
 }  // namespace spring_pendulum

@@ -1,7 +1,10 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
+#include "simulation/advice/linear_stability.hpp"
 #include "simulation/advice/step_search.hpp"
 #include "simulation/advice/trial.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/integration/smallest_tolerance.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
@@ -10,28 +13,28 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <string_view>
 
 namespace spring_pendulum {
 namespace {
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+/// Work in s allowed for a trial at the start of a run and after a divergence, see `TrialBench`.
+constexpr double kShortWork = 0.006;
+/// Largest error of a trial that passes, relative to the wanted error. The margin is needed because
+/// a smaller step size or tolerance can happen to give a larger error.
+constexpr double kShareOfWanted = 0.5;
+/// Said of what cannot be judged.
+constexpr const char* kNotJudged = "unknown, as a reference run would take too long";
 
-/// Allowed work of a trial after a divergence, s, see `TrialBench`.
-constexpr double kRemedyWork = 0.006;
-
-bool isStable(const Trial& trial) {
-  return trial.affordable && trial.verdict.kind < VerdictKind::kGainedEnergy;
+/// Whether the true positions were known to the end of a trial, or were too sensitive to be known.
+bool isJudged(const Trial& trial) {
+  return trial.finished && (trial.measured || trial.verdict.kind == VerdictKind::kSensitive);
 }
 
 double stableStep(const TrialBench& bench, const Method& method, double first) {
   return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
-    return isStable(bench.run(method, step, false, VerdictKind::kGainedEnergy));
+    return bench.run(method, step, ReferenceUse::kNever, VerdictKind::kGainedEnergy).isStable();
   });
 }
-
-/// Said of what cannot be judged.
-constexpr std::string_view kNotJudged = "unknown, as a reference run would take too long";
 
 /// \returns NaN if a reference run would take too long
 double accurateStep(const TrialBench& bench, const Method& method, double first) {
@@ -39,127 +42,92 @@ double accurateStep(const TrialBench& bench, const Method& method, double first)
   const double step =
       largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double tried) {
         if (!measurable) return false;
-        const Trial trial = bench.run(method, tried, true, VerdictKind::kInaccurate);
-        measurable = !trial.reference_too_costly;
-        return trial.affordable && !isBad(trial.verdict.kind);
+        const Trial trial = bench.run(method, tried, ReferenceUse::kAuto, VerdictKind::kInaccurate);
+        measurable = isJudged(trial) || !trial.isStable();
+        return trial.finished && !isBad(trial.verdict.kind);
       });
   return measurable ? step : std::numeric_limits<double>::quiet_NaN();
 }
 
+StepLimits stepLimits(const TrialBench& bench, const Method& method, double first) {
+  StepLimits limits;
+  limits.stable = stableStep(bench, method, first);
+  if (limits.stable == 0.0) return limits;
+  limits.accurate = accurateStep(bench, method, std::min(first, limits.stable));
+  return limits;
+}
+
+/// Returns a finite duration in s of at least one step.
 double durationOf(const Scenario& scenario) {
   const FrameSteps step = frameSteps(scenario);
-  return std::max(step.timeOfFrame(scenario.frames - 1), step.time_step);
+  return std::clamp(step.timeOfFrame(scenario.frames - 1), step.time_step,
+                    std::numeric_limits<double>::max());
 }
 
 TrialBench benchFor(const Chain& chain, const State& start, const Scenario& scenario,
-                    double most_work = TrialBench::kMostWork) {
-  return {chain, start, durationOf(scenario), frameSteps(scenario).timeOfFrame(1), most_work};
-}
-
-/// Formats a step size with three digits, rounded down because a larger step size may fail.
-std::string digits(double step) {
-  return fmt::format("{:.3g}", roundedDown(step));
+                    double most_work = TrialBench::kMostWork,
+                    const std::function<bool()>& stop = {}) {
+  return {chain, start, durationOf(scenario), frameSteps(scenario).timeOfFrame(1), stop, most_work};
 }
 
 std::string stepText(double step) {
   if (step == 0.0) return "none";
-  return std::isinf(step) ? "the whole run" : digits(step) + " s";
+  return std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", roundedDown(step));
 }
 
 /// \param step 0 if no step size of at least `least` s passed, NaN if none could be judged
 std::string limitText(double step, double least) {
-  if (std::isnan(step)) return std::string(kNotJudged);
+  if (std::isnan(step)) return kNotJudged;
   if (step > 0.0) return stepText(step);
-  return fmt::format("below {} s, where runs take too long to be tried", digits(least));
+  return std::isinf(least)
+             ? "unknown, as runs take too long to be tried"
+             : fmt::format("below {}, where runs take too long to be tried", stepText(least));
 }
 
-std::string errorText(const Trial& trial) {
-  const PositionError& error = trial.position_error;
-  const std::string position =
-      std::isnan(error.largest)
-          ? "position error unknown"
-          : fmt::format("largest position error {} m at t = {:.4g} s{}",
-                        roundedText(error.largest, 2), error.largest_time,
-                        trial.measured
-                            ? ""
-                            : fmt::format(" (measured until t = {:.4g} s)", error.measured_until));
-  return fmt::format("{}, largest energy error {} times the energy scale", position,
-                     roundedText(trial.energy_error, 2));
+/// "step size of 0.01 s" or "tolerance of 1e-06 m"
+std::string settingText(const Method& method, const std::string& setting) {
+  return fmt::format(method.hasFixedStep() ? "step size of {} s" : "tolerance of {} m", setting);
 }
 
-std::string linearText(const Method& method, const Chain& chain, double duration) {
-  return fmt::format(
-      "{}: too many particles and steps to try; linear estimate of the largest stable step size: "
-      "{}\n",
-      method.name, stepText(linearStepLimit(method, chain, duration)));
-}
-
-/// A method with a step size that reaches a given error.
-struct Candidate {
-  const Method* method = nullptr;
-  double step = 0.0;  ///< s, or the tolerance in m
-  std::int64_t evaluations = 0;
-  double work = kUnlimited;
-};
-
-/// Largest error of a trial that passes, relative to the wanted error. The margin is needed because
-/// a smaller step size or tolerance can happen to give a larger error.
-constexpr double kShareOfWanted = 0.5;
-
-bool reaches(const Trial& trial, double wanted) {
-  return isStable(trial) && trial.measured &&
-         trial.position_error.largest <= kShareOfWanted * wanted;
-}
-
-Candidate cheapestTolerance(const TrialBench& bench, const Method& method, double wanted) {
-  for (double tolerance = wanted; tolerance > 0.005 * wanted; tolerance *= 0.1) {
-    const Trial trial = bench.run(method, tolerance, true, VerdictKind::kGainedEnergy);
-    if (!trial.affordable) break;
-    if (reaches(trial, wanted)) {
-      return {&method, tolerance, trial.evaluations, trial.work};
-    }
+/// Returns the largest step size or tolerance of a method that reaches the wanted error; 0: none.
+double settingFor(const TrialBench& bench, const Method& method, double first, double wanted) {
+  const auto reaches = [&](double setting) {
+    const Trial trial = bench.run(method, setting, ReferenceUse::kAuto, VerdictKind::kGainedEnergy);
+    return trial.isStable() && trial.measured &&
+           trial.position_error.largest + trial.position_error.uncertainty <=
+               kShareOfWanted * wanted;
+  };
+  if (method.hasFixedStep()) {
+    return largestPassingStep(first, bench.leastStep(method), bench.duration(), reaches);
   }
-  return {};
+  for (const double tolerance : {wanted, 0.1 * wanted, 0.01 * wanted}) {
+    if (tolerance >= bench.leastTolerance() && reaches(tolerance)) return tolerance;
+  }
+  return 0.0;
 }
 
-/// \param most_work work of the best candidate so far; a more costly one is not searched for
-Candidate cheapestStep(const TrialBench& bench, const Method& method, double first, double wanted,
-                       double most_work) {
-  const double least = std::max(bench.leastStep(method), bench.workOf(method, 1.0) / most_work);
-  const double step = largestPassingStep(first, least, bench.duration(), [&](double tried) {
-    return reaches(bench.run(method, tried, true, VerdictKind::kGainedEnergy), wanted);
-  });
-  if (step == 0.0 || std::isinf(step)) return {};
-  const double evaluations = bench.duration() / step * method.stages;
-  return {&method, step, std::llround(evaluations), bench.workOf(method, step)};
-}
-
-std::string cheapestFor(const TrialBench& bench, const Scenario& scenario) {
-  Candidate best;
-  const double wanted = scenario.wanted_error;
-  if (bench.run(findMethod("Auto"), wanted, true).reference_too_costly) {
+std::string cheapestFor(TrialBench bench, double first, double wanted) {
+  std::string text =
+      fmt::format("no method tried keeps the position error below {:.3g} m\n", wanted);
+  if (wanted < bench.leastTolerance()) return text;
+  if (!isJudged(bench.run(findMethod("Auto"), wanted, ReferenceUse::kAuto))) {
     return fmt::format("position error of at most {:.3g} m: {}\n", wanted, kNotJudged);
   }
   for (const StepControl control : {StepControl::kErrorControlled, StepControl::kFixed}) {
     for (const Method& method : methodTable()) {
       if (method.control != control) continue;
-      const Candidate candidate =
-          control == StepControl::kFixed
-              ? cheapestStep(bench, method, scenario.time_step, wanted, best.work)
-              : cheapestTolerance(bench, method, wanted);
-      if (candidate.work < best.work) best = candidate;
+      const double setting = settingFor(bench, method, first, wanted);
+      if (setting == 0.0 || std::isinf(setting)) continue;
+      const Trial trial = bench.run(method, setting, ReferenceUse::kNever);
+      if (trial.work >= bench.mostWork()) continue;
+      bench.limitWork(trial.work);  // of cheaper methods
+      text = fmt::format(
+          "cheapest for a position error of at most {:.3g} m: {} with a {}, {} force evaluations\n",
+          wanted, method.name, settingText(method, fmt::format("{:.3g}", setting)),
+          trial.evaluations);
     }
   }
-  if (best.method == nullptr) {
-    return fmt::format("no method tried keeps the position error below {:.3g} m\n", wanted);
-  }
-  const bool fixed = best.method->hasFixedStep();
-  return fmt::format(
-      "cheapest for a position error of at most {:.3g} m: {} with a {} of {} {}, {} force "
-      "evaluations\n",
-      wanted, best.method->name, fixed ? "step size" : "tolerance",
-      fixed ? digits(best.step) : fmt::format("{:.3g}", best.step), fixed ? "s" : "m",
-      best.evaluations);
+  return text;
 }
 
 }  // namespace
@@ -170,57 +138,88 @@ StepLimits findStepLimits(const Method& method, const Chain& chain, const State&
   requireFinitePositive("first", first, "s");
   requireFinitePositive("duration", duration, "s");
   requireFinitePositive("frame_interval", frame_interval, "s");
-  const TrialBench bench(chain, start, duration, frame_interval);
-  StepLimits limits;
-  limits.stable = stableStep(bench, method, first);
-  if (limits.stable == 0.0) return limits;
-  limits.accurate = accurateStep(bench, method, std::min(first, limits.stable));
-  return limits;
+  if (!method.hasFixedStep()) {
+    throw InputError(
+        fmt::format("{} has no step size to find: it is error-controlled", method.name));
+  }
+  return stepLimits(TrialBench(chain, start, duration, frame_interval), method, first);
 }
 
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
   requireSize(chain.size(), start.size());
+  checkScenario(scenario);
   const Method& method = scenario.method;
   const bool fixed = method.hasFixedStep();
   const TrialBench bench = benchFor(chain, start, scenario);
-  const double duration = bench.duration();
-  const Trial trial = bench.run(method, scenario.tolerance, frameSteps(scenario),
-                                std::max<std::int64_t>(scenario.frames - 1, 1), true);
-  if (!trial.affordable) {
-    return fixed ? linearText(method, chain, duration)
-                 : fmt::format("{}: takes too long to try\n", method.name);
+  const double least = fixed ? bench.leastStep(method) : 0.0;
+  Trial trial;
+  if (!fixed || scenario.time_step >= least) trial = bench.run(scenario, ReferenceUse::kAuto);
+  if (!trial.finished) {
+    if (!fixed) return fmt::format("{}: takes too long to try\n", method.name);
+    return fmt::format(
+        "{}: too many particles and steps to try; linear estimate of the largest stable step size: "
+        "{}\n",
+        method.name, stepText(linearStepLimit(method, chain, bench.duration())));
   }
-  std::string text = fmt::format("{} with a {} of {} {} over {:.4g} s: {}\n{}\n", method.name,
-                                 fixed ? "step size" : "tolerance",
-                                 numberText(fixed ? scenario.time_step : scenario.tolerance),
-                                 fixed ? "s" : "m", duration, trial.verdict.text, errorText(trial));
+  std::string text =
+      fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
+                  settingText(method, numberText(fixed ? scenario.time_step : scenario.tolerance)),
+                  bench.duration(), trial.verdict.text, trial.measurements);
   if (fixed) {
-    const StepLimits limits = findStepLimits(method, chain, start, scenario.time_step, duration,
-                                             frameSteps(scenario).timeOfFrame(1));
+    const StepLimits limits = stepLimits(bench, method, scenario.time_step);
     text += fmt::format("largest stable step size: {}\nlargest accurate step size: {}\n",
-                        limitText(limits.stable, bench.leastStep(method)),
-                        limitText(limits.accurate, bench.leastStep(method)));
+                        limitText(limits.stable, least), limitText(limits.accurate, least));
   }
-  if (scenario.wanted_error > 0.0) text += cheapestFor(bench, scenario);
+  if (scenario.wanted_error > 0.0) {
+    const double first = fixed ? scenario.time_step : Scenario{}.time_step;
+    text += cheapestFor(bench, first, scenario.wanted_error);
+  }
   return text;
 }
 
-std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario) {
+std::string stabilityWarning(const Chain& chain, const Scenario& scenario, const State* start) {
   const Method& method = scenario.method;
-  const TrialBench bench = benchFor(chain, start, scenario, kRemedyWork);
-  std::string text;
+  if (!method.hasFixedStep() || scenario.frames < 2) return {};
+  const double duration = durationOf(scenario);
+  const std::string time_step = numberText(scenario.time_step);
+  if (isClearlyUnstable(method, chain, scenario.time_step, duration)) {
+    const double limit = linearStepLimit(method, chain, duration);
+    return fmt::format(
+        "{} may be unstable with a time step of {} s; {}use Auto", method.name, time_step,
+        limit > 0.0 ? fmt::format("largest stable step: about {} s (linear estimate); or ",
+                                  roundedText(limit, 2))
+                    : "");
+  }
+  if (start == nullptr) return {};
+  const Trial trial = benchFor(chain, *start, scenario, kShortWork)
+                          .run(scenario, ReferenceUse::kNever, VerdictKind::kGainedEnergy);
+  if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
+  return fmt::format("{} is unstable with a time step of {} s ({}); {}", method.name, time_step,
+                     trial.verdict.text, remedyForDivergence(chain, *start, scenario));
+}
+
+std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario,
+                                const std::function<bool()>& stop) {
+  requireSize(chain.size(), start.size());
+  checkScenario(scenario);
+  const Method& method = scenario.method;
+  const TrialBench bench = benchFor(chain, start, scenario, kShortWork, stop);
+  std::string text = fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
   if (method.hasFixedStep()) {
     const double tried = stableStep(bench, method, 0.5 * scenario.time_step);
     const double step = tried > 0.0 ? tried : linearStepLimit(method, chain, bench.duration());
     text = fmt::format("largest stable step for {}: {}{}", method.name, stepText(step),
                        tried > 0.0 ? "" : " (linear estimate)");
-  } else {
-    text = fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
   }
   const Method& other = findMethod("Auto");
-  if (&other == &method) return text;
-  const bool works = isStable(bench.run(other, scenario.tolerance, false));
-  return works ? fmt::format("{}; or use {}", text, other.name) : text;
+  const double tolerance = method.hasFixedStep() ? Scenario{}.tolerance : scenario.tolerance;
+  if (&other != &method && bench
+                               .run(other, std::max(tolerance, bench.leastTolerance()),
+                                    ReferenceUse::kNever, VerdictKind::kGainedEnergy)
+                               .isStable()) {
+    text += "; or use Auto";
+  }
+  return stop && stop() ? "" : text;
 }
 
 }  // namespace spring_pendulum

@@ -1,72 +1,65 @@
-// Trial runs.
+// Trial runs of a scene.
 #pragma once
 
-#include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/state.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
+#include <spring_pendulum/simulation/run.hpp>
 
 #include <cstdint>
-#include <optional>
+#include <functional>
+#include <string>
 
 namespace spring_pendulum {
 
-/// The result of a trial run.
+/// The outcome of a trial run.
 struct Trial {
-  bool affordable = true;  ///< whether the trial ended within the allowed work
+  bool finished = false;  ///< false: the allowed work was used up, or the trial was stopped
   Verdict verdict;
-  double energy_error = 0.0;  ///< largest relative residual of the energy balance
   PositionError position_error;
   bool measured = false;  ///< whether the reference run covers the whole trial
-  bool reference_too_costly = false;
-  std::int64_t evaluations = 0;  ///< force evaluations, without those of the reference run
-  double work = 0.0;             ///< their cost, s, see Integrator::work
+  std::string measurements;
+  std::int64_t evaluations = 0;  ///< of F, without those of the reference run
+  double work = 0.0;             ///< of the method and the frames, s, see Integrator::work
+
+  bool isStable() const { return finished && verdict.kind < VerdictKind::kGainedEnergy; }
 };
 
-/// Makes trial runs of a chain from a start, with any method and step size. Refers to the chain and
-/// the start, which must outlive the bench.
+/// What all trials of a scene have in common.
 class TrialBench {
  public:
-  /// Allowed work of a trial without its reference run, s, see Integrator::work.
+  /// Work in s that `--check` allows for a trial, without its reference run.
   static constexpr double kMostWork = 0.06;
 
-  /// \param duration       duration of the run, s
-  /// \param frame_interval approximate time between judged states, s
+  /// \param stop ends all trials when it returns true; may be empty
   TrialBench(const Chain& chain, const State& start, double duration, double frame_interval,
-             double most_work = kMostWork)
-      : chain_(chain),
-        start_(start),
-        duration_(duration),
-        frame_interval_(frame_interval),
-        most_work_(most_work) {}
+             std::function<bool()> stop = {}, double most_work = kMostWork);
 
-  /// Runs frame by frame to the end, or until the verdict is `enough` or worse.
-  /// \param tolerance m; nothing for a fixed-step method
-  Trial run(const Method& method, std::optional<double> tolerance, const FrameSteps& frame,
-            std::int64_t frames, bool with_reference,
+  /// Runs a scenario with the springs of the chain to the end, or until the verdict is `enough` or
+  /// worse.
+  Trial run(Scenario scenario, ReferenceUse reference,
             VerdictKind enough = VerdictKind::kDiverged) const;
 
-  /// Runs with frames of about `frame_interval`.
-  /// \param step step size in s; for an error-controlled method the tolerance in m
-  Trial run(const Method& method, double step, bool with_reference,
+  /// Runs for `duration` s with frames of about `frame_interval` s, at most 2,000.
+  /// \param setting step size in s; for an error-controlled method the tolerance in m
+  Trial run(const Method& method, double setting, ReferenceUse reference,
             VerdictKind enough = VerdictKind::kDiverged) const;
 
-  /// Number of frames of a fixed-step method that an affordable trial can have.
-  std::int64_t affordableFrames(const Method& method, const FrameSteps& frame) const;
-
-  /// Smallest step size of an affordable trial, s.
+  /// Smallest step size of a fixed-step method that the allowed work permits, s.
   double leastStep(const Method& method) const;
 
-  /// Work of a run with a fixed step, s.
-  double workOf(const Method& method, double step) const;
+  /// Smallest tolerance that the positions permit, m.
+  double leastTolerance() const { return least_tolerance_; }
 
   double duration() const { return duration_; }
+  double mostWork() const { return most_work_; }
+  void limitWork(double most_work) { most_work_ = most_work; }
 
  private:
-  const Chain& chain_;
-  const State& start_;
+  Particles particles_;
+  SpringLaw spring_;
+  double gravity_;
+  double least_tolerance_;
   double duration_;
   double frame_interval_;
+  std::function<bool()> stop_;
   double most_work_;
 };
 
