@@ -17,6 +17,24 @@ install(TARGETS Exercise3 RUNTIME DESTINATION ${install_bin})
 install(DIRECTORY include/spring_pendulum DESTINATION include)
 install(DIRECTORY data config DESTINATION ${install_share})
 
+# Completion for bash, and manual pages made from --help.
+foreach(program Exercise3 record_bag)
+  if(NOT TARGET ${program})
+    continue()
+  endif()
+  install(FILES scripts/completion.bash
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
+  find_program(HELP2MAN help2man)
+  if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING AND NOT SPRING_PENDULUM_SANITIZE)
+    add_custom_command(OUTPUT ${program}.1
+      COMMAND ${HELP2MAN} --no-info --version-string=${PROJECT_VERSION} --output=${program}.1
+        --name "simulates a chain of particles and springs" $<TARGET_FILE:${program}>
+      DEPENDS ${program} VERBATIM)
+    add_custom_target(${program}_manual ALL DEPENDS ${program}.1)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${program}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  endif()
+endforeach()
+
 # find_package(spring_pendulum) gives the target spring_pendulum::spring_pendulum. catkin writes the
 # package's configuration itself and takes the targets in through cmake/spring_pendulum-extras.cmake.
 install(EXPORT spring_pendulumTargets NAMESPACE spring_pendulum::
@@ -31,4 +49,8 @@ if(NOT catkin_FOUND)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/spring_pendulumConfig.cmake
     ${CMAKE_CURRENT_BINARY_DIR}/spring_pendulumConfigVersion.cmake
     DESTINATION ${install_share}/cmake)
+endif()
+if(catkin_FOUND AND PROJECT_SOURCE_DIR STREQUAL CMAKE_SOURCE_DIR)
+  configure_file(cmake/relocate.cmake.in relocate.cmake @ONLY)
+  install(SCRIPT ${CMAKE_CURRENT_BINARY_DIR}/relocate.cmake)
 endif()

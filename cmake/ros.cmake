@@ -9,7 +9,6 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES spring_pendulum
-  CATKIN_DEPENDS geometry_msgs message_runtime roscpp rosgraph_msgs std_msgs std_srvs
-    visualization_msgs
+  CATKIN_DEPENDS geometry_msgs message_runtime std_msgs
   DEPENDS EIGEN3
   CFG_EXTRAS spring_pendulum-extras.cmake)

@@ -76,6 +76,8 @@ fi
 say "to see it move in rviz, on a machine with a display:"
 printf '  source %q\n' "$setup"
 printf '  roslaunch spring_pendulum pendulum.launch'; printf ' %q' "${arguments[@]}"; printf '\n'
+say "completion of methods, options and files in bash:"
+printf '  source %q\n' "$project/scripts/completion.bash"
 say "the node alone (needs a running roscore):"
 printf '  source %q\n' "$setup"
 printf '  rosrun spring_pendulum pendulum_node'; printf ' %q' "${arguments[@]/#/_}"; printf '\n'

@@ -19,11 +19,11 @@ packages_of() {
   case $1 in
     core)
       echo g++ cmake make ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev \
-           libboost-program-options-dev libgtest-dev libgmock-dev gnuplot-nox ;;
+           libboost-program-options-dev libgtest-dev libgmock-dev gnuplot-nox help2man ;;
     ros)
       echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
            libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev ros-visualization-msgs \
-           ros-geometry-msgs ros-std-msgs ros-message-generation ros-message-runtime \
+           ros-geometry-msgs ros-std-msgs ros-std-srvs ros-message-generation ros-message-runtime \
            python3-roslaunch python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
            python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
            python3-geometry-msgs python3-tf2-msgs python3-roslib rosbash ;;

@@ -36,7 +36,7 @@ int runCommandLine(int argc, const char* const* argv) {
   const ProgramText program{
       "Exercise3",
       "Integrates the motion of a chain of particles and damped springs and writes its frames.",
-      "Runge-Kutta-4 --particles particle.txt --output frames"};
+      "Runge-Kutta-4 particle.txt --output frames"};
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);

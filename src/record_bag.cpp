@@ -21,7 +21,7 @@ namespace {
 int record(int argc, const char* const* argv) {
   const ProgramText program{"record_bag",
                             "Writes the messages that pendulum_node publishes straight into a bag.",
-                            "Runge-Kutta-4 --particles particle.txt --bag pendulum.bag"};
+                            "Runge-Kutta-4 particle.txt --bag pendulum.bag"};
   Scenario scenario;
   scenario.output.clear();  // frame files only with --output
   NodeOptions display;

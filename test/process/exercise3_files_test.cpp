@@ -177,6 +177,18 @@ TEST_F(Exercise3Files, FramesHaveThePermissionsOfNewFiles) {
   }
 }
 
+TEST_F(Exercise3Files, AReplacedEnergyFileKeepsItsPermissions) {
+  for (const mode_t mode : {0600U, 0664U}) {
+    folder_.write("e.csv", "earlier");
+    chmod(folder_.path("e.csv").c_str(), mode);
+    ASSERT_EQ(run(command({"--energy", "e.csv"})).status, 0);
+    struct stat status {};
+    ASSERT_EQ(stat(folder_.path("e.csv").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777U, mode);
+    EXPECT_THAT(read("e.csv"), StartsWith(kEnergyStart));
+  }
+}
+
 // If descriptors 0 to 2 are closed, files of the run must not get them and receive messages.
 TEST_F(Exercise3Files, ClosedStandardStreamsChangeNoFile) {
   ASSERT_EQ(run(command({"--output", "expected", "--energy", "expected.csv"})).status, 0);

@@ -49,6 +49,7 @@ OutputFile::OutputFile(const std::string& path) : path_(fullPath(path)) {
   }
   openFolder();
   createUnfinished();
+  keepPermissions();
 }
 
 OutputFile::~OutputFile() {
@@ -78,6 +79,13 @@ void OutputFile::createUnfinished() {
     }
   }
   refuse("other runs are writing it; use a different file for each run");
+}
+
+/// A new FILE gets the permissions of the one that it replaces.
+void OutputFile::keepPermissions() {
+  struct stat earlier {};
+  if (::fstatat(folder_.get(), name_.c_str(), &earlier, 0) != 0) return;
+  ::fchmod(file_.descriptor(), earlier.st_mode & 0777U);  // not every file system has permissions
 }
 
 /// \returns false if the run that held the lock before has renamed or removed the file

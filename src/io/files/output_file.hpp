@@ -44,6 +44,7 @@ class OutputFile {
  private:
   void openFolder();
   void createUnfinished();
+  void keepPermissions();
   bool lock();
   void refuseUnlessUnfinished() const;
   [[noreturn]] void refuse(const std::string& reason) const;

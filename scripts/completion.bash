@@ -1,0 +1,32 @@
+# Completion in bash for Exercise3 and record_bag: options, their values, methods and files. All names
+# come from the program's --help. Installed where bash-completion finds it; else: source this file.
+
+_spring_pendulum() {
+  local program=$1 word=$2 previous=$3 help values= methods option reset
+  COMPREPLY=()
+  help=$("$program" --help 2> /dev/null) || return
+  case $previous in -p) previous=--particles ;; -o) previous=--output ;; esac
+  # A placeholder follows its option after one space, the description of a switch after several.
+  [[ $previous = -* ]] && values=$(sed -nE "s/^ +(-. \[ )?$previous( \])? ([^ ]+)( .*)?$/\3/p" <<< "$help")
+  case $previous,$values in
+    -*,FILE) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    -*,DIR) COMPREPLY=($(compgen -d -- "$word")); return ;;
+    -*,*'|'*) COMPREPLY=($(compgen -W "${values//|/ }" -- "$word")); return ;;
+    -*,?*) return ;;  # a number
+  esac
+  if [[ $word = -* ]]; then
+    COMPREPLY=($(compgen -W "$(sed -nE 's/^ +(-. \[ )?(--[a-z-]+).*/\2/p' <<< "$help")" -- "$word"))
+    return
+  fi
+  methods=$(sed -n 's/^Methods: //p' <<< "$help")
+  for option in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    case ", $methods," in *", $option,"*) COMPREPLY=($(compgen -f -- "$word")); return ;; esac
+  done
+  reset=$(shopt -p nocasematch) || true
+  shopt -s nocasematch
+  for option in ${methods//,/}; do
+    [[ $option = "$word"* ]] && COMPREPLY+=("$option")
+  done
+  $reset
+}
+complete -o filenames -F _spring_pendulum Exercise3 record_bag
