@@ -15,5 +15,7 @@ expect() { grep -qE "$1" <<< "$2" || { printf 'no "%s" in:\n%s\n' "$1" "$2" >&2;
 expect '^10 s: .* m$' "$("$folder/simulate" "$project/data/particle.txt")"
 if output=$("$folder/simulate" /nowhere.txt 2>&1); then exit 1; fi
 expect '/nowhere.txt' "$output"
+expect '500 frames.*, verdict: ok$' "$("$folder/judge" "$project/data/particle.txt")"
+if output=$("$folder/judge" /nowhere.txt 2>&1); then exit 1; fi
 own=$("$folder/own_methods")
 for method in Ralston Heun Runge-Kutta-4; do expect "^$method: .* m after 10 s$" "$own"; done

@@ -62,8 +62,10 @@ std::string textOf(const std::string& path) {
 }
 
 TEST(Documents, ShowTheExamplesAsTheyAre) {
-  EXPECT_THAT(textOf("docs/library.md"),
-              testing::HasSubstr("```cpp\n" + textOf("examples/simulate.cpp") + "```"));
+  EXPECT_THAT(
+      textOf("docs/library.md"),
+      testing::AllOf(testing::HasSubstr("```cpp\n" + textOf("examples/simulate.cpp") + "```"),
+                     testing::HasSubstr("```cpp\n" + textOf("examples/judge.cpp") + "```")));
   const std::string methods = textOf("examples/own_methods.hpp");
   const std::string shown = methods.substr(methods.find("/// Ralston"));
   ASSERT_GT(shown.size(), 500U);
