@@ -1,4 +1,3 @@
-#include "base/checks.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
@@ -10,13 +9,15 @@
 namespace spring_pendulum {
 namespace {
 
-/// Stretch of all springs, relative to their length, whose energy is the least energy scale.
+/// The least energy scale is that of all springs stretched by this share of their length.
 constexpr double kLeastStretch = 1e-6;
 
 }  // namespace
 
-EnergyScale::EnergyScale(const Chain& chain, const State& start) {
-  requireSize(chain.size(), start.size());
+EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation)
+    : chain_(chain),
+      tracks_dissipation_(tracks_dissipation),
+      start_energy_(computeEnergy(chain, start).total()) {
   const SpringLaw& spring = chain.spring();
   double depth = 0.0;  // -E_min, J
   double least = 0.0;
@@ -29,33 +30,29 @@ EnergyScale::EnergyScale(const Chain& chain, const State& start) {
     least += 0.5 * spring.stiffness * stretch * stretch;
   }
   if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain.gravity());
-  const double energy = computeEnergy(chain, start).total();
-  constant_ = std::max(std::max(energy, 0.0) + depth, least);
-  if (!std::isfinite(energy) || !std::isfinite(constant_) || !std::isfinite(fall_)) {
+  constant_scale_ = std::max(std::max(start_energy_, 0.0) + depth, least);
+  if (!std::isfinite(start_energy_) || !std::isfinite(constant_scale_) || !std::isfinite(fall_)) {
     throw InputError(
         "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
         "gravity must be smaller");
   }
 }
 
-EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation)
-    : chain_(chain),
-      scale_(chain, start),
-      start_energy_(computeEnergy(chain, start).total()),
-      tracks_dissipation_(tracks_dissipation) {}
+double EnergyBalance::scale(double time) const {
+  return std::max(constant_scale_ + fall_ * time * time, std::numeric_limits<double>::min());
+}
 
 EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipated) const {
-  const double scale = std::max(scale_.at(time), std::numeric_limits<double>::min());
   EnergyEntry entry;
   entry.time = time;
   entry.energy = computeEnergy(chain_, state);
   entry.gain = entry.energy.total() - start_energy_;
-  entry.relative_gain = entry.gain / scale;
+  entry.relative_gain = entry.gain / scale(time);
   if (tracks_dissipation_) entry.dissipated = dissipated;
   if (chain_.spring().damping == 0.0) entry.dissipated = 0.0;
   if (entry.dissipated) {
     entry.residual = entry.gain + *entry.dissipated;
-    entry.relative_residual = *entry.residual / scale;
+    entry.relative_residual = *entry.residual / scale(time);
   }
   return entry;
 }

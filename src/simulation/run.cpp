@@ -139,11 +139,8 @@ bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
   }
   if (isOver()) return false;
   const std::int64_t steps = stepOfPart(part) - stepOfPart(part_);
-  if (!integrate(steps, integrator)) {
-    stopped_ = true;
-    return false;
-  }
-  follow(steps);
+  stopped_ = !integrate(steps, integrator) || !follow(steps);
+  if (stopped_) return false;
   part_ = part % parts_;
   dissipated_ = dissipated_before_sleep_ + integrator.dissipatedEnergy();
   if (part_ != 0) return true;
@@ -181,18 +178,15 @@ bool Run::sleeps(Integrator& integrator) {
   return false;
 }
 
-void Run::follow(std::int64_t steps) {
-  if (!reference_ || !reference_->isMeasuring()) return;
+bool Run::follow(std::int64_t steps) {
+  if (!reference_ || !reference_->isMeasuring()) return true;
   const Stopwatch stopwatch(totals_.reference_seconds);
-  reference_->advance(frame_steps_.time_step, steps, work_);
+  return reference_->advance(frame_steps_.time_step, steps, options_.stop);
 }
 
 void Run::judgeFrame() {
-  if (reference_) reference_->measureGrowth();
+  if (reference_) reference_->measure(work_);
   judge_.judge(time(), state_, dissipated_, reference_ ? &*reference_ : nullptr);
-  worst_residual_ =
-      std::max(worst_residual_, std::abs(judge_.entry().relative_residual.value_or(0.0)));
-  noteTolerance();
 }
 
 void Run::reset(Integrator& integrator) {
@@ -203,7 +197,6 @@ void Run::reset(Integrator& integrator) {
   frame_ = part_ = 0;
   started_ = stopped_ = asleep_ = false;
   dissipated_before_sleep_ = dissipated_ = work_ = 0.0;
-  worst_residual_ = exceeded_time_ = exceeded_growth_ = 0.0;
   judgeFrame();
 }
 
@@ -229,7 +222,7 @@ PositionError Run::positionError() const {
 }
 
 const State* Run::referenceState() const {
-  return reference_ && reference_->isMeasuring() ? &reference_->state() : nullptr;
+  return reference_ ? reference_->state() : nullptr;
 }
 
 std::int64_t Run::stepOfPart(std::int64_t part) const {

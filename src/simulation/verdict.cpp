@@ -1,3 +1,4 @@
+#include "base/numbers.hpp"
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <fmt/format.h>
@@ -7,6 +8,9 @@
 
 namespace spring_pendulum {
 namespace {
+
+/// Position error that error-controlled methods promise not to exceed, in tolerances.
+constexpr double kPromise = 10.0;
 
 /// Returns the first particle that is not finite, counted from 1; 0 if all are finite.
 Eigen::Index firstNotFinite(const State& state) {
@@ -19,15 +23,11 @@ Eigen::Index firstNotFinite(const State& state) {
 /// Returns the particle with the most kinetic energy, where a divergence shows first; counted
 /// from 1.
 Eigen::Index mostEnergetic(const Chain& chain, const State& state) {
+  const Eigen::Index moving = chain.size() - 1;
+  const auto speeds_squared = state.velocities().bottomRows(moving).rowwise().squaredNorm();
   Eigen::Index most = 0;
-  double most_energy = -1.0;
-  for (Eigen::Index i = 1; i < state.size(); ++i) {
-    const double energy = chain.masses()[i] * state.velocities().row(i).squaredNorm();
-    if (!(energy > most_energy)) continue;
-    most_energy = energy;
-    most = i;
-  }
-  return most + 1;
+  speeds_squared.cwiseProduct(chain.masses().tail(moving)).maxCoeff(&most);
+  return most + 2;
 }
 
 Verdict diverged(const Chain& chain, const State& state, const EnergyEntry& entry) {
@@ -45,69 +45,44 @@ Verdict diverged(const Chain& chain, const State& state, const EnergyEntry& entr
   return verdict;
 }
 
-Verdict gainedEnergy(const EnergyEntry& entry) {
-  return {VerdictKind::kGainedEnergy, entry.time, 0,
-          fmt::format("gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the "
-                      "energy scale, although no force drives the chain",
-                      entry.gain, entry.time, 100.0 * entry.relative_gain)};
+std::string gainedEnergyText(const EnergyEntry& entry) {
+  return fmt::format(
+      "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy scale, "
+      "although no force drives the chain",
+      entry.gain, entry.time, 100.0 * entry.relative_gain);
 }
 
-Verdict drifted(const EnergyEntry& entry) {
-  return {VerdictKind::kDrift, entry.time, 0,
-          fmt::format("drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of "
-                      "the energy scale",
-                      *entry.residual, entry.time, 100.0 * *entry.relative_residual)};
-}
-
-Verdict inaccurate(double time, double error, double chain_length) {
-  return {
-      VerdictKind::kInaccurate, time, 0,
-      fmt::format("inaccurate: position error {:.3g} m at t = {:.6g} s, {:.3g} % of the chain's "
-                  "length",
-                  error, time, 100.0 * error / chain_length)};
+std::string driftText(const EnergyEntry& entry) {
+  return fmt::format(
+      "drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of the energy scale",
+      *entry.residual, entry.time, 100.0 * *entry.relative_residual);
 }
 
 Verdict notMeasured(double time, const ReferenceRun* reference) {
   if (reference == nullptr) {
     return {VerdictKind::kNotChecked, time, 0, "not checked: no reference run"};
   }
-  switch (reference->status()) {
-    case ReferenceRun::Status::kSensitive:
-      return {VerdictKind::kSensitive, time, 0,
-              fmt::format("sensitive from t = {:.6g} s on: small errors grow so much that the true "
-                          "positions cannot be determined",
-                          time)};
-    case ReferenceRun::Status::kFailed:
-      return {VerdictKind::kNotChecked, time, 0,
-              fmt::format("not checked from t = {:.6g} s: the reference run diverged", time)};
-    default:
-      return {VerdictKind::kNotChecked, time, 0,
-              fmt::format("not checked from t = {:.6g} s: a reference run would cost more than the "
-                          "run itself",
-                          time)};
+  if (reference->status() == ReferenceRun::Status::kSensitive) {
+    return {VerdictKind::kSensitive, time, 0,
+            fmt::format("sensitive from t = {:.6g} s on: small errors grow so much that the true "
+                        "positions cannot be determined",
+                        time)};
   }
+  std::string_view reason = "a reference run would cost more than the run itself";
+  if (reference->status() == ReferenceRun::Status::kFailed) reason = "the reference run diverged";
+  if (reference->status() == ReferenceRun::Status::kRounded) {
+    reason = "positions are so large that their rounding errors matter; start nearer to the origin";
+  }
+  return {VerdictKind::kNotChecked, time, 0,
+          fmt::format("not checked from t = {:.6g} s on: {}", time, reason)};
 }
 
 }  // namespace
 
 std::string_view toString(VerdictKind kind) {
-  switch (kind) {
-    case VerdictKind::kOk:
-      return "ok";
-    case VerdictKind::kNotChecked:
-      return "not checked";
-    case VerdictKind::kSensitive:
-      return "sensitive";
-    case VerdictKind::kInaccurate:
-      return "inaccurate";
-    case VerdictKind::kDrift:
-      return "drift";
-    case VerdictKind::kGainedEnergy:
-      return "gained energy";
-    case VerdictKind::kDiverged:
-      return "diverged";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"ok",    "not checked",   "sensitive", "inaccurate",
+                                         "drift", "gained energy", "diverged"};
+  return kNames[static_cast<int>(kind)];
 }
 
 Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
@@ -115,46 +90,57 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
       balance_(chain, start, options.tracks_dissipation),
       chain_length_(chainLength(chain, start)),
       symplectic_step_(options.symplectic_step),
-      tolerance_energy_(static_cast<double>(chain.size() - 1) * 0.5 * chain.spring().stiffness *
-                        (20.0 * options.tolerance) * (20.0 * options.tolerance)) {}
+      tolerance_(options.tolerance) {}
 
-const Verdict& Judge::judge(double time, const State& state, double dissipated) {
-  entry_ = balance_.entry(time, state, dissipated);
-  return remember(judgeEnergy(state));
+const Verdict& Judge::judgeEnergy(double time, const State& state, double dissipated) {
+  return remember(energyVerdict(time, state, dissipated));
 }
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference) {
-  entry_ = balance_.entry(time, state, dissipated);
-  Verdict verdict = judgeEnergy(state);
-  measure(time, state, verdict.kind == VerdictKind::kDiverged ? nullptr : reference);
+  Verdict verdict = energyVerdict(time, state, dissipated);
+  measure(state, verdict.kind == VerdictKind::kDiverged ? nullptr : reference);
   if (verdict.kind == VerdictKind::kDrift && hasEnergyOf(reference))
     verdict.kind = VerdictKind::kOk;
-  if (verdict.kind == VerdictKind::kOk) verdict = judgePositions(time, reference);
+  if (verdict.kind == VerdictKind::kOk) verdict = positionVerdict(reference);
   return remember(std::move(verdict));
 }
 
-void Judge::measure(double time, const State& state, const ReferenceRun* reference) {
-  position_error_.now = PositionError{}.now;
+void Judge::measure(const State& state, const ReferenceRun* reference) {
+  PositionError& error = position_error_;
+  error.now = error.uncertainty = PositionError{}.now;
   if (reference == nullptr || !reference->isMeasuring()) return;
-  position_error_.now = reference->errorOf(state);
-  if (std::isnan(position_error_.now)) return;
-  position_error_.measured_until = time;
-  position_error_.uncertainty = reference->uncertainty();
-  if (position_error_.now <= position_error_.largest) return;
-  position_error_.largest = position_error_.now;
-  position_error_.largest_time = time;
+  error.now = reference->errorOf(state);
+  error.uncertainty = reference->uncertainty();
+  error.measured_until = entry_.time;
+  error.bound = std::fmax(error.bound, error.now + error.uncertainty);
+  noteTolerance(*reference);
+  if (error.now <= error.largest) return;
+  error.largest = error.now;
+  error.largest_time = entry_.time;
 }
 
-Verdict Judge::judgeEnergy(const State& state) {
-  // The negated comparison is also true for NaN, the energy of a state that is not finite.
-  double allowance =
-      tolerance_energy_ > 0.0 ? tolerance_energy_ / balance_.scale(entry_.time) : 0.0;
+void Judge::noteTolerance(const ReferenceRun& reference) {
+  if (tolerance_ == 0.0 || exceeded_time_ > 0.0) return;
+  const bool unknown = position_error_.uncertainty > kPromise * tolerance_;
+  if (!unknown && position_error_.now <= kPromise * tolerance_) return;
+  exceeded_time_ = entry_.time;
+  exceeds_by_itself_ = !unknown && !reference.isSensitive();
+}
+
+Verdict Judge::energyVerdict(double time, const State& state, double dissipated) {
+  entry_ = balance_.entry(time, state, dissipated);
+  const double spread = 2.0 * kPromise * tolerance_;  // m, of the length of a spring
+  const double tolerated =
+      static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
+  double allowance = tolerated > 0.0 ? tolerated / balance_.scale(time) : 0.0;
+  // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
     return diverged(chain_, state, entry_);
   }
   double gain = entry_.relative_gain;
   double residual = entry_.relative_residual.value_or(0.0);
+  worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
   if (symplectic_step_ > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t.
@@ -163,34 +149,38 @@ Verdict Judge::judgeEnergy(const State& state) {
     frames_ += 1.0;
     gain = gain_sum_ / frames_;
     residual = residual_sum_ / frames_;
-    allowance += entry_.time > 0.0 ? symplectic_step_ / entry_.time : 0.0;
+    allowance += time > 0.0 ? symplectic_step_ / time : 0.0;
   }
-  if (gain > kGainThreshold + allowance) return gainedEnergy(entry_);
-  if (std::abs(residual) > kDriftThreshold + allowance) return drifted(entry_);
-  Verdict ok;
-  ok.time = entry_.time;
-  return ok;
+  if (gain > kGainThreshold + allowance) {
+    return {VerdictKind::kGainedEnergy, time, 0, gainedEnergyText(entry_)};
+  }
+  if (!(std::abs(residual) <= kDriftThreshold + allowance)) {
+    return {VerdictKind::kDrift, time, 0, driftText(entry_)};
+  }
+  return {VerdictKind::kOk, time, 0, "ok"};
 }
 
 // In a stiff transient, the dissipated energy can be wrong although the state is right.
 bool Judge::hasEnergyOf(const ReferenceRun* reference) const {
   if (reference == nullptr || !reference->isMeasuring()) return false;
-  const double error = entry_.energy.total() - computeEnergy(chain_, reference->state()).total();
+  const double error = entry_.energy.total() - computeEnergy(chain_, *reference->state()).total();
   return std::abs(error) <= kDriftThreshold * balance_.scale(entry_.time);
 }
 
-Verdict Judge::judgePositions(double time, const ReferenceRun* reference) const {
+Verdict Judge::positionVerdict(const ReferenceRun* reference) const {
+  const double time = entry_.time;
   if (reference == nullptr || !reference->isMeasuring()) return notMeasured(time, reference);
-  if (position_error_.now > kInaccurateThreshold * chain_length_) {
-    return inaccurate(time, position_error_.now, chain_length_);
-  }
-  Verdict ok;
-  ok.time = time;
-  return ok;
+  const double error = position_error_.now;
+  if (error <= kInaccurateThreshold * chain_length_) return {VerdictKind::kOk, time, 0, "ok"};
+  return {
+      VerdictKind::kInaccurate, time, 0,
+      fmt::format("inaccurate: position error {:.3g} m at t = {:.6g} s, {:.3g} % of the chain's "
+                  "length",
+                  error, time, 100.0 * error / chain_length_)};
 }
 
 void Judge::restart() {
-  gain_sum_ = residual_sum_ = frames_ = 0.0;
+  gain_sum_ = residual_sum_ = frames_ = worst_residual_ = exceeded_time_ = 0.0;
   entry_ = {};
   position_error_ = {};
   latest_ = worst_ = {};
@@ -200,6 +190,36 @@ const Verdict& Judge::remember(Verdict verdict) {
   latest_ = std::move(verdict);
   if (latest_.kind > worst_.kind || worst_.kind == VerdictKind::kOk) worst_ = latest_;
   return latest_;
+}
+
+std::string Judge::measurements() const {
+  const PositionError& error = position_error_;
+  std::string text = "position error not measured";
+  if (error.measured_until > 0.0 || error.measured_until == entry_.time) {
+    text = error.isResolved() ? fmt::format("largest position error {} m at t = {:.6g} s",
+                                            roundedText(error.largest, 2), error.largest_time)
+                              : fmt::format("largest position error below {} m",
+                                            roundedText(1.05 * error.bound, 2));
+    if (error.measured_until < entry_.time) {
+      text += fmt::format(" (measured until t = {:.6g} s)", error.measured_until);
+    }
+  }
+  return text + (entry_.relative_residual
+                     ? fmt::format(", largest energy error {} times the energy scale",
+                                   roundedText(worst_residual_, 2))
+                     : ", energy balance not checked");
+}
+
+std::string Judge::toleranceRemark() const {
+  if (exceeded_time_ == 0.0) return {};
+  if (exceeds_by_itself_) {
+    return fmt::format("the position error exceeds ten times the tolerance from t = {:.6g} s on",
+                       exceeded_time_);
+  }
+  return fmt::format(
+      "sensitive from t = {:.6g} s on: small errors grow so much that no method can promise a "
+      "tolerance of {:.3g} m",
+      exceeded_time_, tolerance_);
 }
 
 }  // namespace spring_pendulum

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -121,14 +123,98 @@ TEST(Run, SensitiveMotionIsNotBlamedOnTheRun) {
 
 // A light particle buckles between heavy ones at 2.8 s. At 7.2 s, perturbations of the start have
 // grown 52 times, those of a later state 125 times.
-TEST(Run, MotionThatBecomesSensitiveLaterIsNotBlamedOnTheRun) {
+TEST(Run, SaysFromWhenOnItExceedsTheTolerance) {
   const Eigen::Vector4d masses{1.0, 1.0, 1e-4, 1.0};
   const test::Scene scene{"", Chain(masses, {50.0, 1.0, 1.0}, 9.81),
                           test::straightLine(4, 1.0, 0.0)};
   Scenario scenario = scenarioOf("Auto");
   scenario.tolerance = 1e-3;
   const test::ProgramRun run = runAfter(scenario, scene, 10.0);
-  EXPECT_THAT(run.toleranceRemark(), HasSubstr("sensitive from t = 7.2 s"));
+  EXPECT_THAT(run.toleranceRemark(), HasSubstr("exceeds ten times the tolerance from t = 7.2 s"));
+}
+
+test::Scene weaklyDamped() {
+  const Eigen::VectorXd masses =
+      (Eigen::VectorXd(9) << 0.55, 0.22, 0.22, 0.21, 0.49, 0.27, 0.11, 1.8, 0.68).finished();
+  State start(9);
+  start.x() << 0.0, 0.89, 0.35, -0.64, 0.15, -0.04, 0.15, 0.25, 0.80;
+  start.y() << 0.0, 0.43, 1.21, 1.65, 2.11, 3.18, 4.10, 5.00, 5.82;
+  return {"weakly damped", Chain(masses, {192.57, 0.5577, 1.0}, 9.81), start};
+}
+
+// Perturbations grow 1e7 times in 12 s. The errors are 100 to 3000 tolerances, and the uncertainty is
+// more than ten.
+TEST(Run, UncertaintyAboveTenTolerancesIsNotConcealed) {
+  for (const Method& method : methodTable()) {
+    if (method.hasFixedStep()) continue;
+    Scenario scenario = scenarioOf(method.name);
+    scenario.tolerance = 1e-10;
+    EXPECT_THAT(runAfter(scenario, weaklyDamped(), 12.0).toleranceRemark(),
+                HasSubstr("sensitive from t = "))
+        << method.name;
+  }
+}
+
+// Verdict, errors and remarks depend neither on the display rate nor on how often a run may stop.
+TEST(Run, SaysTheSameForEveryNumberOfPartsOfAFrame) {
+  std::set<VerdictKind> kinds;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    const test::Scene scene = test::chaoticScene(seed);
+    Scenario scenario = scenarioOf(seed % 2 == 0 ? "Taylor-8" : "Runge-Kutta-4");
+    scenario.frames = 13;
+    scenario.frame_interval = 1.0;
+    scenario.time_step = 1.0 / 1024.0;
+    scenario.steps_per_frame = 1024;
+    std::vector<std::string> said;
+    std::vector<PositionError> errors;
+    for (const int parts : {1, 2, 4, 64}) {
+      test::ProgramRun run(scenario, scene, {false, 1.0 / parts, [] { return false; }});
+      while (run.advancePart()) {
+      }
+      ASSERT_EQ(run.frame(), 12);
+      said.push_back(run.measurements() + run.verdict().text + run.toleranceRemark());
+      errors.push_back(run.positionError());
+      kinds.insert(run.verdict().kind);
+    }
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+      EXPECT_EQ(said[i], said[0]) << scene.name;
+      EXPECT_EQ(errors[i].largest, errors[0].largest);
+      EXPECT_EQ(errors[i].bound, errors[0].bound);
+      EXPECT_EQ(errors[i].measured_until, errors[0].measured_until);
+    }
+  }
+  EXPECT_TRUE(kinds.count(VerdictKind::kSensitive) == 1 && kinds.count(VerdictKind::kOk) == 1);
+}
+
+// The largest error may be below the uncertainty at its time.
+TEST(Run, ReportsNoErrorThatItCannotResolve) {
+  Scenario scenario = scenarioOf("Radau-9");
+  scenario.tolerance = 1e-10;
+  const test::ProgramRun run = runAfter(scenario, weaklyDamped(), 12.0);
+  EXPECT_FALSE(run.positionError().isResolved());
+  EXPECT_GE(run.positionError().bound, run.positionError().largest);
+  EXPECT_THAT(run.measurements(), HasSubstr("largest position error below "));
+}
+
+TEST(Run, LargeCoordinatesAreNotCalledSensitive) {
+  test::Scene scene = horizontal();
+  scene.start.x().array() += 2e12;
+  Scenario scenario = scenarioOf("Runge-Kutta-4");
+  const test::ProgramRun run = runAfter(scenario, scene, 1.0);
+  EXPECT_EQ(run.verdict().kind, VerdictKind::kNotChecked);
+  EXPECT_THAT(run.verdict().text, HasSubstr("positions are so large that their rounding errors"));
+}
+
+TEST(Run, StopsInsideTheReferenceRun) {
+  Scenario scenario = scenarioOf("Runge-Kutta-4");
+  scenario.reference = ReferenceUse::kAlways;
+  scenario.time_step = 1000.0;
+  scenario.steps_per_frame = 1;
+  int asked = 0;
+  test::ProgramRun run(scenario, horizontal(0.0), {false, 0.0, [&asked] { return ++asked == 4; }});
+  EXPECT_FALSE(run.advance());
+  EXPECT_TRUE(run.wasStopped());
+  EXPECT_EQ(asked, 4);
 }
 
 TEST(Run, StartsAnewAfterARestart) {

@@ -74,6 +74,36 @@ inline Scene pluckedChain() {
   return scene;
 }
 
+/// A chain of two to seven particles that moves chaotically: without gravity, without damping, weakly
+/// damped, or with two particles that nearly coincide. Its start has a random shape.
+inline Scene chaoticScene(unsigned seed) {
+  std::mt19937 generator(seed);
+  const auto uniform = [&](double least, double most) {
+    return least + (most - least) * static_cast<double>(generator()) / 4294967296.0;
+  };
+  const Eigen::Index size = 2 + generator() % 6;
+  SpringLaw spring{std::pow(10.0, uniform(1.0, 3.0)), 0.0, 1.0};
+  Eigen::VectorXd masses(size);
+  for (double& mass : masses) mass = seed % 6 == 1 ? 1.0 : std::pow(10.0, uniform(-1.0, 0.3));
+  State start(size);
+  const auto place = [&](Eigen::Index i, double angle, double length) {
+    start.x()[i] = start.x()[i - 1] + length * std::cos(angle);
+    start.y()[i] = start.y()[i - 1] + length * std::sin(angle);
+  };
+  const double angle = uniform(-3.1, 3.1);
+  for (Eigen::Index i = 1; i < size; ++i) {
+    const double turned = angle + uniform(-1.2, 1.2);
+    place(i, turned, uniform(0.8, 1.5));
+  }
+  if (seed % 6 == 2) spring.damping = std::pow(10.0, uniform(-3.0, -1.0));
+  if (seed % 6 == 3 && size > 2) {
+    const double length = std::pow(10.0, uniform(-10.0, -2.0));
+    place(size - 1, uniform(-3.0, 3.0), length);
+  }
+  return {"chaotic " + std::to_string(seed), Chain(masses, spring, seed % 6 == 0 ? 0.0 : 9.81),
+          start};
+}
+
 /// Returns scenes from stiff to soft, from damped to undamped, with one to fifty particles.
 inline std::vector<Scene> stabilityScenes() {
   std::vector<Scene> scenes{

@@ -15,30 +15,6 @@
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// The energy in J available to a motion: the difference between the larger of E(0) and 0 (all
-/// springs unstretched and all particles at the height of P_1) and the minimum, the chain hanging
-/// at rest, where spring i carries the weight W_i of all particles beyond it:
-///
-///     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
-///
-/// For a chain that starts in equilibrium, this is the energy of lifting it to the height of P_1.
-/// Two rules keep the scale positive and finite:
-/// - it is at least the energy of all springs stretched by a millionth of their length;
-/// - without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
-///   the mass M until time t, replaces the last term.
-class EnergyScale {
- public:
-  /// \throws InputError if an energy of the start exceeds the range of double
-  EnergyScale(const Chain& chain, const State& start);
-
-  /// Scale at a time in s, J; positive for any chain with springs.
-  double at(double time) const { return constant_ + fall_ * time * time; }
-
- private:
-  double constant_ = 0.0;  ///< J
-  double fall_ = 0.0;      ///< J/s²
-};
-
 /// One row of the energy balance. Energies in J, relative values in units of the energy scale.
 struct EnergyEntry {
   double time = 0.0;                 ///< s
@@ -50,11 +26,23 @@ struct EnergyEntry {
   std::optional<double> relative_residual;
 };
 
+/// Computes the balance of states of one motion, relative to the energy scale. The scale is the energy
+/// available to the motion: the difference between the larger of E(0) and 0 (all springs unstretched
+/// and all particles at the height of P_1) and the minimum, the chain hanging at rest, where spring i
+/// carries the weight W_i of all particles beyond it:
+///
+///     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
+///
+/// For a chain that starts in equilibrium, this is the energy of lifting it to the height of P_1.
+/// Two rules keep the scale positive and finite:
+/// - it is at least the energy of all springs stretched by a millionth of their length;
+/// - without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
+///   the mass M until time t, replaces the last term.
 class EnergyBalance {
  public:
   /// \param tracks_dissipation whether the integrator has `track_dissipation` set. If not, the
   ///   residual is known only for a chain without damping.
-  /// \throws InputError as EnergyScale
+  /// \throws InputError if an energy of the start exceeds the range of double
   EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation);
 
   /// Returns the balance of a state.
@@ -62,14 +50,15 @@ class EnergyBalance {
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
   EnergyEntry entry(double time, const State& state, double dissipated) const;
 
-  /// Energy scale at a time, J.
-  double scale(double time) const { return scale_.at(time); }
+  /// Energy scale at a time in s, J; positive.
+  double scale(double time) const;
 
  private:
   Chain chain_;
-  EnergyScale scale_;
-  double start_energy_;
   bool tracks_dissipation_;
+  double start_energy_;          ///< J
+  double constant_scale_ = 0.0;  ///< J
+  double fall_ = 0.0;            ///< scale of the free fall, J/s²
 };
 
 }  // namespace spring_pendulum

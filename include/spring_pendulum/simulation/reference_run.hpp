@@ -1,25 +1,23 @@
 // A reference run: the same motion, integrated alongside a run with a much smaller error.
 //
-// Two error-controlled trajectories advance together with the measured run. The first is the
-// reference. The tolerance of the second is a hundred times as large. Three times the distance
-// between the two is taken as a bound on the error of the reference, also where small perturbations
-// grow. When they have separated, the motion is too sensitive to be known, and the measurement ends.
+// A companion runs beside the reference. Its tolerance is a hundred times as large, and its start is
+// moved by more than the rounding errors of a run amount to. Three times the distance between the two
+// is taken as a bound on the error of the reference. The bound grows as small errors grow, whether
+// they come from the steps or from rounding. Once the two have separated, the motion is too sensitive
+// to be known, and the measurement ends.
 //
-// For an error-controlled run, two more trajectories start with slightly moved particles. Their
-// distances from the reference measure the growth of perturbations, and thus which tolerance can be
-// met. The first of them starts at the start of the run. The other starts again from the reference
-// after 1, 2, 4, 8, ... output times, because a perturbation may decay before the motion becomes
-// sensitive.
-//
-// The cost is bounded by a count of work, not by a clock, so how long a run is
-// measured does not depend on the machine. The run itself is never touched.
+// Everything is decided at frames and by counted work, so how long a run is measured depends neither
+// on the display rate nor on the machine. The run itself is never touched.
 #pragma once
 
+#include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #pragma GCC visibility push(default)
@@ -43,7 +41,8 @@ class ReferenceRun {
     kMeasuring,
     kCostTooMuch,  ///< stopped: the allowed work is used up
     kSensitive,    ///< stopped: the trajectories separated, the true motion is not known
-    kFailed        ///< stopped: a reference run diverged
+    kRounded,      ///< stopped: the positions are too large to be resolved
+    kFailed        ///< stopped: a trajectory diverged
   };
 
   /// An uncertainty above this share of `chainLength` ends the measurement.
@@ -51,19 +50,19 @@ class ReferenceRun {
 
   /// Allocates the trajectories in the first `advance`.
   ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options = {});
-  ~ReferenceRun();
-  ReferenceRun(ReferenceRun&&) noexcept;
-  ReferenceRun& operator=(ReferenceRun&&) noexcept;
 
-  /// Advances the reference by `steps` steps of `time_step` s, like Integrator::advance. Does
-  /// nothing once the measurement has stopped.
-  /// \param run_work cost of the run so far, s, see Integrator::work. The reference may cost as much
-  ///   or about 0.1 s, whichever is more.
-  void advance(double time_step, std::int64_t steps, double run_work);
+  /// Advances the reference to the next frame or, in several calls, through parts of it; see
+  /// Integrator::advance. Does nothing once the measurement has stopped.
+  /// \param stop asked every few milliseconds whether to give up; only `restart` may follow then
+  /// \returns false if `stop` returned true
+  /// \throws InputError as Integrator::advance
+  bool advance(double time_step, std::int64_t steps, const std::function<bool()>& stop = {});
 
-  /// Measures how much small perturbations have grown, see `growth()`. Call it once per frame; then
-  /// the result does not depend on how often `advance` is called between the frames.
-  void measureGrowth();
+  /// Measures the uncertainty, and stops measuring if it or the cost is too large. Call it once per
+  /// frame.
+  /// \param run_work Integrator::work of the run so far, s. Until the next frame, the reference may
+  ///   cost as much or 0.12 s, whichever is more.
+  void measure(double run_work);
 
   /// Returns to the start.
   void restart();
@@ -71,43 +70,44 @@ class ReferenceRun {
   Status status() const { return status_; }
   bool isMeasuring() const { return status_ == Status::kMeasuring; }
 
-  /// State of the reference; the last one if the measurement has stopped.
-  const State& state() const { return state_; }
+  /// State of the reference at the time that `advance` has reached; null if it is not known.
+  const State* state() const;
 
-  /// Bound on the position error of `state()`, m; NaN after the measurement has stopped.
+  /// Bound on the position error of the reference at the last frame, m; NaN after the measurement has
+  /// stopped.
   double uncertainty() const { return uncertainty_; }
 
-  /// Largest distance of a particle from its reference position, m; NaN after the measurement has
-  /// stopped. Errors below `uncertainty()` are not resolved.
+  /// Largest distance of a particle from its position in `state()`, m; NaN if that is not known.
+  /// Errors below `uncertainty()` are not resolved.
   /// \throws InputError if the size of the state is not that of the chain
   double errorOf(const State& state) const;
 
-  /// Largest measured growth factor of a small perturbation, of the start or of a later state; a
-  /// lower bound, as few perturbations are tried. NaN for a fixed-step method.
-  double growth() const { return growth_; }
+  /// Whether the error of the companion at the last frame shows that perturbations of the motion have
+  /// grown by more than about 100 times.
+  bool isSensitive() const;
 
  private:
-  struct Trajectory;
+  struct Trajectory {
+    std::unique_ptr<Integrator> integrator;
+    State state;
+  };
 
-  void makeTrajectories();
-  void compare();
+  double work() const;
   void stop(Status status);
-  double allowedWork(double run_work) const;
 
   Chain chain_;
   State start_;
-  bool always_;
-  bool measures_growth_;
-  double tolerance_;  ///< m
-  double believed_;   ///< m
-  double rounding_;   ///< m
-  double growth_;
-  std::int64_t measurements_ = 0;  ///< of the growth
+  double believed_;             ///< m
+  double rounding_;             ///< m
+  double tolerance_;            ///< m
+  double companion_tolerance_;  ///< m
+  double free_work_;            ///< s
+  double allowed_work_ = 0.0;   ///< until the next frame, s
+  bool gave_up_ = false;        ///< inside a frame
   Status status_ = Status::kMeasuring;
-  State state_;
-  double uncertainty_ = 0.0;
-  /// Reference, second, and for the growth two perturbed ones.
-  std::vector<Trajectory> trajectories_;
+  double distance_ = 0.0;                 ///< of the companion from the reference, m
+  double uncertainty_ = 0.0;              ///< m
+  std::vector<Trajectory> trajectories_;  ///< reference and companion
 };
 
 }  // namespace spring_pendulum

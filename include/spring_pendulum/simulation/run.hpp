@@ -104,10 +104,10 @@ class Run {
   /// \param output put after the time of integrating: ", 3.07 ms writing to /home/me/frames"
   std::string closingLine(const Integrator& integrator, const std::string& output = "") const;
   /// What was measured: "largest position error 0.00024 m at t = 9.8 s, energy balance not checked".
-  std::string measurements() const;
-  /// A line if the position error exceeds ten times the tolerance of an error-controlled method; else
-  /// empty.
-  std::string toleranceRemark() const;
+  std::string measurements() const { return judge_.measurements(); }
+  /// A line if the position error of an error-controlled method exceeds ten tolerances or cannot be
+  /// known to that; else empty.
+  std::string toleranceRemark() const { return judge_.toleranceRemark(); }
 
  private:
   /// Numbers for the closing line, over all rounds.
@@ -121,10 +121,9 @@ class Run {
 
   bool advanceTo(std::int64_t part, Integrator& integrator);
   bool integrate(std::int64_t steps, Integrator& integrator);
-  void follow(std::int64_t steps);
+  bool follow(std::int64_t steps);
   bool sleeps(Integrator& integrator);
   void judgeFrame();
-  void noteTolerance();
   std::int64_t stepOfPart(std::int64_t part) const;
   double timeOfPart(std::int64_t part) const;
 
@@ -147,9 +146,6 @@ class Run {
   double dissipated_ = 0.0;               ///< J, until the current state
   double work_at_start_ = 0.0;            ///< of the integrator, s
   double work_ = 0.0;                     ///< until the last judged frame, s
-  double worst_residual_ = 0.0;           ///< largest relative residual of the energy balance
-  double exceeded_time_ = 0.0;            ///< s, of the first error above ten tolerances; 0: none
-  double exceeded_growth_ = 0.0;          ///< of perturbations until then
   Totals totals_;
 };
 
