@@ -27,6 +27,8 @@ compare() {
       --time-step 0.05 --steps-per-frame 1 --frames 161 --output "$work/$method" \
       --energy "$work/$method.csv" || [ $? = 3 ]
   done
+  "$(program Exercise3)" Auto --tolerance 1e-9 --particles "$project/data/particle.txt" --damping 0 \
+    --frame-interval 0.05 --frames 161 --output "$work/Truth"
   (cd "$work" && gnuplot "$docs/plots/compare.plt" 2> /dev/null)
   mv "$work/compare.gif" "$docs/compare.gif"
 }

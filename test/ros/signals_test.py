@@ -61,6 +61,10 @@ class Signals(unittest.TestCase):
         self.end(self.first_frame, steps_per_frame=2000000000)
         self.end(self.first_frame, method='Taylor-8', frame_interval=1e6)
 
+    def test_after_a_divergence_with_many_frames(self):
+        self.end(lambda node, _: 'diverged' in node.output(), method='Euler', damping=0, time_step=0.05,
+                 frames=1000000000, at_end='hold')
+
     def test_paused(self):
         def pause(node, _):
             rospy.wait_for_service('/pendulum/pause', timeout=30)
