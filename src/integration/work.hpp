@@ -1,15 +1,32 @@
 // The unit of `Integrator::work`: nominal computing times of evaluations of F. All limits on the cost
-// of reference runs and trials count in this unit.
+// of reference runs and trials count in this unit, and `Auto` compares its methods by it. They are
+// constants, so what depends on them is the same on every machine.
 #pragma once
 
 #include <cstddef>
 
 namespace spring_pendulum {
 
-/// Time of an evaluation in Taylor-8 for a chain, s. Measured: 2 to 5 ns per particle, with the
-/// overhead of 8 more particles.
+/// Time in s of one evaluation for the whole chain, with its share of all other work of a step.
+/// Measured with AVX2 for 2 to 10,000 particles; mostly within a factor of 2 of the measurements.
+struct NominalTime {
+  double per_particle;
+  double overhead = 8.0;  ///< in particles
+
+  constexpr double of(std::ptrdiff_t particles) const {
+    return per_particle * (static_cast<double>(particles) + overhead);
+  }
+};
+
+constexpr NominalTime kTaylorTime{3e-9};
+constexpr NominalTime kStabilizedTaylor8Time{1.15 * 3e-9};
+/// Steps of order 4 have fewer terms to share the work that is done once per step.
+constexpr NominalTime kStabilizedTaylor4Time{1.4 * 3e-9};
+/// The linear algebra uses no vector instructions.
+constexpr NominalTime kRadauTime{41e-9, 0.0};
+
 inline double nominalTaylorTime(std::ptrdiff_t particles) {
-  return 3e-9 * (static_cast<double>(particles) + 8.0);
+  return kTaylorTime.of(particles);
 }
 
 /// Time of an evaluation in a method with fixed steps, s. Measured, relative to Taylor-8: 0.36 with 2

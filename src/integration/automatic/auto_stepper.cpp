@@ -1,10 +1,10 @@
 #include "integration/automatic/auto_stepper.hpp"
 
 #include "base/numbers.hpp"
-#include "integration/error_control/nominal_cost.hpp"
 #include "integration/implicit/radau_stepper.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
+#include "integration/work.hpp"
 #include "model/chain_modes.hpp"
 
 #include <fmt/format.h>
@@ -88,13 +88,13 @@ AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keep
   const bool order_12 = needsOrder12(chain, tolerance);
   explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
   successor_is_better_ = !order_12;
-  const auto add = [&](std::string_view name, const NominalCost& cost, auto make) {
-    candidates_.push_back({name, cost.of(chain.size()) / kTaylorCost.of(chain.size()), make});
+  const auto add = [&](std::string_view name, const NominalTime& cost, auto make) {
+    candidates_.push_back({name, cost.of(chain.size()) / kTaylorTime.of(chain.size()), make});
   };
-  add(order_12 ? "Taylor-12" : "Taylor-8", kTaylorCost, order_12 ? makeTaylor<12> : makeTaylor<8>);
-  add("Stabilized-Taylor-8", kStabilizedTaylor8Cost, makeStabilizedTaylor<8>);
-  add("Stabilized-Taylor-4", kStabilizedTaylor4Cost, makeStabilizedTaylor<4>);
-  if (fastest_rate_ >= kRateForImplicit) add("Radau-9", kRadauCost, makeRadau);
+  add(order_12 ? "Taylor-12" : "Taylor-8", kTaylorTime, order_12 ? makeTaylor<12> : makeTaylor<8>);
+  add("Stabilized-Taylor-8", kStabilizedTaylor8Time, makeStabilizedTaylor<8>);
+  add("Stabilized-Taylor-4", kStabilizedTaylor4Time, makeStabilizedTaylor<4>);
+  if (fastest_rate_ >= kRateForImplicit) add("Radau-9", kRadauTime, makeRadau);
   candidates_[0].stepper = candidates_[0].make(chain_, tolerance_);
 }
 

@@ -1,7 +1,7 @@
 #include "integration/implicit/radau_stepper.hpp"
 
-#include "integration/error_control/nominal_cost.hpp"
 #include "integration/implicit/radau_sums.hpp"
+#include "integration/work.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]
 }  // namespace
 
 double RadauStepper::workPerEvaluation(Eigen::Index particles) {
-  return kRadauCost.of(particles) / kTaylorCost.of(particles);
+  return kRadauTime.of(particles) / kTaylorTime.of(particles);
 }
 
 StepStatistics RadauStepper::statistics() const {

@@ -50,6 +50,8 @@ TEST(Auto, ChangesTheMethodWithTheMotion) {
     const std::string method(stepper.method());
     if (used.empty() || used.back() != method) used.push_back(method);
   }
+  ASSERT_GE(used.size(), 3);
+  used.resize(3);  // order 8 may return when the motion is lively
   EXPECT_EQ(used,
             (std::vector<std::string>{"Taylor-8", "Stabilized-Taylor-8", "Stabilized-Taylor-4"}));
 }
