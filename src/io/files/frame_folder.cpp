@@ -21,7 +21,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// Name of a trial file. No frame has it, because frame 0 is written with four digits.
+/// A file that shows whether the folder is writable. With five zeros, it is not a frame's name.
 constexpr const char* kTrial = ".frame_00000.tmp";
 
 /// Whether a name is `prefix` + at least four digits + `suffix`.

@@ -1,4 +1,4 @@
-// Reading text files, and quoting their text in error messages.
+// Reading text files.
 #pragma once
 
 #include <string>
