@@ -16,7 +16,7 @@ namespace {
 constexpr double kBytesPerParticle = 160.0;
 /// Memory per particle of the two trajectories of a reference run, B.
 constexpr double kBytesOfReference = 2.0 * 2700.0;
-/// Expected memory from which on a run reports it, B.
+/// A run that is expected to need more memory than this says so, B.
 constexpr double kMuch = 5e8;
 
 std::string needOf(const Scenario& scenario, Eigen::Index particles) {

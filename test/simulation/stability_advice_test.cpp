@@ -1,4 +1,5 @@
 #include "simulation/advice/trial.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <regex>
 #include <string>
 
@@ -147,6 +149,51 @@ TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
   controlled.method = findMethod("Auto");
   EXPECT_EQ(remedyForDivergence(light.chain, light.start, controlled),
             "try a tolerance below 1e-06 m");
+}
+
+TEST(StabilityAdvice, RemedyEndsWhenItIsStopped) {
+  const Scene light = test::horizontalChain("", 11, 0.001);
+  int asked = 0;
+  const auto stop = [&asked] { return ++asked > 3; };
+  EXPECT_EQ(remedyForDivergence(light.chain, light.start, Scenario{}, stop), "");
+  EXPECT_GT(asked, 3);
+}
+
+TEST(StabilityAdvice, RefusesWhatHasNoAnswer) {
+  const Scene scene = test::horizontalChain("", 3, 1.0);
+  EXPECT_THROW(findStepLimits(findMethod("Auto"), scene.chain, scene.start, 0.01, 1.0, 0.1),
+               InputError);
+  Scenario negative;
+  negative.frames = -5;
+  EXPECT_THROW(describeStability(scene.chain, scene.start, negative), InputError);
+  EXPECT_THROW(remedyForDivergence(scene.chain, scene.start, negative), InputError);
+}
+
+/// A method of a program that never reaches the next frame.
+class Slow final : public Integrator {
+ public:
+  void advance(State&, double, std::int64_t) override { FAIL() << "not asked to stop"; }
+  std::int64_t advanceWithin(State&, double, std::int64_t, double) override {
+    ++evaluations_;
+    return 0;
+  }
+  std::int64_t forceEvaluations() const override { return evaluations_; }
+  double dissipatedEnergy() const override { return 0.0; }
+  double work() const override { return 1e-3 * static_cast<double>(evaluations_); }
+
+ private:
+  std::int64_t evaluations_ = 0;
+};
+
+TEST(StabilityAdvice, LimitsTheWorkOfOwnErrorControlledMethods) {
+  Method method{"Slow", 1, 1, StepControl::kErrorControlled};
+  method.make = [](const Method&, const Chain&, const IntegratorOptions&) {
+    return std::make_unique<Slow>();
+  };
+  const Scene scene = test::horizontalChain("", 3, 1.0);
+  Scenario scenario;
+  scenario.method = method;
+  EXPECT_EQ(describeStability(scene.chain, scene.start, scenario), "Slow: takes too long to try\n");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace spring_pendulum {
 namespace {
@@ -13,40 +12,6 @@ constexpr int kStride = 32;      ///< stride of the coarse search, in grid point
 /// Number of grid points below the result that must pass as well, because nearly undamped chains
 /// have narrow intervals of unstable step sizes.
 constexpr int kLookBack = 20;
-
-/// A geometric grid of step sizes.
-class Grid {
- public:
-  Grid(double first, double least, const std::function<bool(double)>& passes)
-      : first_(first), least_(roundedDown(least)), passes_(passes) {}
-
-  double step(int i) const { return roundedDown(first_ * std::pow(kRatio, i)); }
-  bool isTooSmall(int i) const { return step(i) < least_; }
-  bool passes(int i) const { return passes_(step(i)); }
-
-  /// Returns the first of the points i, i - stride, ... that passes or is too small.
-  int descend(int i, int stride) const {
-    while (!isTooSmall(i) && !passes(i)) i -= stride;
-    return i;
-  }
-
-  /// Returns a failing point just below `good`, or `good` if 0.95 or 0.9 times its step size, the
-  /// usual safety margins, fail.
-  std::optional<int> failureBelow(int good) const {
-    for (int i = good - 1; i >= good - kLookBack && !isTooSmall(i); --i) {
-      if (!passes(i)) return i;
-    }
-    for (const double share : {0.95, 0.9}) {
-      if (share * step(good) >= least_ && !passes_(share * step(good))) return good;
-    }
-    return std::nullopt;
-  }
-
- private:
-  double first_;
-  double least_;
-  const std::function<bool(double)>& passes_;
-};
 
 }  // namespace
 
@@ -58,24 +23,34 @@ double roundedDown(double step) {
 double largestPassingStep(double first, double least, double most,
                           const std::function<bool(double)>& passes) {
   if (!(least <= most)) return 0.0;
-  const Grid grid(std::clamp(first, least, most), least, passes);
-  int good = grid.descend(0, kStride);
-  for (const int i : {-kStride, -2 * kStride}) {
-    if (good == 0 && !grid.isTooSmall(i)) good = grid.passes(i) ? 0 : grid.descend(i, kStride);
-  }
-  if (grid.isTooSmall(good)) return 0.0;
+  const double origin = std::clamp(first, least, most);
+  const auto step = [&](int i) { return roundedDown(origin * std::pow(kRatio, i)); };
+  const auto isTried = [&](int i) { return step(i) >= roundedDown(least); };
+  const auto descend = [&](int i, int stride) {
+    while (isTried(i) && !passes(step(i))) i -= stride;
+    return i;
+  };
+  // Whether a share of a grid point passes, as far as it can be tried.
+  const auto sharePasses = [&](int i, double share) {
+    return share * step(i) < least || passes(share * step(i));
+  };
+  int good = descend(0, kStride);
+  if (!isTried(good)) return 0.0;
   int bad = good + kStride;
-  while (grid.step(bad) <= most && grid.passes(bad)) bad += kStride;
-  if (grid.step(bad) > most) return std::numeric_limits<double>::infinity();
+  while (step(bad) <= most && passes(step(bad))) bad += kStride;
+  if (step(bad) > most) return std::numeric_limits<double>::infinity();
   good = bad - kStride;
   while (bad - good > 1) {
     const int middle = good + (bad - good) / 2;
-    (grid.passes(middle) ? good : bad) = middle;
+    (passes(step(middle)) ? good : bad) = middle;
   }
-  for (int stride = 1; !grid.isTooSmall(good); stride *= 2) {
-    const std::optional<int> failure = grid.failureBelow(good);
-    if (!failure) return grid.step(good);
-    good = grid.descend(*failure - stride, stride);
+  // Each failure below the limit doubles the stride, so that few steps are tried in any case.
+  for (int stride = 1; isTried(good); stride *= 2) {
+    int i = good - 1;
+    while (i >= good - kLookBack && isTried(i) && passes(step(i))) --i;
+    const bool all_pass = i < good - kLookBack || !isTried(i);
+    if (all_pass && sharePasses(good, 0.95) && sharePasses(good, 0.9)) return step(good);
+    good = descend((all_pass ? good : i) - stride, stride);
   }
   return 0.0;
 }

@@ -1,0 +1,205 @@
+// Every number of a scenario and of a method, at the limits of its type and of its range, alone and
+// in pairs, through every public function that takes it: each call ends with an InputError or a
+// result.
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/spring_pendulum.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "support/scenes.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+using Action = std::function<void()>;
+
+const std::vector<double> kNumbers{
+    0.0, -1.0, Limits::quiet_NaN(), Limits::infinity(), Limits::max(), Limits::denorm_min()};
+const std::vector<std::int64_t> kCounts{0, -1, 1, std::numeric_limits<std::int64_t>::max(),
+                                        std::numeric_limits<std::int64_t>::min()};
+/// Values that most fields accept, for pairs.
+const std::vector<double> kLargeAndSmall{Limits::max(), 1e160, Limits::denorm_min()};
+
+Scenario shortScenario(const std::string& method) {
+  Scenario scenario;
+  scenario.method = findMethod(method);
+  scenario.frames = 3;
+  scenario.steps_per_frame = 2;
+  scenario.wanted_error = 1e-2;
+  return scenario;
+}
+
+/// \returns false for an InputError or too little memory
+bool gives(const Action& action) {
+  try {
+    action();
+  } catch (const InputError&) {
+    return false;
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("not enough memory", 0), 0U) << error.what();
+    return false;
+  }
+  return true;
+}
+
+/// Calls the public functions that take a scenario, with a chain of the scenario's springs.
+/// \returns the number of calls with a result
+int tryFunctions(const Scenario& scenario) {
+  const test::Scene scene = test::horizontalChain("", 3, 1.0);
+  const Particles particles{scene.chain.masses(), scene.start};
+  int asked = 0;
+  const auto stop = [&asked] { return ++asked > 10; };
+  int results = gives([&] {
+    Run run(scenario, particles, {true, 0.0, stop});
+    const auto integrator = run.makeIntegrator();
+    while (run.advance(*integrator)) continue;
+    run.closingLine(*integrator);
+  });
+  gives([&] {
+    const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
+    results += gives([&] { stabilityWarning(chain, scenario, &scene.start); });
+    results += gives([&] { remedyForDivergence(chain, scene.start, scenario, stop); });
+  });
+  return results;
+}
+
+/// The text of `--check` takes up to a few seconds.
+int describe(const Scenario& scenario) {
+  const test::Scene scene = test::horizontalChain("", 3, 1.0);
+  return gives([&] {
+    const Chain chain(scene.chain.masses(), scenario.spring(), scenario.gravity);
+    describeStability(chain, scene.start, scenario);
+  });
+}
+
+/// Sets a numeric option.
+/// \returns false if the option is no number
+bool assign(const Option& option, double number, std::int64_t count) {
+  if (const auto* value = std::get_if<Number>(&option.value)) {
+    *value->value = number;
+    return true;
+  }
+  if (const auto* value = std::get_if<Count>(&option.value)) {
+    *value->value = count;
+    return true;
+  }
+  return false;
+}
+
+TEST(ExtremeValues, OfEveryFieldOfAScenario) {
+  int fields = 0;
+  int results = 0;
+  for (const char* method : {"Euler", "Runge-Kutta-4", "Semi-Implicit-Euler", "Auto"}) {
+    Scenario scenario = shortScenario(method);
+    const Scenario usual = scenario;
+    for (const Option& option : scenarioOptions(scenario)) {
+      if (!assign(option, 0.0, 0)) continue;
+      ++fields;
+      for (std::size_t i = 0; i < kNumbers.size(); ++i) {
+        scenario = usual;
+        assign(option, kNumbers[i], kCounts[i % kCounts.size()]);
+        SCOPED_TRACE(std::string(method) + " " + std::string(option.key) + " " + option.text());
+        results += tryFunctions(scenario) + describe(scenario);
+      }
+      scenario = usual;
+    }
+  }
+  EXPECT_EQ(fields, 4 * 12);
+  EXPECT_GT(results, 100);
+}
+
+TEST(ExtremeValues, OfEveryTwoFieldsOfAScenario) {
+  for (const char* method : {"Runge-Kutta-4", "Auto"}) {
+    Scenario scenario = shortScenario(method);
+    const Scenario usual = scenario;
+    const std::vector<Option> options = scenarioOptions(scenario);
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (const double first : kLargeAndSmall) {
+          for (const double second : kLargeAndSmall) {
+            const bool set = assign(options[i], first, first > 1.0 ? 1'000'000'000 : 1) &&
+                             assign(options[j], second, second > 1.0 ? 1'000'000'000 : 1);
+            if (set) tryFunctions(scenario);
+            scenario = usual;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ExtremeValues, OfTheTimesOfASearch) {
+  const test::Scene scene = test::horizontalChain("", 3, 1.0);
+  const auto search = [&](const char* method, double first, double duration, double interval) {
+    const auto found = [&] {
+      findStepLimits(findMethod(method), scene.chain, scene.start, first, duration, interval);
+    };
+    return gives(found);
+  };
+  for (const double wrong : {0.0, -1.0, Limits::quiet_NaN(), Limits::infinity()}) {
+    EXPECT_FALSE(search("Euler", wrong, 1.0, 0.1)) << wrong;
+    EXPECT_FALSE(search("Euler", 0.01, wrong, 0.1)) << wrong;
+    EXPECT_FALSE(search("Euler", 0.01, 1.0, wrong)) << wrong;
+    EXPECT_FALSE(gives([&] { linearStepLimit(findMethod("Euler"), scene.chain, wrong); })) << wrong;
+  }
+  EXPECT_FALSE(search("Auto", 0.01, 1.0, 0.1));  // has no step size
+  for (const double first : kLargeAndSmall) {
+    for (const double duration : kLargeAndSmall) {
+      EXPECT_TRUE(gives([&] { linearStepLimit(findMethod("Euler"), scene.chain, duration); }));
+      for (const double interval : kLargeAndSmall) {
+        EXPECT_TRUE(search("Euler", first, duration, interval));
+      }
+    }
+  }
+}
+
+TEST(ExtremeValues, OfEveryFieldOfAMethod) {
+  const test::Scene scene = test::horizontalChain("", 3, 1.0);
+  const std::vector<std::function<void(Method&, double)>> fields{
+      [](Method& m, double value) { m.real_stability_limit = value; },
+      [](Method& m, double value) { m.imaginary_stability_limit = value; },
+      [](Method& m, double value) { m.bytes_per_particle = value; },
+  };
+  const std::vector<std::function<void(Method&, int)>> whole_fields{
+      [](Method& m, int value) { m.order = value; },
+      [](Method& m, int value) { m.stages = value; },
+  };
+  const auto use = [&](const Method& method) {
+    gives([&] { linearStepLimit(method, scene.chain, 1.0); });
+    Scenario scenario = shortScenario("Euler");
+    scenario.method = method;
+    tryFunctions(scenario);
+  };
+  for (const char* name : {"Euler", "Velocity-Verlet", "Auto"}) {
+    for (const double value : kNumbers) {
+      for (const auto& set : fields) {
+        Method method = findMethod(name);
+        set(method, value);
+        use(method);
+      }
+    }
+    for (const int value :
+         {0, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
+      for (const auto& set : whole_fields) {
+        Method method = findMethod(name);
+        set(method, value);
+        use(method);
+      }
+    }
+    Method unmade = findMethod(name);
+    unmade.make = {};
+    EXPECT_FALSE(gives([&] { makeIntegrator(unmade, scene.chain); }) && unmade.tableau == nullptr);
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum
