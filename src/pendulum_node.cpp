@@ -52,7 +52,7 @@ void play(Run& run, Integrator& integrator, Player& player, Publisher& publisher
     files.write(run);
     if (run.isOver()) files.finish();
     publisher.publish(run, player.showing());
-    log.follow();
+    log.note();
     parameters.look();
   }
 }

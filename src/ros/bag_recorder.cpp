@@ -54,7 +54,7 @@ class BagRecorder {
     header.frame_id = frame_id_;
     header.stamp = stamps_.next(run.time());
     marker_builder_.trackTip(run);
-    shown_.follow(run);
+    shown_.set(run);
     const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, shown_, header, "");
     writeCamera(header);
     bag_.write(markers_topic_, header.stamp, markers);

@@ -38,7 +38,7 @@ visualization_msgs::MarkerArray markersOf(const Run& run, const NodeOptions& opt
   MarkerBuilder builder(run, options);
   builder.trackTip(run);
   ShownState shown;
-  shown.follow(run);
+  shown.set(run);
   return builder.build(run, shown, std_msgs::Header(), "");
 }
 
@@ -91,7 +91,7 @@ TEST(Markers, ADivergedChainInItsOwnColourIsBroken) {
   options.color = "#ff8000";
   MarkerBuilder builder(run, options);
   ShownState shown;
-  shown.follow(run);
+  shown.set(run);
   const std_msgs::Header header;
   EXPECT_EQ(builder.build(run, shown, header, "").markers[0].points.size(), 4U);
   while (!run.isOver()) run.advance();
@@ -132,7 +132,7 @@ TEST(Markers, OnlyTheFirstRowMovesTheCamera) {
     options.text_row = row;
     MarkerBuilder builder(run, options);
     ShownState shown;
-    shown.follow(run);
+    shown.set(run);
     builder.build(run, shown, std_msgs::Header(), "");
     EXPECT_EQ(builder.cameraChanges(), row == 0 ? 1 : 0);
   }
@@ -175,12 +175,12 @@ TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
   }
   const std_msgs::Header header;
   ShownState shown;
-  shown.follow(run);
+  shown.set(run);
   const auto& trail = builder.build(run, shown, header, "").markers[3];
   EXPECT_EQ(trail.points.size(), 11U);  // 1 s at 0.1 s
   run.reset();
   builder.trackTip(run);
-  shown.follow(run);
+  shown.set(run);
   EXPECT_EQ(builder.build(run, shown, header, "").markers[3].action,
             visualization_msgs::Marker::DELETE);
 }
@@ -203,20 +203,20 @@ TEST(Markers, SlowMotionShowsStatesBetween) {
   ShownState shown;
   for (int i = 0; i < 5; ++i) {
     run.advance();
-    shown.follow(run);
+    shown.set(run);
   }
   const State before = run.state();
   test::ProgramRun truth(Scenario{}, horizontal(3), {false, 0.05});
   for (int i = 0; i < 11; ++i) truth.advancePart();
   run.advance();
-  shown.follow(run, 0.0);
+  shown.set(run, 0.0);
   EXPECT_EQ(shown.state().positions(), before.positions());
-  shown.follow(run, 0.5);
+  shown.set(run, 0.5);
   EXPECT_DOUBLE_EQ(shown.time(), 0.55);
   EXPECT_DOUBLE_EQ(truth.time(), 0.55);
   // Measured: 2e-5 m over a frame of 0.1 s; the middle of the two positions is 0.01 m off.
   EXPECT_LT((shown.state().positions() - truth.state().positions()).cwiseAbs().maxCoeff(), 2e-4);
-  shown.follow(run, 1.0);
+  shown.set(run, 1.0);
   EXPECT_EQ(shown.state().positions(), run.state().positions());
 }
 

@@ -36,7 +36,7 @@ TEST(SceneView, HoldsTheWholeMotionOfEveryShippedScene) {
     bool widened = false;
     while (!run.isOver()) {
       run.advance();
-      widened = view.follow(run.state()) || widened;
+      widened = view.widenFor(run.state()) || widened;
       ASSERT_TRUE(shows(view, run.state())) << run.time();
       motion.include({run.state().x().minCoeff(), run.state().x().maxCoeff(),
                       run.state().y().minCoeff(), run.state().y().maxCoeff()});
@@ -73,15 +73,15 @@ TEST(SceneView, WidensForAMotionThatLeavesItButNotForEver) {
   const test::ProgramRun run(Scenario{}, horizontal(6, 1.0), {false, 0.0});
   SceneView view(run, 3);
   State state = run.start();
-  EXPECT_FALSE(view.follow(state));
+  EXPECT_FALSE(view.widenFor(state));
   state.x()[5] = 30.0;
-  EXPECT_TRUE(view.follow(state));
+  EXPECT_TRUE(view.widenFor(state));
   EXPECT_TRUE(shows(view, state));
-  EXPECT_FALSE(view.follow(state));
+  EXPECT_FALSE(view.widenFor(state));
   const double size = view.size();
   state.x()[5] = 1e12;
-  EXPECT_TRUE(view.follow(state));
-  EXPECT_FALSE(view.follow(state));
+  EXPECT_TRUE(view.widenFor(state));
+  EXPECT_FALSE(view.widenFor(state));
   EXPECT_LT(view.size(), 20.0 * size);
 }
 

@@ -136,8 +136,8 @@ void MarkerBuilder::frame(const Run& run, const State& state) {
   const bool may_widen = drawable && isFirstRow();
   if (!view_) {
     view_.emplace(run, textLines());
-    if (may_widen) view_->follow(state);
-  } else if (!may_widen || !view_->follow(state)) {
+    if (may_widen) view_->widenFor(state);
+  } else if (!may_widen || !view_->widenFor(state)) {
     return;
   }
   if (isFirstRow()) ++camera_changes_;

@@ -109,7 +109,7 @@ SceneView::SceneView(const Run& run, int text_lines) : text_lines_(text_lines) {
   largest_.include(around(start, kMostGrowth * kMostReaches * reach));
 }
 
-bool SceneView::follow(const State& state) {
+bool SceneView::widenFor(const State& state) {
   const Box chain = intersection(boxOf(state), largest_);
   if (contains(box_, chain)) return false;
   Box wider = box_;

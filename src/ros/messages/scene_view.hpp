@@ -27,7 +27,7 @@ class SceneView {
 
   /// Widens the frame if the chain has left it.
   /// \returns whether the frame changed
-  bool follow(const State& state);
+  bool widenFor(const State& state);
 
   /// The visible rectangle of the plane, without the text above it.
   const Box& box() const { return box_; }

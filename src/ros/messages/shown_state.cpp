@@ -4,7 +4,7 @@
 
 namespace spring_pendulum {
 
-void ShownState::follow(const Run& run, double share) {
+void ShownState::set(const Run& run, double share) {
   if (last_.size() != run.state().size() || run.time() < last_time_) {
     before_ = run.state();  // first state, or state after a reset
     before_time_ = run.time();

@@ -11,7 +11,7 @@ class ShownState {
   /// Sets the state from the state of the run.
   /// \param share 1 for the state of the run; less for a state interpolated between the previous
   ///   state (0) and the current one, with cubic Hermite polynomials
-  void follow(const Run& run, double share = 1.0);
+  void set(const Run& run, double share = 1.0);
 
   const State& state() const { return between_ ? shown_ : last_; }
   double time() const { return time_; }  ///< s, simulated

@@ -14,10 +14,12 @@ namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, while the run is paused
 constexpr double kLongestWait = 0.1;        // s, latency of the end of ROS
-constexpr double kSlowStates = 1.5;         // least shown states per state of the run ...
-constexpr double kSlowSteps = 1.1;          // ... and per step, for slow motion
-constexpr double kLongestInterval = 1e9;    // s; ros::Duration has 32 bits for seconds
-constexpr double kLoopPause = 1.0;          // s, pause at the last frame before a loop
+// A motion is slow, and shown between its states, if a state or a time step takes longer than this
+// many display intervals.
+constexpr double kSlowStates = 1.5;
+constexpr double kSlowSteps = 1.1;
+constexpr double kLongestInterval = 1e9;  // s; ros::Duration has 32 bits for seconds
+constexpr double kLoopPause = 1.0;        // s, pause at the last frame before a loop
 
 void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
   response.success = success ? 1 : 0;

@@ -105,7 +105,7 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
 
 void Publisher::publish(const Run& run, const Showing& showing) {
   const PendulumStatus status = statusOf(run, showing.paused);
-  if (markers_.getNumSubscribers() > 0) shown_.follow(run, showing.share);
+  if (markers_.getNumSubscribers() > 0) shown_.set(run, showing.share);
   if (!showing.due && !isNew(status)) return;
   std_msgs::Header header;
   header.frame_id = frame_id_;
@@ -128,7 +128,7 @@ void Publisher::publish(const Run& run, const Showing& showing) {
 
 void Publisher::publishBetween(const Run& run, const Showing& showing) {
   if (markers_.getNumSubscribers() == 0) return;
-  shown_.follow(run, showing.share);
+  shown_.set(run, showing.share);
   std_msgs::Header header;
   header.frame_id = frame_id_;
   header.stamp = stamps_.next(run.time());

@@ -85,7 +85,7 @@ std::string RunLog::closingLine() const {
                                publisher_.markersBuilt(), publisher_.statesBuilt()));
 }
 
-void RunLog::follow() {
+void RunLog::note() {
   const Verdict& verdict = run_.verdict();
   const std::string& method = run_.scenario().method.get().name;
   if (verdict.kind > said_verdict_) {

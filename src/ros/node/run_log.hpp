@@ -28,7 +28,7 @@ class RunLog {
 
   /// Must be called after every action. Logs once each: a bad verdict, a divergence with its
   /// remedy, the choices of Auto, the end of the run.
-  void follow();
+  void note();
 
   /// Logs the closing line of a run that did not reach its end, or continued after it.
   void finish() const;
