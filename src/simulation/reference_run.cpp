@@ -25,11 +25,11 @@ constexpr double kCompanionTolerance = 100.0;
 constexpr double kSafety = 3.0;
 /// Change of the companion's start and smallest distance that can be resolved, relative to the largest
 /// coordinate. The rounding errors of a run had the effect of a change of the start by up to 4e-15
-/// (70,000 evaluations). With this value one in 1480 measurements of chaotic motions exceeded its
-/// uncertainty, by a factor of 1.7; with a third of it nine, by up to 23.
+/// (70,000 evaluations). With this value one in 640 measurements of chaotic motions exceeded its
+/// uncertainty, by a factor of 1.6; without a moved start 50, by up to 55.
 constexpr double kRounding = 3e-14;
-/// Error of the companion, in its tolerances, above which a motion counts as sensitive. Measured on 110
-/// random scenes: at most 0.34 while perturbations had grown up to 100 times; at least 0.3 in 99 % of
+/// Error of the companion, in its tolerances, above which a motion counts as sensitive. Measured on
+/// random scenes with tolerances above 1e-10 m: at most 0.34 while perturbations had grown up to 100 times; at least 0.3 in 99 % of
 /// 1031 runs that were over ten tolerances off after they had grown more.
 constexpr double kSensitiveError = 0.3;
 /// Growth of rounding errors above which the motion and not the rounding is to blame.
