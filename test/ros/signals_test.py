@@ -61,6 +61,10 @@ class Signals(unittest.TestCase):
         self.end(self.first_frame, steps_per_frame=2000000000)
         self.end(self.first_frame, method='Taylor-8', frame_interval=1e6)
 
+    def test_in_the_reference_run(self):
+        # One step takes no time, but the reference run has 1e7 s of motion to compute.
+        self.end(self.first_frame, time_step=1e7, steps_per_frame=1, reference='always')
+
     def test_after_a_divergence_with_many_frames(self):
         self.end(lambda node, _: 'diverged' in node.output(), method='Euler', damping=0, time_step=0.05,
                  frames=1000000000, at_end='hold')
