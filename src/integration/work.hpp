@@ -18,6 +18,7 @@ struct NominalTime {
   }
 };
 
+constexpr NominalTime kFixedStepTime{2e-9, 3.0};
 constexpr NominalTime kTaylorTime{3e-9};
 constexpr NominalTime kStabilizedTaylor8Time{1.15 * 3e-9};
 /// Steps of order 4 have fewer terms to share the work that is done once per step.
@@ -29,10 +30,8 @@ inline double nominalTaylorTime(std::ptrdiff_t particles) {
   return kTaylorTime.of(particles);
 }
 
-/// Time of an evaluation in a method with fixed steps, s. Measured, relative to Taylor-8: 0.36 with 2
-/// particles, 0.4 with 11, 0.7 with 50, 1.1 with 100, 2.1 with 300.
 inline double nominalFixedStepTime(std::ptrdiff_t particles) {
-  return (0.35 + 0.007 * static_cast<double>(particles)) * nominalTaylorTime(particles);
+  return kFixedStepTime.of(particles);
 }
 
 }  // namespace spring_pendulum
