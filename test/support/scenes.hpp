@@ -81,7 +81,7 @@ inline Scene chaoticScene(unsigned seed) {
   const auto uniform = [&](double least, double most) {
     return least + (most - least) * static_cast<double>(generator()) / 4294967296.0;
   };
-  const Eigen::Index size = 2 + generator() % 6;
+  const auto size = static_cast<Eigen::Index>(2 + generator() % 6);
   SpringLaw spring{std::pow(10.0, uniform(1.0, 3.0)), 0.0, 1.0};
   Eigen::VectorXd masses(size);
   for (double& mass : masses) mass = seed % 6 == 1 ? 1.0 : std::pow(10.0, uniform(-1.0, 0.3));
