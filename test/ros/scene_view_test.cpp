@@ -69,6 +69,17 @@ TEST(SceneView, OneParticleHasAPicture) {
   EXPECT_LT(view.size(), 2.0);
 }
 
+// The springs vibrate faster than the step size of the probe can follow.
+TEST(SceneView, ParticlesWithoutWeightHaveAPicture) {
+  Particles scene = horizontal(3, 1.0);
+  scene.masses[2] = 1e-300;
+  Scenario scenario;
+  scenario.stiffness = 1e10;
+  scenario.time_step = 1e-160;
+  const test::ProgramRun run(scenario, scene);
+  EXPECT_TRUE(shows(SceneView(run, 3), run.start()));
+}
+
 TEST(SceneView, WidensForAMotionThatLeavesItButNotForEver) {
   const test::ProgramRun run(Scenario{}, horizontal(6, 1.0), {false, 0.0});
   SceneView view(run, 3);

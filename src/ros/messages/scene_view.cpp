@@ -60,7 +60,8 @@ Box padded(const Box& box, double share) {
   return {box.left - margin, box.right + margin, box.bottom - margin, box.top + margin};
 }
 
-/// Stable step size of Runge-Kutta-4, s: for a spring between two particles of the least mass.
+/// Stable step size of Runge-Kutta-4, s: for a spring between two particles of the least mass; 0 if
+/// the springs are too fast.
 double probeStep(const Chain& chain) {
   const double mass = chain.masses().tail(chain.size() - 1).minCoeff();
   const double frequency = 2.0 * std::sqrt(chain.spring().stiffness / mass);
@@ -73,6 +74,7 @@ Box probeMotion(const Chain& chain, const State& start, double duration) {
   Box box = boxOf(start);
   if (chain.size() < 2) return box;
   const double step = probeStep(chain);
+  if (step == 0.0) return box;
   const double most_steps = kMostWork / static_cast<double>(chain.size());
   const auto steps = static_cast<std::int64_t>(std::min(duration / step, most_steps));
   const auto integrator = makeIntegrator("Runge-Kutta-4", chain);
