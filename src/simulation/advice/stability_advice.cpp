@@ -178,6 +178,7 @@ std::string describeStability(const Chain& chain, const State& start, const Scen
 }
 
 std::string stabilityWarning(const Chain& chain, const Scenario& scenario, const State* start) {
+  checkScenario(scenario);
   const Method& method = scenario.method;
   if (!method.hasFixedStep() || scenario.frames < 2) return {};
   const double duration = durationOf(scenario);
