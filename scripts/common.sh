@@ -54,7 +54,7 @@ show_progress() {
 # half of the time of the unit tests.
 long_tests='WithinAFactorOfTwo/(feather|alternating)|NeverComesBeforeAStableRun'
 long_tests+='|RandomScenes\.KeepTheTolerance|OnLongAndLightChains|TenMillionSteps'
-long_tests+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat|RandomOptions'
+long_tests+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat|RandomOptions|ExtremeValues'
 
 have_ros() { [ -x /usr/bin/catkin_make ] && [ -x /usr/bin/roslaunch ]; }
 
