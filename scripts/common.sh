@@ -50,8 +50,8 @@ show_progress() {
   if [ -t 1 ]; then printf '\r\033[K'; fi
 }
 
-# For ctest -E: measurements that repeat shorter tests on larger or on many random scenes. They take
-# half of the time of the unit tests.
+# For ctest -E: measurements that repeat shorter tests on larger or on many random scenes, and products
+# of extreme options. They take half of the time of the unit tests.
 long_tests='WithinAFactorOfTwo/(feather|alternating)|NeverComesBeforeAStableRun'
 long_tests+='|RandomScenes\.KeepTheTolerance|OnLongAndLightChains|TenMillionSteps'
 long_tests+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat|RandomOptions|ExtremeValues'

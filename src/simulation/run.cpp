@@ -1,3 +1,4 @@
+#include "base/stopwatch.hpp"
 #include "integration/work.hpp"
 #include "model/chain_modes.hpp"
 #include "simulation/memory.hpp"
@@ -7,7 +8,6 @@
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -24,20 +24,6 @@ constexpr Eigen::Index kLongChain = 100;
 /// Largest number of parts of a frame: more than any display needs, few enough to avoid overflow.
 constexpr double kMostParts = 1024.0;
 constexpr std::int64_t kMostThreads = 1024;
-
-/// Adds the wall-clock time of its lifetime to a sum in s.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& seconds_;
-  Clock::time_point start_ = Clock::now();
-};
 
 /// Expected number of steps of an error-controlled method: about twenty per second, and more if
 /// springs vibrate or stability limits the step size.

@@ -1,5 +1,6 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
+#include "base/stopwatch.hpp"
 #include "io/files/frame_folder.hpp"
 #include "io/files/touched_files.hpp"
 #include <spring_pendulum/io/frame_writer.hpp>
@@ -7,27 +8,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 namespace spring_pendulum {
 namespace {
 
 constexpr std::size_t kLongestLine = 2 * (kLongestNumber + 1);
 constexpr Eigen::Index kLinesAtOnce = 4096;
-
-/// Adds its lifetime in s to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum) {}
-  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& sum_;
-  Clock::time_point start_ = Clock::now();
-};
 
 }  // namespace
 

@@ -1,0 +1,22 @@
+// Measures wall-clock time.
+#pragma once
+
+#include <chrono>
+
+namespace spring_pendulum {
+
+/// Adds the wall-clock time of its lifetime to a sum in s.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace spring_pendulum
