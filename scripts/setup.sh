@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian or Ubuntu packages that are missing. Usage: scripts/setup.sh COMPONENT ...
 #   core       compiler, CMake and the libraries of the simulator, Exercise3 and the GIF
+#   mpi        Open MPI, optional: sweeps and long chains on many machines
 #   ros        ROS 1: packages for the node, the messages and the bags
 #   rviz       the viewer
 #   test       additional packages for the tests
@@ -20,6 +21,7 @@ packages_of() {
     core)
       echo g++ cmake make ninja-build libeigen3-dev libfmt-dev libyaml-cpp-dev \
            libboost-program-options-dev libgtest-dev libgmock-dev gnuplot-nox help2man ;;
+    mpi) echo libopenmpi-dev openmpi-bin ;;
     ros)
       echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
            libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev ros-visualization-msgs \
