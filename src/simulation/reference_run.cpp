@@ -82,6 +82,21 @@ State moved(const Chain& chain, const State& state, double change) {
   return result;
 }
 
+/// What the errors of a reference run are measured in, m.
+struct Scales {
+  double length;     ///< of the chain
+  double rounding;   ///< smallest distance that can be resolved
+  double tolerance;  ///< of the reference
+};
+
+Scales scalesOf(const Chain& chain, const State& start, double run_tolerance) {
+  const double length = chainLength(chain, start);
+  const double rounding = kRounding * std::max(start.positions().cwiseAbs().maxCoeff(), length);
+  const double tolerance =
+      std::min({kTolerance, kRelativeTolerance * length, kToleranceShare * run_tolerance});
+  return {length, rounding, std::max(tolerance, rounding)};
+}
+
 }  // namespace
 
 double chainLength(const Chain& chain, const State& start) {
@@ -91,22 +106,93 @@ double chainLength(const Chain& chain, const State& start) {
                   0.1 * springLengths(start, 0, springs));
 }
 
+/// Reference and companion.
+class ReferenceTrajectories {
+ public:
+  ReferenceTrajectories(const Chain& chain, const State& start, const Scales& scales)
+      : reference_{makeIntegrator("Auto", chain, {scales.tolerance, false, 1}), start},
+        companion_{makeIntegrator(companionMethod(chain), chain,
+                                  {kCompanionTolerance * scales.tolerance, false, 1}),
+                   moved(chain, start, scales.rounding)} {}
+
+  /// Advances both until `work()` reaches `allowed_work` or `stop` returns true. To go on after that,
+  /// call it again with the same arguments.
+  /// \returns whether both have taken all steps
+  bool advance(double time_step, std::int64_t steps, double allowed_work,
+               const std::function<bool()>& stop) {
+    if (reference_.left == 0 && companion_.left == 0) reference_.left = companion_.left = steps;
+    for (Trajectory* trajectory : {&reference_, &companion_}) {
+      while (trajectory->left > 0) {
+        if (work() >= allowed_work || (stop && stop())) return false;
+        Integrator& integrator = *trajectory->integrator;
+        const double slice = std::min(allowed_work - work(), kWorkBetweenStops);
+        trajectory->left -= integrator.advanceWithin(trajectory->state, time_step, trajectory->left,
+                                                     integrator.work() + slice);
+      }
+    }
+    return true;
+  }
+
+  double work() const { return reference_.integrator->work() + companion_.integrator->work(); }
+  double distance() const { return largestDistance(reference_.state, companion_.state); }
+  const State& state() const { return reference_.state; }
+
+ private:
+  struct Trajectory {
+    std::unique_ptr<Integrator> integrator;
+    State state;
+    std::int64_t left = 0;  ///< steps
+  };
+
+  Trajectory reference_;
+  Trajectory companion_;
+};
+
+SharedReference::SharedReference(const Chain& chain, const State& start, double frame_interval,
+                                 double run_tolerance)
+    : frame_interval_(frame_interval),
+      trajectories_(std::make_unique<ReferenceTrajectories>(
+          chain, start, scalesOf(chain, start, run_tolerance))) {
+  requireFinitePositive("frame_interval", frame_interval, "s");
+  frames_.push_back({start, 0.0, 0.0});
+}
+
+SharedReference::~SharedReference() = default;
+
+const ReferenceFrame* SharedReference::frame(std::int64_t index, double allowed_work,
+                                             const std::function<bool()>& stop) {
+  requireAtLeastZero("index", index);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ReferenceTrajectories& both = *trajectories_;
+  while (static_cast<std::int64_t>(frames_.size()) <= index) {
+    if (!both.advance(frame_interval_, 1, allowed_work, stop)) return nullptr;
+    frames_.push_back({both.state(), both.distance(), both.work()});
+  }
+  const ReferenceFrame& frame = frames_[static_cast<std::size_t>(index)];
+  return frame.work < allowed_work ? &frame : nullptr;
+}
+
 ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
     : chain_(chain),
-      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork) {
-  const double length = chainLength(chain, start);
-  believed_ = kBelieved * length;
-  rounding_ = kRounding * std::max(start.positions().cwiseAbs().maxCoeff(), length);
-  tolerance_ =
-      std::min({kTolerance, kRelativeTolerance * length, kToleranceShare * options.run_tolerance});
-  tolerance_ = std::max(tolerance_, rounding_);
-  companion_tolerance_ = kCompanionTolerance * tolerance_;
+      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
+      shared_(options.shared) {
+  const Scales scales = scalesOf(chain, start, options.run_tolerance);
+  believed_ = kBelieved * scales.length;
+  rounding_ = scales.rounding;
+  tolerance_ = scales.tolerance;
+  if (shared_) requireSize(chain.size(), shared_->size());
   if (start.size() <= kMostParticles || options.always) start_ = start;
   restart();
 }
 
+ReferenceRun::~ReferenceRun() = default;
+ReferenceRun::ReferenceRun(ReferenceRun&& other) noexcept = default;
+ReferenceRun& ReferenceRun::operator=(ReferenceRun&& other) noexcept = default;
+
 void ReferenceRun::restart() {
-  trajectories_.clear();
+  trajectories_.reset();
+  shared_frame_ = nullptr;
+  shared_frames_ = 0;
   allowed_work_ = free_work_;
   gave_up_ = false;
   status_ = Status::kMeasuring;
@@ -119,40 +205,34 @@ bool ReferenceRun::advance(double time_step, std::int64_t steps,
                            const std::function<bool()>& stop) {
   requireFinitePositive("time_step", time_step, "s");
   requireAtLeastZero("steps", steps);
-  if (!isMeasuring() || chain_.size() < 2) return true;
-  if (trajectories_.empty()) {
-    trajectories_.push_back({makeIntegrator("Auto", chain_, {tolerance_, false, 1}), start_});
-    trajectories_.push_back(
-        {makeIntegrator(companionMethod(chain_), chain_, {companion_tolerance_, false, 1}),
-         moved(chain_, start_, rounding_)});
-  }
-  for (auto& [integrator, state] : trajectories_) {
-    for (std::int64_t left = steps; left > 0 && !gave_up_;) {
-      if (stop && stop()) {
-        gave_up_ = true;
-        return false;
-      }
-      const double slice = std::min(allowed_work_ - work(), kWorkBetweenStops);
-      left -= integrator->advanceWithin(state, time_step, left, integrator->work() + slice);
-      gave_up_ = left > 0 && work() >= allowed_work_;
+  if (!isMeasuring() || gave_up_ || chain_.size() < 2) return true;
+  bool stopped = false;
+  const auto stops = [&stopped, &stop] { return stopped = stop && stop(); };
+  if (shared_) {
+    shared_frame_ = shared_->frame(++shared_frames_, allowed_work_, stops);
+    gave_up_ = shared_frame_ == nullptr;
+  } else {
+    if (!trajectories_) {
+      trajectories_ = std::make_unique<ReferenceTrajectories>(chain_, start_,
+                                                              Scales{0.0, rounding_, tolerance_});
     }
+    gave_up_ = !trajectories_->advance(time_step, steps, allowed_work_, stops);
   }
-  return true;
+  return !stopped;
 }
 
 double ReferenceRun::work() const {
-  double sum = 0.0;
-  for (const Trajectory& trajectory : trajectories_) sum += trajectory.integrator->work();
-  return sum;
+  if (shared_) return shared_frame_ == nullptr ? 0.0 : shared_frame_->work;
+  return trajectories_ ? trajectories_->work() : 0.0;
 }
 
 // The work at a frame does not depend on the parts of the frame, and it exceeds the allowed work if
 // `advance` gave up inside the frame. So the parts do not matter.
 void ReferenceRun::measure(double run_work) {
-  if (trajectories_.empty()) return;
+  if (!trajectories_ && shared_frames_ == 0) return;
   if (gave_up_ || work() >= allowed_work_) return stop(Status::kCostTooMuch);
   allowed_work_ = std::max(free_work_, run_work);
-  distance_ = largestDistance(trajectories_[0].state, trajectories_[1].state);
+  distance_ = shared_ ? shared_frame_->distance : trajectories_->distance();
   uncertainty_ = kSafety * distance_ + rounding_;
   if (std::isnan(uncertainty_)) return stop(Status::kFailed);
   if (uncertainty_ <= believed_) return;
@@ -160,12 +240,13 @@ void ReferenceRun::measure(double run_work) {
 }
 
 bool ReferenceRun::isSensitive() const {
-  return distance_ > kSensitiveError * companion_tolerance_;
+  return distance_ > kSensitiveError * kCompanionTolerance * tolerance_;
 }
 
 const State* ReferenceRun::state() const {
   if (!isMeasuring() || gave_up_) return nullptr;
-  return trajectories_.empty() ? &start_ : &trajectories_[0].state;
+  if (shared_frame_ != nullptr) return &shared_frame_->state;
+  return trajectories_ ? &trajectories_->state() : &start_;
 }
 
 double ReferenceRun::errorOf(const State& state) const {
@@ -178,7 +259,7 @@ double ReferenceRun::errorOf(const State& state) const {
 void ReferenceRun::stop(Status status) {
   status_ = status;
   uncertainty_ = std::numeric_limits<double>::quiet_NaN();
-  trajectories_.clear();
+  trajectories_.reset();
 }
 
 }  // namespace spring_pendulum

@@ -1,6 +1,5 @@
 #include "base/stopwatch.hpp"
-#include "integration/work.hpp"
-#include "model/chain_modes.hpp"
+#include "simulation/expected_work.hpp"
 #include "simulation/memory.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include "simulation/sleep.hpp"
@@ -25,30 +24,10 @@ constexpr Eigen::Index kLongChain = 100;
 constexpr double kMostParts = 1024.0;
 constexpr std::int64_t kMostThreads = 1024;
 
-/// Expected number of steps of an error-controlled method: about twenty per second, and more if
-/// springs vibrate or stability limits the step size.
-double expectedSteps(const Chain& chain, double duration) {
-  const double mode = largestSpringMode(chain);  // 1/kg
-  const double per_second =
-      20.0 + 0.5 * std::sqrt(chain.spring().stiffness * mode) + 0.1 * chain.spring().damping * mode;
-  return per_second * duration;
-}
-
-/// Expected work of a run, s, see Integrator::work.
-double expectedWork(const Method& method, const Chain& chain, const FrameSteps& frame,
-                    std::int64_t frames) {
-  const double intervals = static_cast<double>(frames - 1) * static_cast<double>(frame.steps);
-  const double steps =
-      method.hasFixedStep() ? intervals : expectedSteps(chain, intervals * frame.time_step);
-  return steps * method.stages *
-         (method.hasFixedStep() ? nominalFixedStepTime(chain.size())
-                                : nominalTaylorTime(chain.size()));
-}
-
 bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain) {
   const Method& method = scenario.method;
   if (method.hasFixedStep() && method.tableau != nullptr && chain.size() >= kLongChain) return true;
-  return expectedWork(method, chain, frameSteps(scenario), scenario.frames) <= kCheapWork;
+  return expectedWork(scenario, chain) <= kCheapWork;
 }
 
 JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation) {
@@ -98,6 +77,7 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
     frame_steps_ = {scenario.frame_interval / static_cast<double>(parts_), parts_};
     reference.run_tolerance = scenario.tolerance;
   }
+  reference.shared = options_.shared_reference;
   if (scenario.reference != ReferenceUse::kNever) reference_.emplace(chain_, start_, reference);
   judgeFrame();
 }

@@ -15,10 +15,11 @@
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory>
-#include <vector>
+#include <mutex>
 
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
@@ -27,12 +28,57 @@ namespace spring_pendulum {
 /// tenth of the length of the chain at the start (for springs with rest length 0).
 double chainLength(const Chain& chain, const State& start);
 
+class ReferenceTrajectories;
+
+/// Where a shared reference run is at one of its frames.
+struct ReferenceFrame {
+  State state;
+  double distance = 0.0;  ///< of the companion from the reference, m
+  double work = 0.0;      ///< of both until here, s; see Integrator::work
+};
+
+/// Reference and companion, recorded at frames, for several runs of one motion: they may differ in
+/// method, step size and tolerance. Computes each frame when a run first asks for it, so each run stops
+/// measuring at the same frame and for the same reason as with a reference of its own. All functions
+/// may be called from several threads.
+class SharedReference {
+ public:
+  /// Allocates the trajectories.
+  /// \param frame_interval time between frames, s
+  /// \param run_tolerance  see ReferenceOptions
+  /// \throws InputError if the size of the state is not that of the chain, or the interval is not
+  ///   finite and positive
+  SharedReference(const Chain& chain, const State& start, double frame_interval,
+                  double run_tolerance = std::numeric_limits<double>::infinity());
+  ~SharedReference();
+  SharedReference(const SharedReference&) = delete;
+  SharedReference& operator=(const SharedReference&) = delete;
+
+  /// Returns a frame, counted from 0, the start; null if it takes `allowed_work` s or more to get
+  /// there, or if `stop` returned true. The frame stays valid as long as this object.
+  /// \throws InputError if the index is negative
+  const ReferenceFrame* frame(std::int64_t index, double allowed_work,
+                              const std::function<bool()>& stop = {});
+
+  /// Number of particles.
+  Eigen::Index size() const { return frames_.front().state.size(); }
+
+ private:
+  double frame_interval_;  ///< s
+  std::mutex mutex_;
+  std::unique_ptr<ReferenceTrajectories> trajectories_;
+  std::deque<ReferenceFrame> frames_;
+};
+
 struct ReferenceOptions {
   /// Tolerance in m of the measured run; infinite for a fixed-step method. The tolerance of the
   /// reference is a thousandth of this, at most 1e-10 m.
   double run_tolerance = std::numeric_limits<double>::infinity();
   /// Measure to the end, whatever the cost.
   bool always = false;
+  /// If not null, the trajectories come from here, and `ReferenceRun::advance` must be called once per
+  /// frame.
+  std::shared_ptr<SharedReference> shared = {};
 };
 
 class ReferenceRun {
@@ -49,7 +95,11 @@ class ReferenceRun {
   static constexpr double kBelieved = 1e-3;
 
   /// Allocates the trajectories in the first `advance`.
+  /// \throws InputError if the sizes of chain, start and shared reference differ
   ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options = {});
+  ~ReferenceRun();
+  ReferenceRun(ReferenceRun&& other) noexcept;
+  ReferenceRun& operator=(ReferenceRun&& other) noexcept;
 
   /// Advances the reference to the next frame or, in several calls, through parts of it; see
   /// Integrator::advance. Does nothing once the measurement has stopped.
@@ -87,27 +137,24 @@ class ReferenceRun {
   bool isSensitive() const;
 
  private:
-  struct Trajectory {
-    std::unique_ptr<Integrator> integrator;
-    State state;
-  };
-
   double work() const;
   void stop(Status status);
 
   Chain chain_;
   State start_;
-  double believed_;             ///< m
-  double rounding_;             ///< m
-  double tolerance_;            ///< m
-  double companion_tolerance_;  ///< m
-  double free_work_;            ///< s
-  double allowed_work_ = 0.0;   ///< until the next frame, s
-  bool gave_up_ = false;        ///< inside a frame
+  double believed_;            ///< m
+  double rounding_;            ///< m
+  double tolerance_;           ///< m
+  double free_work_;           ///< s
+  double allowed_work_ = 0.0;  ///< until the next frame, s
+  bool gave_up_ = false;       ///< inside a frame
   Status status_ = Status::kMeasuring;
-  double distance_ = 0.0;                 ///< of the companion from the reference, m
-  double uncertainty_ = 0.0;              ///< m
-  std::vector<Trajectory> trajectories_;  ///< reference and companion
+  double distance_ = 0.0;     ///< of the companion from the reference, m
+  double uncertainty_ = 0.0;  ///< m
+  std::unique_ptr<ReferenceTrajectories> trajectories_;
+  std::shared_ptr<SharedReference> shared_;
+  const ReferenceFrame* shared_frame_ = nullptr;  ///< null: at the start
+  std::int64_t shared_frames_ = 0;                ///< asked for
 };
 
 }  // namespace spring_pendulum

@@ -28,9 +28,11 @@ const ChainKernels& kernelsFor(const EngineOptions& options, Eigen::Index partic
 }
 
 Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index particles) {
+  const Eigen::Index blocks = particles / options.block_size;
+  if (blocks <= 1) return 1;  // asking for the cores takes as long as 100 steps of a short chain
   const auto available = static_cast<Eigen::Index>(std::thread::hardware_concurrency());
-  const Eigen::Index threads = options.threads > 0 ? options.threads : available;
-  return std::max<Eigen::Index>(1, std::min(threads, particles / options.block_size));
+  return std::max<Eigen::Index>(
+      1, std::min(options.threads > 0 ? options.threads : available, blocks));
 }
 
 }  // namespace

@@ -112,7 +112,8 @@ void refuseControlCharacters(std::string_view text, std::string_view name) {
 
 }  // namespace
 
-void parseOptions(std::string_view text, std::string_view name, OptionSet& options) {
+void parseYaml(std::string_view text, std::string_view name, YAML::EventHandler& handler,
+               std::string_view wanted) {
   refuseControlCharacters(text, name);
   // Without an explicit end of the document, yaml-cpp accepts a quotation mark that is not closed,
   // and the rest of the file would be the value.
@@ -120,16 +121,20 @@ void parseOptions(std::string_view text, std::string_view name, OptionSet& optio
   std::istringstream stream{fmt::format("{}{}...\n", text, ends_line ? "" : "\n")};
   try {
     YAML::Parser parser(stream);
-    OptionHandler handler(name, options);
     // The second call only checks that there is no second document.
     if (parser.HandleNextDocument(handler)) parser.HandleNextDocument(handler);
   } catch (const YAML::Exception& error) {
     if (error.msg == YAML::ErrorMsg::DOC_IN_SCALAR) {
       throw InputError(fmt::format("{}: a quotation mark is not closed", name));
     }
-    throw InputError(fmt::format("{}: invalid YAML ({}); must be lines 'key: value'",
-                                 placeOf(name, error.mark), error.msg));
+    throw InputError(
+        fmt::format("{}: invalid YAML ({}); {}", placeOf(name, error.mark), error.msg, wanted));
   }
+}
+
+void parseOptions(std::string_view text, std::string_view name, OptionSet& options) {
+  OptionHandler handler(name, options);
+  parseYaml(text, name, handler, "must be lines 'key: value'");
 }
 
 void readOptionFile(const std::string& path, OptionSet& options) {

@@ -6,7 +6,17 @@
 #include <string>
 #include <string_view>
 
+namespace YAML {
+class EventHandler;
+}
+
 namespace spring_pendulum {
+
+/// Passes a YAML document to a handler.
+/// \param wanted what the text must be, for messages: "must be lines 'key: value'"
+/// \throws InputError with name and line for invalid YAML, and what the handler throws
+void parseYaml(std::string_view text, std::string_view name, YAML::EventHandler& handler,
+               std::string_view wanted);
 
 /// Sets the options in the file; the others keep their values.
 /// \throws FileError if the file can't be read
