@@ -19,7 +19,7 @@ while [ $# -gt 0 ]; do
   case $option in -p) option=--particles ;; -o) option=--output ;; esac
   case $option in
     --check | --help | -h | --version | --list-methods | --no-frames) answers=true ;;
-    --report-skips) ;;
+    --report-skips | --resume) ;;
     --*=*) set -- "${option%%=*}" "${option#*=}" "$@"; continue ;;
     --*)
       [ $# -gt 0 ] || die "$option needs a value, see --help"
@@ -27,7 +27,7 @@ while [ $# -gt 0 ]; do
       case $option in
         --output) output=$(realpath -m "$value"); continue ;;
         --particles) particles=$(realpath -m "$value"); continue ;;
-        --config | --energy) value=$(realpath -m "$value") ;;
+        --config | --energy | --save-state) value=$(realpath -m "$value") ;;
       esac
       options+=("$option" "$value")
       continue ;;

@@ -20,7 +20,7 @@ int simulate(const Scenario& scenario, const Switches& switches) {
   if (switches.check) return kDone;
   catchInterruptions();
   const std::string remarks = remarksOn(run);
-  RunFiles files(scenario, switches.config);  // last, because it removes the frames of earlier runs
+  RunFiles files(run, switches.config);  // last, because it removes the frames of earlier runs
   printError(remarks);
   Progress progress(scenario.frames);
   while (run.advance(*integrator)) {

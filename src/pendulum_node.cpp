@@ -96,7 +96,7 @@ int runNode() {
     ROS_WARN_STREAM(rival << " as well: start one of the nodes in a namespace, for example with "
                              "ROS_NAMESPACE=second");
   }
-  RunFiles files(scenario);  // last, because it removes the frames of earlier runs
+  RunFiles files(run);  // last, because it removes the frames of earlier runs
   logStart(run, options, files);
   ROS_INFO_STREAM("parameters: " << configuration.values);
   publisher.waitForSubscribers(options);

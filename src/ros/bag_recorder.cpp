@@ -142,7 +142,7 @@ std::string recordBag(Run& run, Integrator& integrator, const NodeOptions& optio
   touched.outputs.push_back(to.path);
   checkTouchedFiles(touched);
   OutputFile file(to.path);
-  RunFiles files(scenario, to.config);
+  RunFiles files(run, to.config);
   std::int64_t messages = 0;
   bool has_earlier = false;
   try {

@@ -14,8 +14,10 @@ constexpr double kLeastStretch = 1e-6;
 
 }  // namespace
 
-EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation)
+EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation,
+                             double start_time)
     : chain_(chain),
+      start_time_(start_time),
       tracks_dissipation_(tracks_dissipation),
       start_energy_(computeEnergy(chain, start).total()) {
   const SpringLaw& spring = chain.spring();
@@ -39,7 +41,8 @@ EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool tracks
 }
 
 double EnergyBalance::scale(double time) const {
-  return std::max(constant_scale_ + fall_ * time * time, std::numeric_limits<double>::min());
+  const double elapsed = time - start_time_;
+  return std::max(constant_scale_ + fall_ * elapsed * elapsed, std::numeric_limits<double>::min());
 }
 
 EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipated) const {

@@ -30,10 +30,10 @@ bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain) {
   return expectedWork(scenario, chain) <= kCheapWork;
 }
 
-JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation) {
+JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation, double start_time) {
   const Method& method = scenario.method;
   return {tracks_dissipation, method.symplectic ? scenario.time_step : 0.0,
-          method.hasFixedStep() ? 0.0 : scenario.tolerance};
+          method.hasFixedStep() ? 0.0 : scenario.tolerance, start_time};
 }
 
 /// Number of states shown per frame.
@@ -51,24 +51,28 @@ std::int64_t partsPerFrame(const Scenario& scenario, double display_interval) {
   return parts;
 }
 
-const Scenario& checked(const Scenario& scenario) {
+const Scenario& checked(const Scenario& scenario, std::int64_t first_frame) {
   checkScenario(scenario);
+  checkFirstFrame(scenario, first_frame);
   return scenario;
 }
 
 }  // namespace
 
 Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions& options)
-    : scenario_(checked(scenario)),
+    : scenario_(checked(scenario, particles.frame)),
       options_(options),
       chain_(particles.masses, scenario.spring(), scenario.gravity),
       start_(particles.state),
+      first_frame_(particles.frame),
       state_(particles.state),
       frame_steps_(frameSteps(scenario)),
       parts_(partsPerFrame(scenario, options.display_interval)),
       tracks_dissipation_(scenario.damping > 0.0 &&
                           (options.energy_balance || energyBalanceIsCheap(scenario, chain_))),
-      judge_(chain_, start_, judgeOptions(scenario, tracks_dissipation_)) {
+      judge_(chain_, start_,
+             judgeOptions(scenario, tracks_dissipation_, frame_steps_.timeOfFrame(first_frame_))),
+      frame_(first_frame_) {
   checkMemory(scenario, chain_.size());
   ReferenceOptions reference;
   reference.always = scenario.reference == ReferenceUse::kAlways;
@@ -160,7 +164,8 @@ void Run::reset(Integrator& integrator) {
   judge_.restart();
   if (reference_) reference_->restart();
   state_ = start_;
-  frame_ = part_ = 0;
+  frame_ = first_frame_;
+  part_ = 0;
   started_ = stopped_ = asleep_ = false;
   dissipated_before_sleep_ = dissipated_ = work_ = 0.0;
   judgeFrame();

@@ -87,10 +87,11 @@ std::string_view toString(VerdictKind kind) {
 
 Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
     : chain_(chain),
-      balance_(chain, start, options.tracks_dissipation),
+      balance_(chain, start, options.tracks_dissipation, options.start_time),
       chain_length_(chainLength(chain, start)),
       symplectic_step_(options.symplectic_step),
-      tolerance_(options.tolerance) {}
+      tolerance_(options.tolerance),
+      start_time_(options.start_time) {}
 
 const Verdict& Judge::judgeEnergy(double time, const State& state, double dissipated) {
   return remember(energyVerdict(time, state, dissipated));
@@ -149,7 +150,8 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated)
     frames_ += 1.0;
     gain = gain_sum_ / frames_;
     residual = residual_sum_ / frames_;
-    allowance += time > 0.0 ? symplectic_step_ / time : 0.0;
+    const double elapsed = time - start_time_;
+    allowance += elapsed > 0.0 ? symplectic_step_ / elapsed : 0.0;
   }
   if (gain > kGainThreshold + allowance) {
     return {VerdictKind::kGainedEnergy, time, 0, gainedEnergyText(entry_)};

@@ -52,6 +52,19 @@ TEST(ParticleFile, HasNoNegativeZero) {
   EXPECT_FALSE(std::signbit(particles.state.y()[1]));
 }
 
+TEST(ParticleFile, ReadsVelocities) {
+  const State state = parseParticles("0 0 1 0 0 # fixed\n1 0 1 -0.25 1e-3\n", "").state;
+  EXPECT_EQ(state.vx()[1], -0.25);
+  EXPECT_EQ(state.vy()[1], 1e-3);
+  EXPECT_TRUE(state.velocities().row(0).isZero(0.0));
+}
+
+TEST(ParticleFile, VelocityOfTheFixedParticleIsNotUsed) {
+  const State state = parseParticles("0 0 1 3 4\n1 0 1 0 -0\n", "").state;
+  EXPECT_TRUE(state.velocities().isZero(0.0));
+  EXPECT_FALSE(std::signbit(state.vy()[1]));
+}
+
 TEST(ParticleFile, OneParticleIsAScene) {
   EXPECT_EQ(parseParticles("1 2 3", "").state.size(), 1);
 }
@@ -84,11 +97,27 @@ INSTANTIATE_TEST_SUITE_P(
     BadRows, ParticleFileRefuses,
     testing::Values(
         BadText{"", kNoParticles}, BadText{"\n# nothing\n\n", kNoParticles},
-        BadText{"0 0 1\n1 0\n",
-                "particle.txt:2: 2 numbers in this line; a particle needs 3: x y m"},
-        BadText{"7", "particle.txt:1: 1 number in this line; a particle needs 3: x y m"},
-        BadText{"0 0 1\n\n# c\n1 0 1 0\n",
-                "particle.txt:4: 4 numbers in this line; a particle needs 3: x y m"},
+        BadText{
+            "0 0 1\n1 0\n",
+            "particle.txt:2: 2 numbers in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
+        BadText{
+            "7",
+            "particle.txt:1: 1 number in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
+        BadText{
+            "0 0 1\n\n# c\n1 0 1 0\n",
+            "particle.txt:4: 4 numbers in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
+        BadText{
+            "0 0 1\n1 0 1 0 0 0\n",
+            "particle.txt:2: 6 numbers in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
+        BadText{
+            "0 0 1\n\n1 0 1 0 0\n",
+            "particle.txt:3: has a velocity, but the particle in line 1 has none; give vx vy for "
+            "all particles or for none"},
+        BadText{
+            "0 0 1 0 0\n1 0 1\n",
+            "particle.txt:2: has no velocity, but the particle in line 1 has one; give vx vy for "
+            "all particles or for none"},
+        BadText{"0 0 1 0 0\n1 0 1 0 nan\n", noNumber("2", "'nan'")},
         BadText{"0 0 1\n1 zero 1\n", noNumber("2", "'zero'")},
         BadText{"0 0 1\n1.0x 0 1\n", noNumber("2", "'1.0x'")},
         BadText{"0 0 1\n1 0 1;\n", noNumber("2", "'1;'")},

@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         particles("Unreadable", "secret.txt", 1, ": could not be read: Permission denied\n"),
         particles("Empty", "empty.txt", 2, ": no particles; write one line 'x y m' per particle\n"),
         particles("Columns", "columns.txt", 2,
-                  ":2: 2 numbers in this line; a particle needs 3: x y m\n"),
+                  ":2: 2 numbers in this line; a particle needs 3: x y m, or 5: x y m vx vy\n"),
         particles("TrailingGarbage", "trailing.txt", 2, ":2: '1.0x' is not a number; write"),
         particles("Massless", "massless.txt", 2, ":3: mass must be positive, got 0 kg"),
         particles("SamePlace", "same_place.txt", 2, ":2: same position as the particle in line 1")),

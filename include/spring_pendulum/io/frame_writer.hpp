@@ -23,13 +23,14 @@ class FrameWriter {
  public:
   /// Creates the folder if needed, checks that it is writable, and removes the frames of an earlier
   /// run: regular files named `frame_` + at least four digits + `.txt`, nothing else.
-  /// \param frames number of frames to be written
+  /// \param frames number of frames of the run
   /// \param inputs input files of the run, which are never removed
+  /// \param first  number of the first frame to be written; earlier frames before it stay
   /// \throws InputError if one of the inputs has the name of a frame in this folder, or `frames` is
   ///         negative
   /// \throws FileError naming the folder or file
   FrameWriter(const std::string& folder, std::int64_t frames,
-              const std::vector<std::string>& inputs = {});
+              const std::vector<std::string>& inputs = {}, std::int64_t first = 0);
   FrameWriter(FrameWriter&&) noexcept;
   ~FrameWriter();
 

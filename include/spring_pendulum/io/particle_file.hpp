@@ -1,7 +1,9 @@
-// Particle files: the initial positions and the masses of the particles.
+// Particle files: the initial positions, the masses and, optionally, the initial velocities of the
+// particles.
 //
-// A line `x y m` (m, m, kg) for each particle, in the order of the chain. The first particle is
-// fixed; its mass is not used. Blank lines, `#` comments, tabs, CRLF, a byte order mark
+// A line `x y m` (m, m, kg) or `x y m vx vy` (velocities in m/s) for each particle, in the order of
+// the chain. All lines have velocities or none. The first particle is fixed; its mass and its
+// velocity are not used. Blank lines, `#` comments, tabs, CRLF, a byte order mark
 // and a missing newline at the end are accepted. Numbers are decimal, with a point in every locale.
 #pragma once
 
@@ -13,7 +15,7 @@
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// Returns particles at rest.
+/// Returns the particles, at rest if the file has no velocities.
 /// \throws FileError if the file can't be read
 /// \throws InputError with file and line for the first invalid line
 Particles readParticleFile(const std::string& path);

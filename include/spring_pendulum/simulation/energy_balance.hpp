@@ -42,11 +42,13 @@ class EnergyBalance {
  public:
   /// \param tracks_dissipation whether the integrator has `track_dissipation` set. If not, the
   ///   residual is known only for a chain without damping.
+  /// \param start_time time of the start, s
   /// \throws InputError if an energy of the start exceeds the range of double
-  EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation);
+  EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation,
+                double start_time = 0.0);
 
   /// Returns the balance of a state.
-  /// \param time       s since the start
+  /// \param time       s, at least the start time
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
   EnergyEntry entry(double time, const State& state, double dissipated) const;
 
@@ -55,6 +57,7 @@ class EnergyBalance {
 
  private:
   Chain chain_;
+  double start_time_;  ///< s
   bool tracks_dissipation_;
   double start_energy_;          ///< J
   double constant_scale_ = 0.0;  ///< J

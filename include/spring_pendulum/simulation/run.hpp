@@ -46,14 +46,15 @@ struct RunOptions {
 class Run {
  public:
   /// \throws InputError for a value out of its range, a tolerance below the rounding errors of the
-  ///   positions, or an initial energy beyond the range of double
+  ///   positions, an initial energy beyond the range of double, or particles at a frame that the
+  ///   scenario does not have
   /// \throws std::runtime_error if the run is expected to need more memory than there is
   Run(const Scenario& scenario, const Particles& particles, const RunOptions& options = {});
 
   /// Makes the integrator of the scenario's method for this run.
   std::unique_ptr<Integrator> makeIntegrator() const;
 
-  /// Advances to the next frame and judges it. The first call stays at frame 0, the start.
+  /// Advances to the next frame and judges it. The first call stays at the start.
   /// \param integrator the same in every call
   /// \returns whether this frame may be shown and written. If not, the run is over: the last frame
   ///   was reached before, the motion has diverged, or `RunOptions::stop` has stopped the run.
@@ -82,6 +83,9 @@ class Run {
   const Scenario& scenario() const { return scenario_; }
   const Chain& chain() const { return chain_; }
   const State& start() const { return start_; }
+  /// The frame of the start: 0, or that of the saved state from which the run goes on. Energies,
+  /// errors and verdicts are relative to the start.
+  std::int64_t firstFrame() const { return first_frame_; }
   const State& state() const { return state_; }
   /// The last frame that was reached, counted from 0.
   std::int64_t frame() const { return frame_; }
@@ -134,15 +138,16 @@ class Run {
   RunOptions options_;
   Chain chain_;
   State start_;
+  std::int64_t first_frame_;
   State state_;
   FrameSteps frame_steps_;  ///< with shorter steps for an error-controlled method
   std::int64_t parts_;      ///< per frame
   bool tracks_dissipation_;
   Judge judge_;
   std::optional<ReferenceRun> reference_;
-  bool started_ = false;    ///< whether `advance` was called since the start or a reset
-  std::int64_t frame_ = 0;  ///< last frame
-  std::int64_t part_ = 0;   ///< completed parts of the next frame
+  bool started_ = false;   ///< whether `advance` was called since the start or a reset
+  std::int64_t frame_;     ///< last frame
+  std::int64_t part_ = 0;  ///< completed parts of the next frame
   bool stopped_ = false;
   bool asleep_ = false;
   double dissipated_before_sleep_ = 0.0;  ///< J

@@ -24,6 +24,8 @@ struct Scenario {
   std::string output = ".";                ///< folder for frame files
   bool no_frames = false;                  ///< write no frame files
   std::string energy;                      ///< file for the energy balance; empty: none
+  std::string save_state;                  ///< file for the state at the last frame; empty: none
+  bool resume = false;                     ///< go on from the frame of the state file `particles`
   OnDivergence on_divergence = OnDivergence::kStop;
   ReferenceUse reference = ReferenceUse::kAuto;
 

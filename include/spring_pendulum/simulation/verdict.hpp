@@ -67,6 +67,7 @@ struct JudgeOptions {
   /// errors of at most ten tolerances, which change the length of a spring by up to 20. The energy of
   /// this change is no fault: for particles of 1e-9 kg it exceeds the energy scale.
   double tolerance = 0.0;
+  double start_time = 0.0;  ///< time of the start, s
 };
 
 /// Judges the frames of a run and keeps the worst verdict.
@@ -123,6 +124,7 @@ class Judge {
   double chain_length_;
   double symplectic_step_;
   double tolerance_;           ///< m; 0 for fixed steps
+  double start_time_;          ///< s
   double gain_sum_ = 0.0;      ///< sum of the relative gains of the judged frames
   double residual_sum_ = 0.0;  ///< sum of the relative residuals of the judged frames
   double frames_ = 0.0;

@@ -62,12 +62,12 @@ bool isFrameName(std::string_view name) {
   return isFrame(name) || isHidden(name);
 }
 
-FrameFolder::FrameFolder(const std::string& folder, std::int64_t frames)
+FrameFolder::FrameFolder(const std::string& folder, std::int64_t frames, std::int64_t first)
     : given_path_(folder), path_(fullPath(folder)) {
   open();
-  const std::vector<std::string> earlier = listOwnFiles();
+  const std::vector<std::string> earlier = listOwnFiles(first);
   tryOut();
-  takeAway(earlier, frames);
+  takeAway(earlier, frames - first);
 }
 
 FrameFolder::~FrameFolder() {
@@ -101,7 +101,8 @@ void FrameFolder::open() {
   }
 }
 
-std::vector<std::string> FrameFolder::listOwnFiles() const {
+std::vector<std::string> FrameFolder::listOwnFiles(std::int64_t first) const {
+  const std::string first_name = frameName(first);
   const int again = ::openat(descriptor_.get(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const std::unique_ptr<DIR, int (*)(DIR*)> listing(again < 0 ? nullptr : ::fdopendir(again),
                                                     ::closedir);
@@ -111,7 +112,7 @@ std::vector<std::string> FrameFolder::listOwnFiles() const {
   for (const dirent* entry = ::readdir(listing.get()); entry != nullptr;
        errno = 0, entry = ::readdir(listing.get())) {
     const std::string name = entry->d_name;
-    if (!isFrameName(name)) continue;
+    if (!isFrameName(name) || (isFrame(name) && isLater(first_name, name))) continue;
     struct stat status {};
     if (::fstatat(descriptor_.get(), entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0) {
       if (errno == ENOENT) continue;

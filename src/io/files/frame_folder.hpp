@@ -28,9 +28,10 @@ class FrameFolder {
  public:
   /// Creates the folder if needed, checks that it is writable, and hides the frames of an earlier
   /// run: regular files named `frame_` + at least four digits + `.txt`.
-  /// \param frames number of frames to be written
+  /// \param frames number of frames of the run
+  /// \param first  number of the first frame to be written; frames before it stay
   /// \throws FileError naming the folder or file
-  FrameFolder(const std::string& folder, std::int64_t frames);
+  FrameFolder(const std::string& folder, std::int64_t frames, std::int64_t first = 0);
   ~FrameFolder();
   FrameFolder(const FrameFolder&) = delete;
   FrameFolder& operator=(const FrameFolder&) = delete;
@@ -55,7 +56,7 @@ class FrameFolder {
 
  private:
   void open();
-  std::vector<std::string> listOwnFiles() const;
+  std::vector<std::string> listOwnFiles(std::int64_t first) const;
   void tryOut();
   void takeAway(const std::vector<std::string>& earlier, std::int64_t frames);
   bool openHidden(std::int64_t index);

@@ -11,8 +11,9 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-BackgroundFrameWriter::BackgroundFrameWriter(const std::string& folder, std::int64_t frames)
-    : writer_(folder, frames) {}
+BackgroundFrameWriter::BackgroundFrameWriter(const std::string& folder, std::int64_t frames,
+                                             std::int64_t first)
+    : writer_(folder, frames, {}, first) {}
 
 BackgroundFrameWriter::~BackgroundFrameWriter() {
   stop();

@@ -23,7 +23,7 @@ class BackgroundFrameWriter {
   static constexpr Eigen::Index kLargeFrame = 1000;
 
   /// Same errors as FrameWriter.
-  BackgroundFrameWriter(const std::string& folder, std::int64_t frames);
+  BackgroundFrameWriter(const std::string& folder, std::int64_t frames, std::int64_t first = 0);
   /// Waits until the last frame is written.
   ~BackgroundFrameWriter();
   BackgroundFrameWriter(const BackgroundFrameWriter&) = delete;

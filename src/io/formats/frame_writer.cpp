@@ -18,12 +18,12 @@ constexpr Eigen::Index kLinesAtOnce = 4096;
 }  // namespace
 
 FrameWriter::FrameWriter(const std::string& folder, std::int64_t frames,
-                         const std::vector<std::string>& inputs)
+                         const std::vector<std::string>& inputs, std::int64_t first)
     : frames_(frames), folder_([&] {
         requireAtLeastZero("frames", frames);
         const Stopwatch stopwatch(seconds_);
         checkTouchedFiles({inputs, {}, folder});
-        return std::make_unique<FrameFolder>(folder, frames);
+        return std::make_unique<FrameFolder>(folder, frames, first);
       }()) {}
 
 FrameWriter::FrameWriter(FrameWriter&&) noexcept = default;

@@ -17,14 +17,16 @@ bool writesFrames(const Scenario& scenario) {
 
 TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config) {
   return {{scenario.particles, config},
-          {scenario.energy},
+          {scenario.energy, scenario.save_state},
           writesFrames(scenario) ? scenario.output : ""};
 }
 
-RunFiles::RunFiles(const Scenario& scenario, const std::string& config) {
+RunFiles::RunFiles(const Run& run, const std::string& config) {
+  const Scenario& scenario = run.scenario();
   checkTouchedFiles(touchedFiles(scenario, config));
   if (!scenario.energy.empty()) energy_.emplace(scenario.energy);
-  if (writesFrames(scenario)) frames_.emplace(scenario.output, scenario.frames);
+  if (!scenario.save_state.empty()) state_.emplace(scenario.save_state);
+  if (writesFrames(scenario)) frames_.emplace(scenario.output, scenario.frames, run.firstFrame());
 }
 
 void RunFiles::write(const Run& run) {
@@ -32,6 +34,7 @@ void RunFiles::write(const Run& run) {
   if (finished_ || frame < next_frame_ || !run.isAtFrame() || !run.isShown()) return;
   if (frames_) frames_->write(frame, run.state());
   if (energy_) energy_->write(frame, run.energyEntry(), run.positionError().now);
+  if (state_) state_->keep(run);
   next_frame_ = frame + 1;
 }
 
@@ -39,6 +42,7 @@ void RunFiles::finish() {
   if (finished_) return;
   finished_ = true;
   if (energy_) energy_->finish();
+  if (state_) state_->finish();
   if (frames_) frames_->finish();
 }
 
@@ -46,6 +50,7 @@ std::string RunFiles::description() const {
   std::string text = "no frame files";
   if (frames_) text = "frames go to " + frameFolder();
   if (energy_) text += ", energies go to " + energy_->path();
+  if (state_) text += ", the last state goes to " + state_->path();
   return text;
 }
 

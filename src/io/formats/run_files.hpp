@@ -1,9 +1,10 @@
-// The output files of a run, for Exercise3 and the node: frames and energy balance.
+// The output files of a run, for Exercise3 and the node: frames, energy balance and last state.
 #pragma once
 
 #include "io/files/touched_files.hpp"
 #include "io/formats/background_frame_writer.hpp"
 #include "io/formats/energy_file.hpp"
+#include "io/formats/state_file.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
@@ -22,10 +23,10 @@ TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config);
 class RunFiles {
  public:
   /// Writes no frames with `no_frames` or an empty `output`, no energy balance with an empty
-  /// `energy`.
+  /// `energy`, no state with an empty `save_state`.
   /// \param config configuration file of the run; empty: none
-  /// \throws InputError, FileError as checkTouchedFiles, EnergyFile and FrameWriter
-  explicit RunFiles(const Scenario& scenario, const std::string& config = "");
+  /// \throws InputError, FileError as checkTouchedFiles, EnergyFile, StateFile and FrameWriter
+  explicit RunFiles(const Run& run, const std::string& config = "");
 
   /// Writes the current frame of a run unless it has been written before or must not be shown.
   /// \throws FileError naming the file
@@ -48,6 +49,7 @@ class RunFiles {
   std::string frameFolder() const;
 
   std::optional<EnergyFile> energy_;
+  std::optional<StateFile> state_;
   std::optional<BackgroundFrameWriter> frames_;
   std::int64_t next_frame_ = 0;
   bool finished_ = false;

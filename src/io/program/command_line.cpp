@@ -3,6 +3,7 @@
 #include "base/spelling.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/option_file.hpp"
+#include "io/formats/state_file.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
@@ -223,6 +224,7 @@ Particles readParticles(const Scenario& scenario, std::string_view argument) {
     throw FileError(fmt::format("{}: no such file; give a particle file with {}",
                                 fullPath(scenario.particles), argument));
   }
+  if (scenario.resume) return readStateFile(scenario);
   return readParticleFile(scenario.particles);
 }
 

@@ -33,12 +33,20 @@ std::vector<Option> scenarioOptions(Scenario& s) {
   return {
       {"method", MethodName{&s.method}, "", "integration method, one of Exercise3 --list-methods"},
       {"particles", Text{&s.particles, "FILE", "a file"}, "",
-       "particle file, one line 'x y m' per particle; the first particle is fixed"},
+       "particle file, one line 'x y m' or 'x y m vx vy' per particle; the first particle is "
+       "fixed"},
+      {"resume", Flag{&s.resume}, "",
+       "go on from the frame and time of the particle file, which is a file of save_state; frames "
+       "before it stay"},
       {"output", Text{&s.output, "DIR", "a folder"}, "",
        "folder for the frame files, created if absent"},
       {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
       {"energy", Text{&s.energy, "FILE", "a file", anyText}, "",
        "CSV file for the energy balance, one row per frame; its folder is created if absent"},
+      {"save_state", Text{&s.save_state, "FILE", "a file", anyText}, "",
+       "file for the state at the last frame, a particle file to resume from; its folder is "
+       "created "
+       "if absent"},
       {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
        "after a divergence: stop, or continue as long as every number is finite"},
       {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",
@@ -87,6 +95,13 @@ void checkScenario(const Scenario& scenario) {
   throw InputError(fmt::format(
       "frames times steps_per_frame times time_step must be finite, got {} times {} times {} s",
       scenario.frames, step.steps, numberText(step.time_step)));
+}
+
+void checkFirstFrame(const Scenario& scenario, std::int64_t frame) {
+  if (0 <= frame && frame < scenario.frames) return;
+  throw InputError(
+      fmt::format("frames: must be more than {}, the frame of the state to start from, got {}",
+                  frame, scenario.frames));
 }
 
 std::string remarkOn(const Scenario& scenario) {

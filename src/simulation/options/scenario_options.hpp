@@ -4,6 +4,7 @@
 #include "simulation/options/option_set.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,10 @@ std::vector<Option> scenarioOptions(Scenario& scenario);
 /// \throws InputError if a number is out of the range of its option, the steps of the run can't be
 ///         counted in 64 bits, or the run would not end at a finite time
 void checkScenario(const Scenario& scenario);
+
+/// Checks that a run can start at a frame.
+/// \throws InputError if it is not one of the frames of the scenario
+void checkFirstFrame(const Scenario& scenario, std::int64_t frame);
 
 /// Returns a remark on values that are allowed but hardly meant; empty if there are none.
 std::string remarkOn(const Scenario& scenario);

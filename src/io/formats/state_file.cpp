@@ -1,0 +1,132 @@
+#include "io/formats/state_file.hpp"
+
+#include "base/numbers.hpp"
+#include "io/files/text_file.hpp"
+#include "io/formats/particle_parser.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/simulation/frame_steps.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr Eigen::Index kLinesAtOnce = 4096;
+
+/// Removes and returns the text before `end`; empty if there is no `end`.
+std::string_view takeUntil(std::string_view& text, std::string_view end) {
+  const std::size_t at = text.find(end);
+  if (at == std::string_view::npos) return {};
+  const std::string_view taken = text.substr(0, at);
+  text.remove_prefix(at + end.size());
+  return taken;
+}
+
+std::optional<StateHead> findHead(std::string_view text) {
+  std::string_view line = ParticleParser::nextLine(text);
+  if (!takeUntil(line, "# state of ").empty()) return {};
+  const auto particles = parseInteger(takeUntil(line, " particles at frame "));
+  const auto frame = parseInteger(takeUntil(line, ", t = "));
+  const auto time = parseNumber(takeUntil(line, " s"));
+  if (!particles || !frame || !time || *frame < 0) return {};
+  return StateHead{*particles, *frame, *time};
+}
+
+void writeState(OutputFile& file, AlignedNumbers::ConstView masses, const State& state,
+                std::int64_t frame, double time) {
+  file.write(StateHead{state.size(), frame, time}.text());
+  for (Eigen::Index first = 0; first < state.size(); first += kLinesAtOnce) {
+    file.write(stateLines(masses, state, first, std::min(state.size(), first + kLinesAtOnce)));
+  }
+  file.finish();
+}
+
+}  // namespace
+
+std::string StateHead::text() const {
+  return fmt::format(
+      "# state of {} particles at frame {}, t = {} s\n"
+      "# x [m]  y [m]  mass [kg]  vx [m/s]  vy [m/s]\n",
+      particles, frame, numberText(time));
+}
+
+StateHead parseStateHead(std::string_view text, const Scenario& scenario) {
+  const std::optional<StateHead> head = findHead(text);
+  if (!head) {
+    throw InputError(fmt::format(
+        "{}:1: must be '# state of N particles at frame N, t = X s' to resume from; give a file "
+        "that was written by save_state",
+        scenario.particles));
+  }
+  checkFirstFrame(scenario, head->frame);
+  const double expected = frameSteps(scenario).timeOfFrame(head->frame);
+  if (head->time == expected) return *head;
+  throw InputError(fmt::format(
+      "{}:1: the state is at t = {} s, but frame {} of this run is at {} s; give the {} of the "
+      "run that saved it",
+      scenario.particles, numberText(head->time), head->frame, numberText(expected),
+      scenario.method.get().hasFixedStep() ? "time_step and steps_per_frame" : "frame_interval"));
+}
+
+void checkStateEnd(const StateHead& head, std::int64_t particles, bool has_velocities,
+                   bool ends_line, const std::string& name) {
+  if (particles == head.particles && has_velocities && ends_line) return;
+  throw InputError(fmt::format(
+      "{}: is not a complete state file; it must have {}, each with a line "
+      "'x y m vx vy', got {}{}{}",
+      name, counted(head.particles, "particle"), particles,
+      has_velocities ? "" : " without velocities", ends_line ? "" : ", the last line without end"));
+}
+
+std::string stateLines(AlignedNumbers::ConstView masses, const State& state, Eigen::Index first,
+                       Eigen::Index last) {
+  std::string text;
+  std::array<char, kLongestNumber> number{};
+  for (Eigen::Index i = first; i < last; ++i) {
+    for (const double value :
+         {state.x()[i], state.y()[i], masses[i], state.vx()[i], state.vy()[i]}) {
+      text.append(number.data(), writeNumber(value, number.data()));
+      text += ' ';
+    }
+    text.back() = '\n';
+  }
+  return text;
+}
+
+Particles readStateFile(const Scenario& scenario) {
+  const std::string text = readTextFile(scenario.particles);
+  const StateHead head = parseStateHead(text, scenario);
+  ParticleParser parser(scenario.particles);
+  parser.parse(text);
+  checkStateEnd(head, static_cast<std::int64_t>(parser.size()), parser.hasVelocities(),
+                text.back() == '\n', scenario.particles);
+  Particles particles = parser.particles(true);
+  particles.frame = head.frame;
+  return particles;
+}
+
+void writeStateFile(const std::string& path, const Chain& chain, const State& state,
+                    std::int64_t frame, double time) {
+  OutputFile file(path);
+  writeState(file, chain.masses(), state, frame, time);
+}
+
+void StateFile::keep(const Run& run) {
+  if (last_.masses.size() != run.chain().size()) last_.masses = run.chain().masses();
+  last_.state = run.state();
+  last_.frame = run.frame();
+  time_ = run.time();
+}
+
+void StateFile::finish() {
+  if (last_.masses.size() == 0) return;  // no frame was reached
+  writeState(file_, std::as_const(last_.masses).view(), last_.state, last_.frame, time_);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,154 @@
+// Runs that save their state and runs that go on from it.
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <sstream>
+
+#include "process/exercise3.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+
+class Exercise3State : public testing::Test {
+ protected:
+  Exercise3State() { folder_.write("particle.txt", chainOf(50, "0.1")); }
+
+  Result runWith(const std::vector<std::string>& options) const {
+    return run(exercise3(folder_, options));
+  }
+  std::string read(const std::string& name) const { return readFile(folder_.path(name)); }
+
+  /// Runs 6 of 12 frames and saves their state.
+  void save(const std::string& method, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> options{method, "particle.txt", "-o",       "parts", "--frames",
+                                     "6",    "--save-state", "state.txt"};
+    options.insert(options.end(), more.begin(), more.end());
+    ASSERT_EQ(runWith(options).errors, "");
+  }
+  Result resume(const std::string& method, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> options{method,     "state.txt", "-o",      "parts",
+                                     "--frames", "12",        "--resume"};
+    options.insert(options.end(), more.begin(), more.end());
+    return runWith(options);
+  }
+
+  /// Expects the line of an error and that no frame is touched.
+  void expectRefused(const std::string& text, const std::string& message) const {
+    folder_.write("state.txt", text);
+    const Result result = resume("Runge-Kutta-4");
+    EXPECT_EQ(result.status, 2) << text;
+    EXPECT_THAT(result.errors, HasSubstr(message));
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    EXPECT_EQ(listFolder(folder_.path("parts")).size(), 6u);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Exercise3State, FixedStepRunsGoOnWithTheSameBits) {
+  for (const Method& method : methodTable()) {
+    if (!method.hasFixedStep()) continue;
+    for (const std::string damping : {"0", "1"}) {
+      const std::vector<std::string> options{"--damping", damping, "--time-step", "0.001"};
+      std::vector<std::string> whole{method.name, "particle.txt", "-o", "whole", "--frames", "12"};
+      whole.insert(whole.end(), options.begin(), options.end());
+      EXPECT_EQ(runWith(whole).status, 0);
+      save(method.name, options);
+      EXPECT_EQ(resume(method.name, options).status, 0);
+      ASSERT_EQ(listFolder(folder_.path("parts")), listFolder(folder_.path("whole")));
+      for (const std::string& frame : listFolder(folder_.path("whole"))) {
+        EXPECT_EQ(read("parts/" + frame), read("whole/" + frame)) << method.name << ' ' << frame;
+      }
+    }
+  }
+}
+
+TEST_F(Exercise3State, ErrorControlledRunsGoOnWithinTheTolerance) {
+  ASSERT_EQ(runWith({"Auto", "particle.txt", "-o", "whole", "--frames", "12"}).errors, "");
+  save("Auto");
+  ASSERT_EQ(resume("Auto").errors, "");
+  std::istringstream whole(read("whole/frame_0011.txt"));
+  std::istringstream parts(read("parts/frame_0011.txt"));
+  double a = 0.0;
+  double b = 0.0;
+  while (whole >> a && parts >> b) EXPECT_NEAR(a, b, 1e-6);  // 2e-8
+}
+
+TEST_F(Exercise3State, SavesEveryDigitWithTheFrameAndItsTime) {
+  save("Runge-Kutta-4", {"--energy", "first.csv"});
+  const std::string state = read("state.txt");
+  EXPECT_EQ(state.substr(0, state.find('\n')), "# state of 50 particles at frame 5, t = 0.5 s");
+  EXPECT_EQ(resume("Runge-Kutta-4", {"--energy", "second.csv", "--save-state", "again.txt"}).status,
+            0);
+  EXPECT_THAT(read("first.csv"), HasSubstr("\n5,0.5,"));
+  EXPECT_THAT(read("second.csv"), HasSubstr("\n5,0.5,"));
+  EXPECT_THAT(read("second.csv"), HasSubstr("\n11,1.1,"));
+  // A run that starts where it ends writes the state that it reads.
+  const Result result = runWith({"Runge-Kutta-4", "again.txt", "--resume", "--frames", "12",
+                                 "--no-frames", "--save-state", "copy.txt"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(read("copy.txt"), read("again.txt"));
+}
+
+TEST_F(Exercise3State, ASignalSavesTheLastFrame) {
+  std::vector<std::string> options{
+      "Runge-Kutta-4",     "particle.txt", "-o",          "parts", "--frames",     "1000000",
+      "--steps-per-frame", "1000",         "--time-step", "1e-4",  "--save-state", "state.txt"};
+  Process process(exercise3(folder_, options));
+  process.waitForFile(folder_.path("parts/frame_0002.txt"));
+  process.sendSignal(SIGINT);
+  EXPECT_EQ(process.wait().status, 128 + SIGINT);
+  const std::string last = listFolder(folder_.path("parts")).back();
+  const std::string frame = std::to_string(std::stoi(last.substr(6)));
+  EXPECT_THAT(read("state.txt"),
+              testing::StartsWith("# state of 50 particles at frame " + frame + ","));
+}
+
+TEST_F(Exercise3State, RefusesStatesThatDoNotFit) {
+  save("Runge-Kutta-4");
+  const std::string state = read("state.txt");
+  const std::string head = "state.txt:1: must be '# state of N particles at frame N, t = X s'";
+  expectRefused(chainOf(50), head);
+  expectRefused("\n" + state, head);
+  expectRefused("# state of 50 particles at frame -5, t = 0.5 s\n", head);
+  expectRefused("# state of 50 particles at frame 5, t = nan s\n", head);
+  expectRefused("# state of 50 particles at frame 9223372036854775807, t = 0.5 s\n",
+                "frames: must be more than 9223372036854775807");
+  expectRefused("# state of 50 particles at frame 12, t = 1.2 s\n", "frames: must be more than 12");
+  expectRefused(
+      "# state of 50 particles at frame 5, t = 0.25 s\n" + state,
+      "state.txt:1: the state is at t = 0.25 s, but frame 5 of this run is at 0.5 s; give "
+      "the time_step and steps_per_frame of the run that saved it");
+  const std::string incomplete =
+      "state.txt: is not a complete state file; it must have 50 particles, each with a line "
+      "'x y m vx vy', got ";
+  expectRefused(state.substr(0, state.size() - 1), incomplete + "50, the last line without end");
+  expectRefused(state.substr(0, state.rfind('\n', state.size() / 2) + 1), incomplete);
+  expectRefused("# state of 50 particles at frame 5, t = 0.5 s\n" + chainOf(50),
+                incomplete + "50 without velocities");
+}
+
+TEST_F(Exercise3State, AStateIsAnOrdinaryParticleFileToo) {
+  save("Runge-Kutta-4");
+  const Result result = runWith({"Runge-Kutta-4", "state.txt", "-o", "again", "--frames", "2"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(read("again/frame_0000.txt"), read("parts/frame_0005.txt"));
+}
+
+TEST_F(Exercise3State, TheStateToResumeFromIsNotOverwritten) {
+  save("Runge-Kutta-4");
+  const Result result = resume("Runge-Kutta-4", {"--save-state", "state.txt"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, EndsWith("is an input of this run and would be overwritten; choose "
+                                      "another file\n"));
+}
+
+}  // namespace
+}  // namespace spring_pendulum
