@@ -5,10 +5,12 @@ if(catkin_FOUND)
   set(install_lib ${CATKIN_PACKAGE_LIB_DESTINATION})
   set(install_bin ${CATKIN_PACKAGE_BIN_DESTINATION})
   set(install_share ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  set(install_python ${CATKIN_GLOBAL_PYTHON_DESTINATION})
 else()
   set(install_lib ${CMAKE_INSTALL_LIBDIR})
   set(install_bin ${CMAKE_INSTALL_BINDIR})
   set(install_share ${CMAKE_INSTALL_DATADIR}/spring_pendulum)
+  set(install_python lib/python${PYTHON_VERSION_MAJOR}.${PYTHON_VERSION_MINOR}/dist-packages)
 endif()
 
 install(TARGETS spring_pendulum EXPORT spring_pendulumTargets

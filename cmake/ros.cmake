@@ -3,6 +3,12 @@
 find_package(catkin REQUIRED COMPONENTS geometry_msgs message_generation rosbag_storage roscpp
   rosgraph_msgs std_msgs std_srvs tf2_msgs visualization_msgs)
 
+# The module and the messages are one Python package. catkin would install it with setup.py into the prefix of
+# the configuration; python/CMakeLists.txt installs it instead.
+if(pybind11_FOUND)
+  catkin_python_setup()
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/catkin_generated/safe_execute_install.cmake "")
+endif()
 add_message_files(FILES PendulumState.msg PendulumStatus.msg)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 

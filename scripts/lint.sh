@@ -6,7 +6,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-"$project/scripts/setup.sh" core mpi ros test-ros benchmark lint
+"$project/scripts/setup.sh" core mpi python ros test-ros benchmark lint
 cd "$project"
 git() { command git -c safe.directory="$project" "$@"; }
 

@@ -41,10 +41,11 @@ while [ $# -gt 0 ]; do
   options+=("$option")
 done
 
-"$project/scripts/setup.sh" core ros
+"$project/scripts/setup.sh" core ros python
 say "building into $build (a few minutes the first time)"
 configure "$build"
-compile "$build" Exercise3 $(have_ros && echo pendulum_node record_bag spring_pendulum_generate_messages)
+python=$(grep -qs '^build spring_pendulum_python:' "$build/build.ninja" && echo spring_pendulum_python) || true
+compile "$build" Exercise3 $python $(have_ros && echo pendulum_node record_bag spring_pendulum_generate_messages)
 
 simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "${options[@]}")
 if $answers; then exec "${simulate[@]}"; fi

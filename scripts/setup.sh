@@ -4,6 +4,7 @@
 #   mpi        Open MPI, optional: sweeps and long chains on many machines
 #   ros        ROS 1: packages for the node, the messages and the bags
 #   rviz       the viewer
+#   python     the Python module, its plots and notebooks
 #   test       additional packages for the tests
 #   test-ros   packages for the tests of the node: rostest, a virtual display
 #   film       packages for scripts/film.sh
@@ -30,7 +31,9 @@ packages_of() {
            python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
            python3-geometry-msgs python3-tf2-msgs python3-roslib rosbash ;;
     rviz) echo rviz ;;
-    test) echo procps locales-all ;;
+    python)
+      echo pybind11-dev python3-dev python3-numpy python3-matplotlib python3-setuptools ;;
+    test) echo procps locales-all mypy python3-scipy jupyter-nbconvert python3-ipykernel ;;
     test-ros)
       echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \
            imagemagick ;;

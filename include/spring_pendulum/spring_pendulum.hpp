@@ -18,6 +18,7 @@
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/option_list.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>

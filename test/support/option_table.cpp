@@ -22,18 +22,6 @@ std::string inJson(std::string_view text) {
   return quoted + '"';
 }
 
-std::string_view usersOf(AppliesTo applies_to) {
-  switch (applies_to) {
-    case AppliesTo::kFixedStep:
-      return "fixed-step methods";
-    case AppliesTo::kErrorControlled:
-      return "error-controlled methods";
-    case AppliesTo::kAllMethods:
-      break;
-  }
-  return "";
-}
-
 void print(std::string_view group, const std::vector<Option>& options) {
   for (const Option& option : options) {
     fmt::print(
@@ -42,7 +30,7 @@ void print(std::string_view group, const std::vector<Option>& options) {
         "\n",
         inJson(group), inJson(option.key), inJson(option.text()), inJson(option.unit),
         inJson(option.range()), inJson(option.placeholder()), inJson(option.meaning),
-        inJson(usersOf(option.applies_to)), option.isText(), option.isFlag());
+        inJson(option.users()), option.isText(), option.isFlag());
   }
 }
 

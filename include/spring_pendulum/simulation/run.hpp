@@ -91,6 +91,8 @@ class Run {
   std::int64_t frame() const { return frame_; }
   /// Number of shown frames since construction, over all rounds.
   std::int64_t shownFrames() const { return totals_.frames; }
+  /// Wall-clock time spent integrating, without the reference run, s.
+  double seconds() const { return totals_.seconds; }
   /// Simulated time, s.
   double time() const { return timeOfPart(part_); }
   /// Simulated time after `advancePart`, s.

@@ -162,11 +162,9 @@ void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& op
   const std::vector<std::string_view> unused = unusedKeys(scenario, options);
   for (const std::string_view key : keys) {
     if (std::find(unused.begin(), unused.end(), key) == unused.end()) continue;
-    throw InputError(fmt::format("--{}: {} {}", optionName(key), scenario.method.get().name,
-                                 scenario.method.get().hasFixedStep()
-                                     ? "takes fixed steps; use --time-step and --steps-per-frame"
-                                     : "chooses its own steps; use --tolerance and "
-                                       "--frame-interval"));
+    throw InputError(fmt::format(
+        "--{}: {}", optionName(key),
+        whyUnused(scenario.method, [](std::string_view name) { return "--" + optionName(name); })));
   }
 }
 
@@ -188,8 +186,7 @@ std::string readConfig(const std::vector<po::option>& given, OptionSet& options)
 
 std::string optionHelp(const Option& option) {
   std::string help(option.meaning);
-  if (option.applies_to == AppliesTo::kFixedStep) help += "; fixed-step methods";
-  if (option.applies_to == AppliesTo::kErrorControlled) help += "; error-controlled methods";
+  if (!option.users().empty()) help += fmt::format("; {}", option.users());
   if (option.placeholder().empty()) return help;
   const std::string value = option.text();
   return fmt::format("{} [{}{}{}]", help, value.empty() ? "none" : value,

@@ -130,6 +130,11 @@ std::string Option::placeholder() const {
   return std::visit([](const auto& kind) { return kind.placeholder(); }, value);
 }
 
+std::string_view Option::users() const {
+  if (applies_to == AppliesTo::kAllMethods) return "";
+  return applies_to == AppliesTo::kFixedStep ? "fixed-step methods" : "error-controlled methods";
+}
+
 bool Option::isText() const {
   return std::holds_alternative<Text>(value) || std::holds_alternative<MethodName>(value) ||
          std::holds_alternative<Choice>(value);

@@ -139,6 +139,8 @@ struct Option {
   /// The accepted values and their unit in words: "a number above 0 s".
   std::string range() const;
   std::string placeholder() const;
+  /// "fixed-step methods", for example; empty: all methods.
+  std::string_view users() const;
   bool isFlag() const { return std::holds_alternative<Flag>(value); }
   /// Whether YAML may put the value in quotes.
   bool isText() const;

@@ -118,4 +118,11 @@ std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionS
   return keys;
 }
 
+std::string whyUnused(const Method& method, std::string (*name)(std::string_view key)) {
+  const bool fixed = method.hasFixedStep();
+  return fmt::format(
+      "{} {}; use {} and {}", method.name, fixed ? "takes fixed steps" : "chooses its own steps",
+      name(fixed ? "time_step" : "tolerance"), name(fixed ? "steps_per_frame" : "frame_interval"));
+}
+
 }  // namespace spring_pendulum

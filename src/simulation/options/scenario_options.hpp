@@ -31,4 +31,9 @@ std::string remarkOn(const Scenario& scenario);
 /// the method has a fixed step, and the reverse.
 std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options);
 
+/// Returns why a method does not use such an option, and the options to use instead: "Auto chooses its
+/// own steps; use tolerance and frame_interval".
+/// \param name how the user writes an option
+std::string whyUnused(const Method& method, std::string (*name)(std::string_view key));
+
 }  // namespace spring_pendulum

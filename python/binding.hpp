@@ -1,0 +1,59 @@
+// What the parts of the Python module share.
+#pragma once
+
+#include <spring_pendulum/model/state.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <string>
+
+namespace spring_pendulum::python {
+
+namespace py = pybind11;
+
+/// Numbers from anything that NumPy converts: a list, float32, any order of the memory.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Converts an argument, and names it in the error.
+/// \throws InputError unless it is an array of numbers with this many dimensions
+Numbers toNumbers(const py::object& argument, const std::string& name, py::ssize_t dimensions);
+
+/// repr(value) on one line, shortened.
+std::string reprOf(const py::handle& value);
+
+/// Lets Python handle Ctrl-C while the library computes without the interpreter lock. Only the main
+/// thread of Python receives it.
+class Interruption {
+ public:
+  /// Asks Python at most every 20 ms. Call it without the lock.
+  bool operator()();
+  /// \throws the exception that Python raised, usually KeyboardInterrupt. Call it with the lock.
+  void raise() const;
+
+ private:
+  std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
+  bool stopped_ = false;
+};
+
+/// Counts the calls that compute without the interpreter lock. Meanwhile, no method can be registered.
+class Computation {
+ public:
+  Computation() { ++running; }
+  ~Computation() { --running; }
+  Computation(const Computation&) = delete;
+  Computation& operator=(const Computation&) = delete;
+
+  static std::atomic<int> running;
+
+ private:
+  py::gil_scoped_release released_;
+};
+
+void defineIntegration(py::module_& module);
+void defineSimulation(py::module_& module);
+void defineMethods(py::module_& module);
+
+}  // namespace spring_pendulum::python

@@ -1,0 +1,248 @@
+// Chain, State and Integrator.
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "binding.hpp"
+
+namespace spring_pendulum::python {
+namespace {
+
+using namespace py::literals;
+
+constexpr double kWorkBetweenStops = 0.005;  // s, see Integrator::work
+const double kGravity = 9.81;
+
+Numbers finiteVector(const py::object& argument, const std::string& name) {
+  Numbers numbers = toNumbers(argument, name, 1);
+  for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+    if (std::isfinite(*numbers.data(i))) continue;
+    throw InputError(fmt::format("{}[{}]: must be finite, got {}", name, i, *numbers.data(i)));
+  }
+  return numbers;
+}
+
+AlignedNumbers toVector(const py::object& argument, const std::string& name) {
+  const Numbers numbers = toNumbers(argument, name, 1);
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
+}
+
+/// A view of memory that `owner` keeps alive.
+py::array viewOf(const double* data, const std::vector<py::ssize_t>& shape,
+                 const py::object& owner) {
+  std::vector<py::ssize_t> strides{static_cast<py::ssize_t>(sizeof(double))};
+  if (shape.size() > 1) strides.push_back(shape.front() * strides.front());
+  return py::array(py::dtype::of<double>(), shape, strides, data, owner);
+}
+
+py::array readOnly(py::array view) {
+  view.attr("setflags")("write"_a = false);
+  return view;
+}
+
+State makeState(const py::object& x, const py::object& y, const py::object& vx,
+                const py::object& vy) {
+  const Numbers first = finiteVector(x, "x");
+  State state(first.size());
+  const auto fill = [&](const py::object& argument, const char* name, auto column) {
+    if (argument.is_none()) return;
+    const Numbers numbers = finiteVector(argument, name);
+    if (numbers.size() != first.size()) {
+      throw InputError(fmt::format("{}: must have as many numbers as x, {}, got {}", name,
+                                   first.size(), numbers.size()));
+    }
+    for (py::ssize_t i = 0; i < numbers.size(); ++i) column[i] = *numbers.data(i) + 0.0;
+  };
+  fill(x, "x", state.x());
+  fill(y, "y", state.y());
+  fill(vx, "vx", state.vx());
+  fill(vy, "vy", state.vy());
+  return state;
+}
+
+/// An integrator of one chain. It can be used by one thread at a time.
+class PythonIntegrator {
+ public:
+  PythonIntegrator(const std::string& method, Chain chain, const IntegratorOptions& options)
+      : method_(findMethod(method)),
+        chain_(std::move(chain)),
+        options_(options),
+        integrator_(makeIntegrator(method_, chain_, options)) {}
+
+  void advance(State& state, double time_step, std::int64_t steps) {
+    const Use use(*this);
+    integrator_->advance(state, time_step, steps < 0 ? steps : 0);  // checks the arguments
+    Interruption interruption;
+    {
+      const Computation computation;
+      while (steps > 0 && !interruption()) {
+        steps -= integrator_->advanceWithin(state, time_step, steps,
+                                            integrator_->work() + kWorkBetweenStops);
+      }
+    }
+    interruption.raise();
+  }
+
+  void restart() {
+    const Use use(*this);
+    integrator_->restart();
+  }
+
+  const Method& method() const { return method_; }
+  const Chain& chain() const { return chain_; }
+  const IntegratorOptions& options() const { return options_; }
+  const Integrator& integrator() const {
+    const Use use(*this);
+    return *integrator_;
+  }
+
+ private:
+  /// Refuses a second thread.
+  class Use {
+   public:
+    explicit Use(const PythonIntegrator& integrator) : busy_(integrator.busy_) {
+      if (busy_.exchange(true)) throw InputError("another thread uses this integrator");
+    }
+    ~Use() { busy_ = false; }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+
+   private:
+    std::atomic<bool>& busy_;
+  };
+
+  const Method& method_;
+  Chain chain_;
+  IntegratorOptions options_;
+  std::unique_ptr<Integrator> integrator_;
+  mutable std::atomic<bool> busy_{false};
+};
+
+void defineChain(py::module_& module) {
+  constexpr SpringLaw kSpring;
+  const auto make = [](const py::object& masses, double stiffness, double damping,
+                       double rest_length, double gravity) {
+    return Chain(toVector(masses, "masses"), {stiffness, damping, rest_length}, gravity);
+  };
+  py::class_<Chain>(module, "Chain",
+                    "N particles joined by N - 1 equal springs; the first is fixed.")
+      .def(py::init(make), "masses"_a, py::kw_only(), "stiffness"_a = kSpring.stiffness,
+           "damping"_a = kSpring.damping, "rest_length"_a = kSpring.rest_length,
+           "gravity"_a = kGravity)
+      .def_property_readonly("masses",
+                             [](const py::object& self) {
+                               const auto& chain = self.cast<const Chain&>();
+                               return readOnly(viewOf(chain.masses().data(), {chain.size()}, self));
+                             })
+      .def_property_readonly("stiffness", [](const Chain& c) { return c.spring().stiffness; })
+      .def_property_readonly("damping", [](const Chain& c) { return c.spring().damping; })
+      .def_property_readonly("rest_length", [](const Chain& c) { return c.spring().rest_length; })
+      .def_property_readonly("gravity", &Chain::gravity)
+      .def("__len__", &Chain::size)
+      .def("__copy__", [](const Chain& chain) { return chain; })
+      .def("__repr__",
+           [](const Chain& chain) {
+             const SpringLaw& law = chain.spring();
+             return fmt::format(
+                 "<Chain of {} particles: stiffness={}, damping={}, rest_length={}, gravity={}>",
+                 chain.size(), law.stiffness, law.damping, law.rest_length, chain.gravity());
+           })
+      .def(py::pickle(
+          [](const Chain& c) {
+            return py::make_tuple(py::array_t<double>(c.size(), c.masses().data()),
+                                  c.spring().stiffness, c.spring().damping, c.spring().rest_length,
+                                  c.gravity());
+          },
+          [make](const py::tuple& t) {
+            return make(t[0], t[1].cast<double>(), t[2].cast<double>(), t[3].cast<double>(),
+                        t[4].cast<double>());
+          }));
+}
+
+template <int kFirst, int kColumns>
+py::array stateView(const py::object& self) {
+  State& state = self.cast<State&>();
+  std::vector<py::ssize_t> shape{state.size()};
+  if (kColumns > 1) shape.push_back(kColumns);
+  return viewOf(state.values().data() + kFirst * state.size(), shape, self);
+}
+
+void defineState(py::module_& module) {
+  py::class_<State>(module, "State", "Positions (m) and velocities (m/s) of N particles.")
+      .def(py::init(&makeState), "x"_a, "y"_a, "vx"_a = py::none(), "vy"_a = py::none())
+      .def_property_readonly("x", &stateView<0, 1>)
+      .def_property_readonly("y", &stateView<1, 1>)
+      .def_property_readonly("vx", &stateView<2, 1>)
+      .def_property_readonly("vy", &stateView<3, 1>)
+      .def_property_readonly("positions", &stateView<0, 2>)
+      .def_property_readonly("velocities", &stateView<2, 2>)
+      .def("__len__", &State::size)
+      .def("__copy__", [](const State& state) { return state; })
+      .def("__deepcopy__", [](const State& state, const py::dict&) { return state; })
+      .def("__repr__",
+           [](const State& s) { return fmt::format("<State of {} particles>", s.size()); })
+      .def(py::pickle(
+          [](const py::object& self) {
+            return py::make_tuple(stateView<0, 4>(self).attr("copy")("F"));
+          },
+          [](const py::tuple& t) {
+            const auto values = t[0].cast<py::array_t<double, py::array::f_style>>();
+            State state(values.shape(0));
+            std::copy_n(values.data(), values.size(), state.values().data());
+            return state;
+          }));
+}
+
+void defineIntegrator(py::module_& module) {
+  constexpr IntegratorOptions kDefaults;
+  const auto make = [](const std::string& method, const Chain& chain, double tolerance,
+                       bool track_dissipation, int threads) {
+    return std::make_unique<PythonIntegrator>(
+        method, chain, IntegratorOptions{tolerance, track_dissipation, threads});
+  };
+  py::class_<PythonIntegrator>(module, "Integrator", "Advances states of one chain.")
+      .def("advance", &PythonIntegrator::advance, "state"_a, "time_step"_a, "steps"_a)
+      .def("restart", &PythonIntegrator::restart)
+      .def_property_readonly("method", [](const PythonIntegrator& i) { return i.method().name; })
+      .def_property_readonly("chain", &PythonIntegrator::chain)
+      .def_property_readonly(
+          "force_evaluations",
+          [](const PythonIntegrator& i) { return i.integrator().forceEvaluations(); })
+      .def_property_readonly(
+          "dissipated_energy",
+          [](const PythonIntegrator& i) { return i.integrator().dissipatedEnergy(); })
+      .def("__repr__",
+           [](const PythonIntegrator& i) {
+             return fmt::format("<Integrator {}, {} particles>", i.method().name, i.chain().size());
+           })
+      .def(py::pickle(
+          [](const PythonIntegrator& i) {
+            return py::make_tuple(i.method().name, i.chain(), i.options().tolerance,
+                                  i.options().track_dissipation, i.options().threads);
+          },
+          [make](const py::tuple& t) {
+            return make(t[0].cast<std::string>(), t[1].cast<const Chain&>(), t[2].cast<double>(),
+                        t[3].cast<bool>(), t[4].cast<int>());
+          }));
+  module.def("make_integrator", make, "method"_a, "chain"_a, py::kw_only(),
+             "tolerance"_a = kDefaults.tolerance,
+             "track_dissipation"_a = kDefaults.track_dissipation, "threads"_a = kDefaults.threads);
+}
+
+}  // namespace
+
+void defineIntegration(py::module_& module) {
+  defineChain(module);
+  defineState(module);
+  defineIntegrator(module);
+}
+
+}  // namespace spring_pendulum::python

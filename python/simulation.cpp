@@ -1,0 +1,226 @@
+// simulate, check and the table of options.
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/simulation/option_list.hpp>
+#include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/stability_advice.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <pybind11/stl.h>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "binding.hpp"
+
+namespace spring_pendulum::python {
+namespace {
+
+using namespace py::literals;
+
+/// Numbers of a frame, in the order of `recordFrame`.
+constexpr py::ssize_t kFrameNumbers = 9;
+
+/// Unlike a program, Python writes frame files only if asked.
+Scenario pythonDefaults() {
+  Scenario scenario;
+  scenario.output.clear();
+  return scenario;
+}
+
+bool isPath(const py::object& value) {
+  return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
+}
+
+/// Encodes a name as the file system does.
+std::string pathText(const py::object& value) {
+  const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
+  if (!path) throw py::error_already_set();
+  if (py::isinstance<py::bytes>(path)) return path.cast<std::string>();
+  const auto bytes = py::reinterpret_steal<py::bytes>(PyUnicode_EncodeFSDefault(path.ptr()));
+  if (!bytes) throw py::error_already_set();
+  return bytes;
+}
+
+/// Whether Python converts a value to a number without parsing text.
+bool isNumber(const py::object& value) {
+  const PyNumberMethods* const number = Py_TYPE(value.ptr())->tp_as_number;
+  return number != nullptr && (number->nb_float != nullptr || number->nb_index != nullptr);
+}
+
+/// The text of a value as the option table reads it.
+std::string optionText(const OptionDescription& option, const py::object& value) {
+  if (option.is_text) {
+    if (isPath(value)) return pathText(value);
+    throw InputError(
+        fmt::format("{}: must be {}, got {}", option.key, option.range, reprOf(value)));
+  }
+  py::detail::make_caster<bool> flag;
+  if (flag.load(value, false)) return flag ? "true" : "false";
+  if (PyIndex_Check(value.ptr()) != 0) return py::str(py::int_(value));
+  if (!isNumber(value)) return reprOf(value);
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
+  if (number) return py::repr(number);
+  PyErr_Clear();
+  return reprOf(value);
+}
+
+Scenario scenarioOf(const py::dict& options) {
+  const std::vector<OptionDescription> known = describeOptions();
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const auto& [key, value] : options) {
+    const auto name = key.cast<std::string>();
+    const auto option = std::find_if(known.begin(), known.end(), [&](const auto& description) {
+      return description.key == name;
+    });
+    const auto object = py::reinterpret_borrow<py::object>(value);
+    given.emplace_back(name, option == known.end() ? "" : optionText(*option, object));
+  }
+  return makeScenario(given, pythonDefaults());
+}
+
+/// Writes an array of shape (N, 3) as the text of a particle file, so that its rules apply.
+std::string particleText(const Numbers& rows) {
+  fmt::memory_buffer text;
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
+    for (py::ssize_t j = 0; j < rows.shape(1); ++j) {
+      fmt::format_to(std::back_inserter(text), "{} ", *rows.data(i, j));
+    }
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
+}
+
+/// \param particles a path or an array; sets `scenario.particles`
+Particles particlesOf(const py::object& particles, Scenario& scenario) {
+  scenario.particles.clear();
+  if (!isPath(particles)) {
+    return parseParticles(particleText(toNumbers(particles, "particles", 2)), "particles");
+  }
+  scenario.particles = pathText(particles);
+  return readParticleFile(scenario.particles);
+}
+
+double orNan(const std::optional<double>& number) {
+  return number.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The frames of a run in memory.
+class Recording {
+ public:
+  Recording(py::ssize_t frames, py::ssize_t particles)
+      : numbers_({kFrameNumbers, frames}),
+        states_({frames, py::ssize_t{4}, particles}),
+        state_size_(4 * particles),
+        frames_(frames),
+        number_(numbers_.mutable_data()),
+        state_(states_.mutable_data()) {}
+
+  /// Needs no interpreter lock.
+  void add(const Run& run) {
+    std::copy_n(run.state().values().data(), state_size_, state_ + count_ * state_size_);
+    const EnergyEntry entry = run.energyEntry();
+    const double row[kFrameNumbers] = {entry.time,
+                                       entry.energy.kinetic,
+                                       entry.energy.gravity,
+                                       entry.energy.spring,
+                                       entry.energy.total(),
+                                       orNan(entry.dissipated),
+                                       orNan(entry.residual),
+                                       orNan(entry.relative_residual),
+                                       run.positionError().now};
+    for (py::ssize_t i = 0; i < kFrameNumbers; ++i) number_[i * frames_ + count_] = row[i];
+    ++count_;
+  }
+
+  /// One row for each quantity.
+  py::object numbers() const {
+    return numbers_[py::make_tuple(py::ellipsis(), py::slice(0, count_, 1))];
+  }
+  /// Shape (F, 4, N).
+  py::object states() const { return states_[py::slice(0, count_, 1)]; }
+
+ private:
+  py::array_t<double> numbers_;
+  py::array_t<double> states_;
+  py::ssize_t state_size_;
+  py::ssize_t frames_;
+  py::ssize_t count_ = 0;
+  double* number_;
+  double* state_;
+};
+
+py::tuple tupleOf(const Verdict& verdict) {
+  return py::make_tuple(std::string(toString(verdict.kind)), verdict.text, verdict.time);
+}
+
+/// What Exercise3 prints as a warning at the end.
+std::string warningOf(const Run& run) {
+  const Verdict& verdict = run.verdict();
+  if (verdict.kind == VerdictKind::kDiverged) {
+    const std::string remedy = remedyForDivergence(run.chain(), run.start(), run.scenario());
+    return verdict.text + (remedy.empty() ? "" : "; " + remedy);
+  }
+  if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) return verdict.text;
+  return run.toleranceRemark();
+}
+
+Run makeRun(const Scenario& scenario, const Particles& particles, const RunOptions& options) {
+  try {
+    return {scenario, particles, options};
+  } catch (const std::invalid_argument&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // needs more memory than there is
+    PyErr_SetString(PyExc_MemoryError, error.what());
+    throw py::error_already_set();
+  }
+}
+
+py::dict simulate(const py::object& particles, const py::dict& options) {
+  Scenario scenario = scenarioOf(options);
+  const Particles start = particlesOf(particles, scenario);
+  Interruption interruption;
+  Run run = makeRun(scenario, start, {true, 0.0, [&] { return interruption(); }});
+  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
+  Recording recording(scenario.frames, run.chain().size());
+  {
+    const Computation computation;
+    while (run.advance(*integrator)) recording.add(run);
+  }
+  interruption.raise();
+  return py::dict("states"_a = recording.states(), "numbers"_a = recording.numbers(),
+                  "chain"_a = run.chain(), "method"_a = scenario.method.get().name,
+                  "verdict"_a = tupleOf(run.verdict()), "warning"_a = warningOf(run),
+                  "seconds"_a = run.seconds(),
+                  "force_evaluations"_a = integrator->forceEvaluations(),
+                  "closing_line"_a = run.closingLine(*integrator));
+}
+
+}  // namespace
+
+void defineSimulation(py::module_& module) {
+  module.def("simulate", &simulate, "particles"_a, "options"_a,
+             "Integrates particles (a path or an array) and returns the parts of a Run.");
+  module.def(
+      "options",
+      [] {
+        py::list rows;
+        for (const OptionDescription& option : describeOptions(pythonDefaults())) {
+          rows.append(py::make_tuple(option.key, option.value, option.unit, option.range,
+                                     option.meaning, option.users, option.is_text, option.is_flag,
+                                     option.is_count));
+        }
+        return rows;
+      },
+      "The options of a run: tuples of key, default, unit, range, meaning, users, and whether it "
+      "is text, "
+      "a flag, a count.");
+}
+
+}  // namespace spring_pendulum::python
