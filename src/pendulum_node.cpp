@@ -78,9 +78,9 @@ int runNode() {
   const NodeConfiguration configuration = readConfiguration();
   const Scenario& scenario = configuration.scenario;
   const NodeOptions& options = configuration.options;
-  Run run(
-      scenario, readParticles(scenario, "_particles:=FILE"),
-      {options.track_energy || !scenario.energy.empty(), displayInterval(options), interruption});
+  Run run(scenario, readParticles(scenario, "_particles:=FILE"),
+          {options.track_dissipation || !scenario.energy.empty(), displayInterval(options),
+           interruption});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   if (!configuration.unused.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name

@@ -37,7 +37,7 @@ int record(int argc, const char* const* argv) {
   if (!options.isGiven("output")) scenario.no_frames = true;
   bag.config = switches.config;
   Run run(scenario, readParticles(scenario),
-          {display.track_energy || !scenario.energy.empty(),
+          {display.track_dissipation || !scenario.energy.empty(),
            display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0, interruption});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   printAnswers(run, *integrator, switches);

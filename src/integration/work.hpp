@@ -26,12 +26,4 @@ constexpr NominalTime kStabilizedTaylor4Time{1.4 * 3e-9};
 /// The linear algebra uses no vector instructions.
 constexpr NominalTime kRadauTime{41e-9, 0.0};
 
-inline double nominalTaylorTime(std::ptrdiff_t particles) {
-  return kTaylorTime.of(particles);
-}
-
-inline double nominalFixedStepTime(std::ptrdiff_t particles) {
-  return kFixedStepTime.of(particles);
-}
-
 }  // namespace spring_pendulum

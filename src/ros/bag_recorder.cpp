@@ -4,10 +4,7 @@
 #include "io/files/output_file.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/run_files.hpp"
-#include "ros/messages/marker_builder.hpp"
-#include "ros/messages/stamps.hpp"
-#include "ros/messages/state_builder.hpp"
-#include "ros/node/publisher.hpp"
+#include "ros/messages/run_messages.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <boost/make_shared.hpp>
@@ -17,7 +14,6 @@
 
 #include <cerrno>
 #include <memory>
-#include <tf2_msgs/TFMessage.h>
 
 namespace spring_pendulum {
 namespace {
@@ -39,10 +35,7 @@ class BagRecorder {
   BagRecorder(rosbag::Bag& bag, const Run& run, const NodeOptions& options,
               const std::string& prefix)
       : bag_(bag),
-        frame_id_(options.frame_id),
-        camera_frame_(options.camera_frame),
-        marker_builder_(run, options),
-        state_builder_(options.y_offset),
+        build_(run, options, true),
         markers_topic_(prefix + "markers"),
         state_topic_(prefix + "state"),
         status_topic_(prefix + "status"),
@@ -50,54 +43,38 @@ class BagRecorder {
         camera_header_(connectionHeader<tf2_msgs::TFMessage>("/tf_static", true)) {}
 
   void write(const Run& run) {
-    std_msgs::Header header;
-    header.frame_id = frame_id_;
-    header.stamp = stamps_.next(run.time());
-    marker_builder_.trackTip(run);
-    shown_.set(run);
-    const visualization_msgs::MarkerArray& markers = marker_builder_.build(run, shown_, header, "");
-    writeCamera(header);
-    bag_.write(markers_topic_, header.stamp, markers);
-    bag_.write(state_topic_, header.stamp, state_builder_.build(run, header));
-    messages_ += 2;
-    writeStatus(run, header);
+    const std_msgs::Header header = build_.header(run.time());
+    build_.trackTip(run);
+    build_.show(run);
+    const visualization_msgs::MarkerArray& markers = build_.markers(run, header);
+    if (const auto camera = build_.newCamera(header)) {
+      write("/tf_static", header, *camera, camera_header_);
+    }
+    write(markers_topic_, header, markers);
+    write(state_topic_, header, build_.state(run, header));
+    if (auto status = build_.newStatus(run)) {
+      status->header = header;
+      write(status_topic_, header, *status, status_header_);
+    }
   }
 
   std::int64_t messages() const { return messages_; }
 
  private:
-  void writeCamera(const std_msgs::Header& header) {
-    if (camera_frame_.empty() || marker_builder_.cameraChanges() == camera_changes_written_) return;
-    camera_changes_written_ = marker_builder_.cameraChanges();
-    tf2_msgs::TFMessage message;
-    message.transforms = {marker_builder_.camera(header)};
-    bag_.write("/tf_static", header.stamp, message, camera_header_);
-    ++messages_;
-  }
-
-  void writeStatus(const Run& run, const std_msgs::Header& header) {
-    PendulumStatus status = statusOf(run, false);
-    if (status.text == last_status_) return;
-    last_status_ = status.text;
-    status.header = header;
-    bag_.write(status_topic_, header.stamp, status, status_header_);
+  template <typename Message>
+  void write(const std::string& topic, const std_msgs::Header& header, const Message& message,
+             const boost::shared_ptr<ros::M_string>& connection = {}) {
+    bag_.write(topic, header.stamp, message, connection);
     ++messages_;
   }
 
   rosbag::Bag& bag_;
-  std::string frame_id_;
-  std::string camera_frame_;
-  MarkerBuilder marker_builder_;
-  ShownState shown_;
-  StateBuilder state_builder_;
-  Stamps stamps_{true};
+  RunMessages build_;
   std::string markers_topic_;
   std::string state_topic_;
   std::string status_topic_;
   boost::shared_ptr<ros::M_string> status_header_;
   boost::shared_ptr<ros::M_string> camera_header_;
-  int camera_changes_written_ = 0;
-  std::string last_status_;
   std::int64_t messages_ = 0;
 };
 

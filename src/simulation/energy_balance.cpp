@@ -14,11 +14,11 @@ constexpr double kLeastStretch = 1e-6;
 
 }  // namespace
 
-EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation,
+EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool track_dissipation,
                              double start_time)
     : chain_(chain),
       start_time_(start_time),
-      tracks_dissipation_(tracks_dissipation),
+      track_dissipation_(track_dissipation),
       start_energy_(computeEnergy(chain, start).total()) {
   const SpringLaw& spring = chain.spring();
   double depth = 0.0;  // -E_min, J
@@ -51,7 +51,7 @@ EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipa
   entry.energy = computeEnergy(chain_, state);
   entry.gain = entry.energy.total() - start_energy_;
   entry.relative_gain = entry.gain / scale(time);
-  if (tracks_dissipation_) entry.dissipated = dissipated;
+  if (track_dissipation_) entry.dissipated = dissipated;
   if (chain_.spring().damping == 0.0) entry.dissipated = 0.0;
   if (entry.dissipated) {
     entry.residual = entry.gain + *entry.dissipated;

@@ -28,8 +28,7 @@ double expectedWork(const Scenario& scenario, const Chain& chain) {
   const double steps =
       method.hasFixedStep() ? intervals : expectedSteps(chain, intervals * frame.time_step);
   return steps * method.stages *
-         (method.hasFixedStep() ? nominalFixedStepTime(chain.size())
-                                : nominalTaylorTime(chain.size()));
+         (method.hasFixedStep() ? kFixedStepTime.of(chain.size()) : kTaylorTime.of(chain.size()));
 }
 
 }  // namespace spring_pendulum

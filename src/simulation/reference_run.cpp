@@ -92,8 +92,8 @@ struct Scales {
 Scales scalesOf(const Chain& chain, const State& start, double run_tolerance) {
   const double length = chainLength(chain, start);
   const double rounding = kRounding * std::max(start.positions().cwiseAbs().maxCoeff(), length);
-  const double tolerance =
-      std::min({kTolerance, kRelativeTolerance * length, kToleranceShare * run_tolerance});
+  double tolerance = std::min(kTolerance, kRelativeTolerance * length);
+  if (run_tolerance > 0.0) tolerance = std::min(tolerance, kToleranceShare * run_tolerance);
   return {length, rounding, std::max(tolerance, rounding)};
 }
 
@@ -176,7 +176,7 @@ ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const Referen
     : chain_(chain),
       free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
       shared_(options.shared) {
-  const Scales scales = scalesOf(chain, start, options.run_tolerance);
+  const Scales scales = scalesOf(chain, start, options.tolerance);
   believed_ = kBelieved * scales.length;
   rounding_ = scales.rounding;
   tolerance_ = scales.tolerance;

@@ -24,16 +24,15 @@ constexpr Eigen::Index kLongChain = 100;
 constexpr double kMostParts = 1024.0;
 constexpr std::int64_t kMostThreads = 1024;
 
-bool energyBalanceIsCheap(const Scenario& scenario, const Chain& chain) {
+bool dissipationIsCheap(const Scenario& scenario, const Chain& chain) {
   const Method& method = scenario.method;
   if (method.hasFixedStep() && method.tableau != nullptr && chain.size() >= kLongChain) return true;
   return expectedWork(scenario, chain) <= kCheapWork;
 }
 
-JudgeOptions judgeOptions(const Scenario& scenario, bool tracks_dissipation, double start_time) {
-  const Method& method = scenario.method;
-  return {tracks_dissipation, method.symplectic ? scenario.time_step : 0.0,
-          method.hasFixedStep() ? 0.0 : scenario.tolerance, start_time};
+/// Tolerance of an error-controlled method, m; 0 for fixed steps.
+double toleranceOf(const Scenario& scenario) {
+  return scenario.method.get().hasFixedStep() ? 0.0 : scenario.tolerance;
 }
 
 /// Number of states shown per frame.
@@ -68,20 +67,20 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
       state_(particles.state),
       frame_steps_(frameSteps(scenario)),
       parts_(partsPerFrame(scenario, options.display_interval)),
-      tracks_dissipation_(scenario.damping > 0.0 &&
-                          (options.energy_balance || energyBalanceIsCheap(scenario, chain_))),
+      track_dissipation_(scenario.damping > 0.0 &&
+                         (options.track_dissipation || dissipationIsCheap(scenario, chain_))),
       judge_(chain_, start_,
-             judgeOptions(scenario, tracks_dissipation_, frame_steps_.timeOfFrame(first_frame_))),
+             {track_dissipation_, scenario.method.get().symplectic ? scenario.time_step : 0.0,
+              toleranceOf(scenario), frame_steps_.timeOfFrame(first_frame_)}),
       frame_(first_frame_) {
   checkMemory(scenario, chain_.size());
-  ReferenceOptions reference;
-  reference.always = scenario.reference == ReferenceUse::kAlways;
   if (!scenario.method.get().hasFixedStep()) {
     checkTolerance(scenario.tolerance, chain_, start_);
     frame_steps_ = {scenario.frame_interval / static_cast<double>(parts_), parts_};
-    reference.run_tolerance = scenario.tolerance;
   }
-  reference.shared = options_.shared_reference;
+  const ReferenceOptions reference{toleranceOf(scenario),
+                                   scenario.reference == ReferenceUse::kAlways,
+                                   options_.shared_reference};
   if (scenario.reference != ReferenceUse::kNever) reference_.emplace(chain_, start_, reference);
   judgeFrame();
 }
@@ -89,7 +88,7 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
 std::unique_ptr<Integrator> Run::makeIntegrator() const {
   const int threads = static_cast<int>(std::min(scenario_.threads, kMostThreads));
   return spring_pendulum::makeIntegrator(scenario_.method, chain_,
-                                         {scenario_.tolerance, tracks_dissipation_, threads});
+                                         {scenario_.tolerance, track_dissipation_, threads});
 }
 
 bool Run::advance(Integrator& integrator) {

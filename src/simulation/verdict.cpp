@@ -87,7 +87,7 @@ std::string_view toString(VerdictKind kind) {
 
 Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
     : chain_(chain),
-      balance_(chain, start, options.tracks_dissipation, options.start_time),
+      balance_(chain, start, options.track_dissipation, options.start_time),
       chain_length_(chainLength(chain, start)),
       symplectic_step_(options.symplectic_step),
       tolerance_(options.tolerance),

@@ -53,7 +53,7 @@ TEST(Allocation, DoesNotHappenWhileThreadsStepALongChain) {
   EngineOptions options;
   options.threads = 3;
   options.block_size = 1024;
-  options.least_work_per_thread = 1;
+  options.least_work_per_thread = 1e-9;
   ExplicitRungeKutta engine(chain, kClassicalRungeKuttaTableau, options);
   State state = hangingChain(5000);
   const long before = allocations;

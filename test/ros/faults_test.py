@@ -130,7 +130,7 @@ class Faults(unittest.TestCase):
             with open(folder + '/chain.txt', 'w') as file:
                 file.writelines('%d 0 1\n' % i for i in range(2000))
             status = Listener('status', PendulumStatus)
-            with PendulumNode(particles=folder + '/chain.txt', frames=3000, track_energy=False,
+            with PendulumNode(particles=folder + '/chain.txt', frames=3000, track_dissipation=False,
                               steps_per_frame=1, wait_for_subscribers=2) as node:
                 listener = subprocess.Popen(['rostopic', 'echo', '/state'], stdout=subprocess.DEVNULL,
                                             stderr=subprocess.DEVNULL)

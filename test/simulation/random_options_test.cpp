@@ -93,13 +93,13 @@ void expectSameFrames(const std::vector<State>& frames, const std::vector<State>
 struct Options {
   explicit Options(std::mt19937& random)
       : threads(random() % 4),
-        track_energy(random() % 2 == 0),
+        track_dissipation(random() % 2 == 0),
         display_interval(static_cast<double>(random() % 5) * 0.007),
         sleep(random() % 2 == 0 ? 0.0 : 1e-300),
         reset_after(static_cast<int>(random() % 8)) {}
 
   std::int64_t threads;
-  bool track_energy;
+  bool track_dissipation;
   double display_interval;
   double sleep;
   int reset_after;  ///< calls of `advance`
@@ -122,7 +122,8 @@ TEST(RandomOptions, ChangeNoBitAndNoVerdict) {
       const Options options(random);
       scenario.threads = options.threads;
       scenario.sleep = options.sleep;
-      test::ProgramRun run(scenario, particles, {options.track_energy, options.display_interval});
+      test::ProgramRun run(scenario, particles,
+                           {options.track_dissipation, options.display_interval});
       for (int i = 0; i < options.reset_after && !run.isOver(); ++i) run.advancePart();
       run.reset();
       const Outcome outcome = outcomeOf(run, random);
@@ -138,7 +139,8 @@ TEST(RandomOptions, ChangeNoBitAndNoVerdict) {
       scenario.frames = 4 * (kFrames - 1) + 1;
       scenario.frame_interval /= 4.0;
       scenario.steps_per_frame /= 4;
-      test::ProgramRun finer(scenario, particles, {options.track_energy, options.display_interval});
+      test::ProgramRun finer(scenario, particles,
+                             {options.track_dissipation, options.display_interval});
       expectSameFrames(outcomeOf(finer, random).frames, expected.frames, 4);
     }
   }

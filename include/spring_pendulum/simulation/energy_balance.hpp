@@ -40,11 +40,11 @@ struct EnergyEntry {
 ///   the mass M until time t, replaces the last term.
 class EnergyBalance {
  public:
-  /// \param tracks_dissipation whether the integrator has `track_dissipation` set. If not, the
+  /// \param track_dissipation whether the integrator has `track_dissipation` set. If not, the
   ///   residual is known only for a chain without damping.
   /// \param start_time time of the start, s
   /// \throws InputError if an energy of the start exceeds the range of double
-  EnergyBalance(const Chain& chain, const State& start, bool tracks_dissipation,
+  EnergyBalance(const Chain& chain, const State& start, bool track_dissipation,
                 double start_time = 0.0);
 
   /// Returns the balance of a state.
@@ -58,7 +58,7 @@ class EnergyBalance {
  private:
   Chain chain_;
   double start_time_;  ///< s
-  bool tracks_dissipation_;
+  bool track_dissipation_;
   double start_energy_;          ///< J
   double constant_scale_ = 0.0;  ///< J
   double fall_ = 0.0;            ///< scale of the free fall, J/s²

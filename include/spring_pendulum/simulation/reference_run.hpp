@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <mutex>
 
@@ -49,7 +48,7 @@ class SharedReference {
   /// \throws InputError if the size of the state is not that of the chain, or the interval is not
   ///   finite and positive
   SharedReference(const Chain& chain, const State& start, double frame_interval,
-                  double run_tolerance = std::numeric_limits<double>::infinity());
+                  double run_tolerance = 0.0);
   ~SharedReference();
   SharedReference(const SharedReference&) = delete;
   SharedReference& operator=(const SharedReference&) = delete;
@@ -71,9 +70,9 @@ class SharedReference {
 };
 
 struct ReferenceOptions {
-  /// Tolerance in m of the measured run; infinite for a fixed-step method. The tolerance of the
-  /// reference is a thousandth of this, at most 1e-10 m.
-  double run_tolerance = std::numeric_limits<double>::infinity();
+  /// Tolerance in m of the measured run; 0 for a fixed-step method. The tolerance of the reference is
+  /// a thousandth of this, at most 1e-10 m.
+  double tolerance = 0.0;
   /// Measure to the end, whatever the cost.
   bool always = false;
   /// If not null, the trajectories come from here, and `ReferenceRun::advance` must be called once per

@@ -29,9 +29,9 @@
 namespace spring_pendulum {
 
 struct RunOptions {
-  /// Compute the energy balance whatever it costs. Without this, a run computes it if that takes at
+  /// Integrate the dissipated energy whatever it costs. Without this, a run does it if that takes at
   /// most about 50 ms or 10 % of the run.
-  bool energy_balance = false;
+  bool track_dissipation = false;
   /// Simulated time in s between the states at which `advancePart` stops; 0: only at frames. A frame
   /// of n steps is divided into parts of whole steps, or into 2^q output intervals of an
   /// error-controlled method. Neither changes a bit of the frames.
@@ -103,7 +103,7 @@ class Run {
   /// The energy balance of the current state.
   EnergyEntry energyEntry() const;
   /// Whether the dissipated energy is computed.
-  bool tracksDissipation() const { return tracks_dissipation_; }
+  bool tracksDissipation() const { return track_dissipation_; }
   /// Position error of the current state, and the largest one at the frames so far.
   PositionError positionError() const;
   /// The state of the reference run at `time()`; null if there is none or it has stopped.
@@ -144,7 +144,7 @@ class Run {
   State state_;
   FrameSteps frame_steps_;  ///< with shorter steps for an error-controlled method
   std::int64_t parts_;      ///< per frame
-  bool tracks_dissipation_;
+  bool track_dissipation_;
   Judge judge_;
   std::optional<ReferenceRun> reference_;
   bool started_ = false;   ///< whether `advance` was called since the start or a reset

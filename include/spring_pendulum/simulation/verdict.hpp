@@ -59,7 +59,7 @@ struct PositionError {
 };
 
 struct JudgeOptions {
-  bool tracks_dissipation = false;  ///< whether the integrator has `track_dissipation` set
+  bool track_dissipation = false;  ///< whether the integrator has it set
   /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
   /// oscillates about its true value, so its mean error over the run so far is judged.
   double symplectic_step = 0.0;

@@ -39,7 +39,7 @@ class DenseOutputIntegrator final : public Integrator {
   /// \returns 0 or `steps`
   std::int64_t advanceWithin(State& state, double time_step, std::int64_t steps,
                              double most_work) override;
-  double work() const override { return nominalTaylorTime(particles_) * statistics().work(); }
+  double work() const override { return kTaylorTime.of(particles_) * statistics().work(); }
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
   double dissipatedEnergy() const override { return dissipated_before_step_ + dissipated_in_step_; }
   void restart() override;

@@ -42,12 +42,12 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
     : options_(options),
       constants_(chain),
       stages_(tableau.stages),
-      tracks_dissipation_(options.track_dissipation && chain.spring().damping != 0.0),
+      track_dissipation_(options.track_dissipation && chain.spring().damping != 0.0),
       tableau_(tableau),
       kernel_(findAdvanceKernel(kernelsFor(options, chain.size()), tableau,
-                                {!skips().damping, !skips().gravity, tracks_dissipation_})) {
+                                {!skips().damping, !skips().gravity, track_dissipation_})) {
   assert(kernel_ != nullptr);
-  if (tracks_dissipation_) dissipated_ = DissipatedEnergy(chain.size());
+  if (track_dissipation_) dissipated_ = DissipatedEnergy(chain.size());
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
   if (!one_block) largest_halo_ = largestHalo(options_.block_size, stages_);
@@ -57,7 +57,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
     share.left.resize(largest_halo_, 4);
     share.right.resize(largest_halo_, 4);
     share.block = StateBuffer(rows);
-    if (tracks_dissipation_ && !one_block) share.dissipated = AlignedNumbers(share.block.pitch());
+    if (track_dissipation_ && !one_block) share.dissipated = AlignedNumbers(share.block.pitch());
     share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
   }
   workers_ = std::make_unique<WorkerThreads>(static_cast<int>(shares_.size()), [this](int share) {
@@ -106,11 +106,10 @@ void ExplicitRungeKutta::stepWhole(State& state, std::int64_t steps) {
 }
 
 int ExplicitRungeKutta::threadsFor(std::int64_t steps) const {
-  const double work = static_cast<double>(constants_.chain().size) * static_cast<double>(stages_) *
+  const double work = kFixedStepTime.of(constants_.chain().size) * static_cast<double>(stages_) *
                       static_cast<double>(steps);
-  const double worth =
-      work / static_cast<double>(std::max<Eigen::Index>(1, options_.least_work_per_thread));
-  return static_cast<int>(std::max(1.0, std::min<double>(workers_->size(), worth)));
+  return static_cast<int>(std::clamp(work / options_.least_work_per_thread, 1.0,
+                                     static_cast<double>(workers_->size())));
 }
 
 void ExplicitRungeKutta::divide(int threads) {
@@ -150,11 +149,11 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
     share.left.topRows(pass_.halo) = state.middleRows(end - pass_.halo, pass_.halo);
   }
   double* const dissipated = share.dissipated.data();
-  if (tracks_dissipation_)
+  if (track_dissipation_)
     std::copy_n(dissipated_.data() + begin, end - begin, dissipated + (begin - first));
   const KernelChain piece = constants_.piece(first, last, share.block.pitch());
   kernel_(piece, weights_, pass_.steps, share.block.data(), dissipated, share.workspace.data());
-  if (tracks_dissipation_)
+  if (track_dissipation_)
     std::copy_n(dissipated + (begin - first), end - begin, dissipated_.data() + begin);
   const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
   state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);

@@ -31,9 +31,8 @@ struct EngineOptions {
   int threads = 0;  ///< largest number; 0: one per processor core
   /// Particles per block. A block and its workspace should fit into the second-level cache.
   Eigen::Index block_size = 4096;
-  /// Least number of spring forces per call and thread. With less work, waking the thread takes
-  /// longer than the work.
-  Eigen::Index least_work_per_thread = 50000;
+  /// Least work per call and thread, s, see `work`. Waking a thread takes longer than less work.
+  double least_work_per_thread = 1e-4;
   const ChainKernels* kernels = nullptr;  ///< null: the fastest kernels that the processor supports
   bool track_dissipation = false;         ///< integrate the dissipated power as well
 };
@@ -47,7 +46,7 @@ class ExplicitRungeKutta final : public Integrator {
 
   void advance(State& state, double time_step, std::int64_t steps) override;
   double work() const override {
-    return nominalFixedStepTime(constants_.chain().size) * static_cast<double>(force_evaluations_);
+    return kFixedStepTime.of(constants_.chain().size) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
   double dissipatedEnergy() const override { return dissipated_.total(); }
@@ -83,7 +82,7 @@ class ExplicitRungeKutta final : public Integrator {
   EngineOptions options_;
   KernelConstants constants_;
   std::size_t stages_;
-  bool tracks_dissipation_;
+  bool track_dissipation_;
   const ButcherTableau& tableau_;
   AdvanceKernel kernel_;
   DissipatedEnergy dissipated_;

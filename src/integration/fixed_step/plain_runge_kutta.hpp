@@ -24,7 +24,7 @@ class PlainRungeKutta : public Integrator {
 
   void advance(State& state, double time_step, std::int64_t steps) override;
   double work() const override {
-    return nominalFixedStepTime(constants_.chain().size) * static_cast<double>(force_evaluations_);
+    return kFixedStepTime.of(constants_.chain().size) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
   double dissipatedEnergy() const override { return dissipated_.total(); }

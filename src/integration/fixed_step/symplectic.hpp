@@ -38,7 +38,7 @@ class SymplecticMethod : public Integrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
   double work() const final {
-    return nominalFixedStepTime(chain_.size()) * static_cast<double>(force_evaluations_);
+    return kFixedStepTime.of(chain_.size()) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
   double dissipatedEnergy() const final { return dissipated_.total(); }

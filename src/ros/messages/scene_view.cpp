@@ -20,7 +20,7 @@ const double kHalfViewTangent = std::sqrt(2.0) - 1.0;  ///< tan of rviz's half a
 constexpr double kMostReaches = 4.0;  ///< largest shown distance from the anchor
 constexpr double kGrowth = 0.25;      ///< relative growth of the frame when the chain leaves it
 constexpr double kMostGrowth = 3.0;   ///< largest size of the frame, in extents of the motion
-constexpr double kMostWork = 1e6;     ///< steps times particles of the probe
+constexpr double kMostWork = 8e-3;    ///< of the probe, s, see Integrator::work
 constexpr double kLargestProbeStep = 0.02;  // s
 
 Box boxOf(const State& state) {
@@ -69,18 +69,17 @@ double probeStep(const Chain& chain) {
   return std::min(kLargestProbeStep, 1.0 / (frequency + rate));
 }
 
-/// Bounds of the motion within `duration` s, or within a bounded number of steps.
+/// Bounds of the motion within `duration` s, or within a bounded work.
 Box probeMotion(const Chain& chain, const State& start, double duration) {
   Box box = boxOf(start);
   if (chain.size() < 2) return box;
   const double step = probeStep(chain);
   if (step == 0.0) return box;
-  const double most_steps = kMostWork / static_cast<double>(chain.size());
-  const auto steps = static_cast<std::int64_t>(std::min(duration / step, most_steps));
   const auto integrator = makeIntegrator("Runge-Kutta-4", chain);
   State state = start;
-  constexpr std::int64_t kStepsPerLook = 4;
-  for (std::int64_t done = 0; done < steps; done += kStepsPerLook) {
+  constexpr int kStepsPerLook = 4;
+  const double looks = std::floor(duration / step) / kStepsPerLook;
+  for (double look = 0.0; look < looks && integrator->work() < kMostWork; ++look) {
     integrator->advance(state, step, kStepsPerLook);
     if (!state.values().allFinite()) break;
     box.include(boxOf(state));

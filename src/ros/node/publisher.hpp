@@ -3,11 +3,7 @@
 // Messages without subscribers are not built. A state has the same stamp on every topic.
 #pragma once
 
-#include "ros/messages/marker_builder.hpp"
-#include "ros/messages/shown_state.hpp"
-#include "ros/messages/stamps.hpp"
-#include "ros/messages/state_builder.hpp"
-#include <spring_pendulum/PendulumStatus.h>
+#include "ros/messages/run_messages.hpp"
 
 #include <ros/node_handle.h>
 
@@ -15,10 +11,6 @@
 #include <string>
 
 namespace spring_pendulum {
-
-/// PendulumStatus code and text for a run.
-/// \param paused whether the user has paused the run
-PendulumStatus statusOf(const Run& run, bool paused);
 
 /// How to show a state.
 struct Showing {
@@ -52,25 +44,15 @@ class Publisher {
 
  private:
   std::uint32_t subscribers() const;
-  bool isNew(const PendulumStatus& status) const;
   void publishMarkers(const Run& run, const std_msgs::Header& header, const std::string& pace);
-  void publishStatus(PendulumStatus status, const ros::Time& stamp);
 
-  std::string frame_id_;
-  std::string camera_frame_;
   bool publishes_clock_;
-  Stamps stamps_;
-  MarkerBuilder marker_builder_;
-  ShownState shown_;
-  StateBuilder state_builder_;
-  PendulumStatus status_;
-  bool status_sent_ = false;
-  int camera_changes_sent_ = 0;
+  RunMessages build_;
   std::int64_t markers_built_ = 0;
   std::int64_t states_built_ = 0;
   ros::Publisher markers_;
   ros::Publisher state_;
-  ros::Publisher status_topic_;
+  ros::Publisher status_;
   ros::Publisher clock_;
   ros::Publisher tf_static_;
 };

@@ -34,7 +34,7 @@ std::vector<Option> displayOptions(NodeOptions& o) {
       {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
        "states published per second, within 10 %, also between frames; the frame files do not "
        "change; 0: frames only"},
-      {"track_energy", Flag{&o.track_energy}, "",
+      {"track_dissipation", Flag{&o.track_dissipation}, "",
        "always integrate the dissipated energy; false: only where it is cheap, as in Exercise3"},
       {"trail", Number{&o.trail, Range::atLeast(0)}, "s", "length of the tip's trail; 0: none"},
       {"color",

@@ -22,7 +22,7 @@ struct NodeOptions {
   double wait_timeout = 30.0;  ///< s; 0: unlimited
   bool publish_clock = false;
   std::string follow;                            ///< topic of another node's state
-  bool track_energy = true;                      ///< integrate the dissipated power as well
+  bool track_dissipation = true;                 ///< integrate the dissipated power as well
   double trail = 2.0;                            ///< s, length of the tip's trail; 0: none
   std::string color;                             ///< "#rrggbb"; empty: by strain and mass
   std::int64_t display_limit = 10000;            ///< largest number of drawn particles

@@ -83,7 +83,7 @@ double TrialBench::leastStep(const Method& method) const {
   const Eigen::Index particles = particles_.state.size();
   const double left = most_work_ - duration_ / frame_interval_ * frameWork(particles);
   if (left <= 0.0) return std::numeric_limits<double>::infinity();
-  return std::max(duration_ * std::max(method.stages, 1) * nominalFixedStepTime(particles) / left,
+  return std::max(duration_ * std::max(method.stages, 1) * kFixedStepTime.of(particles) / left,
                   std::numeric_limits<double>::denorm_min());
 }
 

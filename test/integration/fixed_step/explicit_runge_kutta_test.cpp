@@ -102,7 +102,7 @@ void expectSameBits(const Method& method, const Kind& kind, const State& start, 
   const State expected = stateAfter(plain, start, steps, steps);
   for (const ChainKernels* kernels : supportedChainKernels()) {
     for (const auto& [threads, block_size] : ways.threads_and_block_sizes) {
-      const EngineOptions options{threads, block_size, 1, kernels, track_dissipation};
+      const EngineOptions options{threads, block_size, 1e-9, kernels, track_dissipation};
       ExplicitRungeKutta engine(chain, *method.tableau, options);
       for (const int at_once : ways.steps_a_call) {
         engine.restart();
