@@ -48,25 +48,35 @@ void addWithValue(po::options_description& description, const std::string& name,
                             po::value<std::string>()->value_name(placeholder), help.c_str());
 }
 
+bool isOnCommandLine(const Option& option, const ProgramText& program) {
+  const auto& keys = program.keys;
+  if (!program.takesFolders()) return option.key != kMethodKey;
+  return std::find(keys.begin(), keys.end(), option.key) != keys.end();
+}
+
 /// All options except METHOD, for the parser and the help text.
-po::options_description describe(const OptionSet& options) {
+po::options_description describe(const OptionSet& options, const ProgramText& program) {
   po::options_description description("Options", kLineLength, kLineLength / 2);
   addWithValue(description, "config", "FILE",
                "YAML file with these options, underscores for dashes; the command line wins");
   for (const Option& option : options.options()) {
     const std::string name = optionName(option.key);
-    if (option.key == kMethodKey) continue;
+    if (!isOnCommandLine(option, program)) continue;
     if (option.placeholder().empty()) {
       description.add_options()(name.c_str(), optionHelp(option).c_str());
     } else {
       addWithValue(description, name, option.placeholder(), optionHelp(option));
     }
   }
-  description.add_options()(
-      "check", "try the run, report verdict, errors and the largest step sizes; write nothing")(
-      "report-skips", "print what the run leaves out because the scene does not need it")(
-      "list-methods", "describe the methods")("version", "show the version")("help,h",
-                                                                             "show this help");
+  auto add = description.add_options();
+  if (program.takesFolders()) {
+    add("json", "print a line of JSON for each folder");
+  } else {
+    add("check", "try the run, report verdict, errors and the largest step sizes; write nothing");
+    add("report-skips", "print what the run leaves out because the scene does not need it");
+  }
+  add("list-methods", "describe the methods")("version", "show the version");
+  add("help,h", "show this help");
   return description;
 }
 
@@ -74,11 +84,9 @@ std::string helpText(const ProgramText& program, const po::options_description& 
   std::ostringstream options;
   options << description;
   return fmt::format(
-      "{}\n\nUsage: {} METHOD [FILE] [options]\nExample: {} {}\n\nMethods: {}\n\n{}\n"
-      "Exit status: 0 done, 1 could not read or write, 2 wrong use or bad input,\n"
-      "3 the motion diverged, 128 + n stopped by signal n.\n",
-      program.purpose, program.name, program.name, program.example, knownMethodNames(),
-      options.str());
+      "{}\n\nUsage: {} {} [options]\nExample: {} {}\n\nMethods: {}\n\n{}\nExit status: {}\n",
+      program.purpose, program.name, program.arguments, program.name, program.example,
+      knownMethodNames(), options.str(), program.exit_status);
 }
 
 std::string listOfMethods() {
@@ -141,10 +149,20 @@ void setPositional(const std::vector<po::option>& given, OptionSet& options) {
   }
 }
 
+std::vector<std::string> foldersIn(const std::vector<po::option>& given,
+                                   const ProgramText& program) {
+  std::vector<std::string> folders;
+  for (const po::option& argument : given) {
+    if (argument.string_key.empty()) folders.push_back(argument.value.front());
+  }
+  if (!folders.empty()) return folders;
+  throw InputError(fmt::format("a folder is missing; try: {} {} (--help lists the options)",
+                               program.name, program.example));
+}
+
 /// \returns the keys that were set
 std::vector<std::string_view> setOptions(const std::vector<po::option>& given, OptionSet& options) {
   std::vector<std::string_view> keys;
-  setPositional(given, options);
   for (const po::option& argument : given) {
     for (const Option& option : options.options()) {
       if (optionName(option.key) != argument.string_key) continue;
@@ -195,22 +213,34 @@ std::string optionHelp(const Option& option) {
 
 Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
                           OptionSet& options, const Scenario& scenario) {
-  const po::options_description description = describe(options);
+  const po::options_description description = describe(options, program);
   const std::vector<po::option> given =
       split(std::vector<std::string>(argv + std::min(argc, 1), argv + argc), description);
-  if (has(given, "help")) return {false, false, helpText(program, description), ""};
-  if (has(given, "version"))
-    return {false, false, "spring_pendulum " SPRING_PENDULUM_VERSION "\n", ""};
-  if (has(given, "list-methods")) return {false, false, listOfMethods(), ""};
-  const std::string config = readConfig(given, options);
+  Switches switches;
+  if (has(given, "help"))
+    switches.answer = helpText(program, description);
+  else if (has(given, "version"))
+    switches.answer = "spring_pendulum " SPRING_PENDULUM_VERSION "\n";
+  else if (has(given, "list-methods"))
+    switches.answer = listOfMethods();
+  if (!switches.answer.empty()) return switches;
+  switches.config = readConfig(given, options);
+  if (program.takesFolders()) {
+    switches.folders = foldersIn(given, program);
+  } else {
+    setPositional(given, options);
+  }
   const std::vector<std::string_view> keys = setOptions(given, options);
-  if (!options.isGiven(kMethodKey)) {
+  if (!program.takesFolders() && !options.isGiven(kMethodKey)) {
     throw InputError(fmt::format("METHOD is missing; try: {} {} (--help lists the options)",
                                  program.name, program.example));
   }
   checkScenario(scenario);
-  refuseUnused(keys, options, scenario);
-  return {has(given, "check"), has(given, "report-skips"), "", config};
+  if (options.isGiven(kMethodKey)) refuseUnused(keys, options, scenario);
+  switches.check = has(given, "check");
+  switches.report_skips = has(given, "report-skips");
+  switches.json = has(given, "json");
+  return switches;
 }
 
 Particles readParticles(const Scenario& scenario, std::string_view argument) {

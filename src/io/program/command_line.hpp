@@ -8,6 +8,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace spring_pendulum {
 
@@ -16,14 +17,25 @@ struct ProgramText {
   std::string name;     ///< "Exercise3"
   std::string purpose;  ///< one sentence
   std::string example;  ///< arguments of a typical run
+  std::string arguments = "METHOD [FILE]";
+  std::string exit_status =
+      "0 done, 1 could not read or write, 2 wrong use or bad input,\n"
+      "3 the motion diverged, 128 + n stopped by signal n.";
+  /// For a program that takes folders and --method instead of METHOD and FILE: the keys of its
+  /// options. It can read configuration files with other keys.
+  std::vector<std::string_view> keys = {};
+
+  bool takesFolders() const { return !keys.empty(); }
 };
 
 /// The common switches.
 struct Switches {
   bool check = false;         ///< validate the input, print the stability advice, write nothing
   bool report_skips = false;  ///< print the terms that the run skips
+  bool json = false;          ///< print JSON
   std::string answer;         ///< text to print instead of a run: --help, --version, --list-methods
   std::string config;         ///< file given with --config; empty: none
+  std::vector<std::string> folders = {};  ///< of a program that takes folders
 };
 
 /// Sets `options` from the file given with --config and then from the other arguments, which win.

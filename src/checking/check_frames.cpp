@@ -1,0 +1,199 @@
+#include "base/numbers.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/checking/check_frames.hpp>
+#include <spring_pendulum/simulation/frame_steps.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "checking/comparison.hpp"
+#include "checking/frame_numbers.hpp"
+#include "checking/mistake_search.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+/// Work that a comparison with one method may take, in spring forces of the library: some minutes.
+constexpr double kMostWork = 1e11;
+
+using Methods = std::vector<const Method*>;
+
+bool isExercise(const Method& method) {
+  return method.hasFixedStep() && method.tableau != nullptr;
+}
+
+class Checker {
+ public:
+  Checker(const Scenario& scenario, const Particles& particles, const AllFrames& frames,
+          const CheckOptions& options)
+      : scenario_(scenario), particles_(particles), frames_(frames), options_(options) {
+    for (const Method& method : methodTable()) {
+      const bool is_wanted = options.method_is_given && &method == &scenario.method.get();
+      (is_wanted || !options.method_is_given ? wanted_ : others_).push_back(&method);
+    }
+    result_.remarks = frames.remarks;
+    result_.frames = static_cast<std::int64_t>(frames.frames.size());
+    result_.printed_digits = frames.digits;
+  }
+
+  FrameCheck check() {
+    compareWith(wanted_);
+    result_.equal = !result_.methods.empty();
+    if (result_.equal) {
+      result_.departure.reset();
+    } else {
+      explain();
+    }
+    describe();
+    return result_;
+  }
+
+ private:
+  void compareWith(const Methods& methods) {
+    for (const Method* method : methods) {
+      if (options_.stop && options_.stop()) return;
+      double work = 0.0;
+      const Agreement agreement = compare(
+          frames_, [&] { return motionOf(*method, scenario_, particles_); }, work, kMostWork);
+      if (agreement.complete && (result_.methods.empty() || agreement.frames > agreeing_)) {
+        note(agreement);
+      }
+      if (agreement.complete) result_.methods.push_back(method->name);
+      noteNearest(*method, agreement);
+    }
+  }
+
+  void note(const Agreement& agreement) {
+    agreeing_ = agreement.frames;
+    result_.last_frame = agreement.last_frame;
+    const double digits = agreement.distance > 0.0
+                              ? std::log10(agreement.scale / agreement.distance)
+                              : frames_.digits;
+    result_.digits = std::clamp(static_cast<int>(digits), 0, frames_.digits);
+  }
+
+  void noteNearest(const Method& method, const Agreement& agreement) {
+    if (agreement.complete || (result_.departure && agreement.frames <= departing_)) return;
+    departing_ = agreement.frames;
+    result_.nearest = method.name;
+    result_.departure = agreement.departure;
+    if (!result_.departure) return;
+    Scenario with_method = scenario_;
+    with_method.method = method;
+    result_.departure->time = frameSteps(with_method).timeOfFrame(result_.departure->frame);
+  }
+
+  /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
+  void explain() {
+    Methods exercise;
+    Methods first;
+    for (const Method& method : methodTable()) {
+      if (!isExercise(method)) continue;
+      const bool is_wanted = std::find(wanted_.begin(), wanted_.end(), &method) != wanted_.end();
+      (is_wanted ? first : exercise).push_back(&method);
+    }
+    MistakeSearch search(scenario_, particles_, frames_, departing_, options_.stop);
+    for (const Method* method : options_.method_is_given ? first : Methods{}) {
+      result_.explanations = search.singleMistakes(*method);
+    }
+    if (result_.explanations.empty()) compareWith(others_);
+    if (result_.explanations.empty() && result_.methods.empty()) {
+      result_.explanations = search.search({first, exercise});
+    }
+    if (result_.explanations.empty() && search.gaveUp())
+      result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
+  }
+
+  void describe();
+  void describeEqual();
+  void describeDifferent();
+  std::string comparedText() const;
+
+  const Scenario& scenario_;
+  const Particles& particles_;
+  const AllFrames& frames_;
+  const CheckOptions& options_;
+  Methods wanted_;
+  Methods others_;
+  std::size_t agreeing_ = 0;   ///< number of frames
+  std::size_t departing_ = 0;  ///< number of frames before the departure
+  FrameCheck result_;
+};
+
+std::string listOf(const std::vector<std::string>& words, const char* last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? fmt::format(" {} ", last) : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+void Checker::describe() {
+  if (result_.equal) {
+    describeEqual();
+  } else {
+    describeDifferent();
+  }
+}
+
+std::string Checker::comparedText() const {
+  const bool all = result_.last_frame == frames_.lastIndex();
+  return fmt::format(
+      "{} to {} of {} printed{}",
+      all ? "all " + counted(result_.frames, "frame")
+          : fmt::format("frames up to {}", result_.last_frame),
+      result_.digits, counted(result_.printed_digits, "digit"),
+      all ? "" : "; later frames cannot be compared, because rounding errors grow too much");
+}
+
+void Checker::describeEqual() {
+  result_.text = fmt::format("equal to {}: {}", result_.methods.front(), comparedText());
+  if (result_.methods.size() > 1) {
+    const std::vector<std::string> others(result_.methods.begin() + 1, result_.methods.end());
+    result_.remarks.push_back(
+        fmt::format("{} would look the same in these digits", listOf(others, "and")));
+  }
+}
+
+void Checker::describeDifferent() {
+  const Departure& departure = result_.departure.value_or(Departure{});
+  result_.text = fmt::format(
+      "different: depart from {} at frame {}, t = {} s, particle {}, {}", result_.nearest,
+      departure.frame, roundedText(departure.time, 6), departure.particle,
+      std::isfinite(departure.distance) ? fmt::format("by {} m", roundedText(departure.distance, 2))
+                                        : "where the frame has a number that is not finite");
+  if (!result_.methods.empty()) {
+    result_.text +=
+        fmt::format("\nThey are frames of {}: {}.", listOf(result_.methods, "or"), comparedText());
+    return;
+  }
+  if (result_.explanations.empty()) {
+    result_.text += "\nNo known mistake reproduces them.";
+    return;
+  }
+  constexpr std::size_t kMostShown = 3;
+  std::vector<std::string> texts;
+  for (const Explanation& one : result_.explanations) {
+    if (texts.size() == kMostShown) break;
+    texts.push_back(fmt::format("{}: the program {}", one.method, listOf(one.sentences, "and")));
+  }
+  const std::int64_t last = result_.explanations.front().last_frame;
+  result_.text +=
+      fmt::format("\n{} (reproduces the frames{})", listOf(texts, "or, in these frames the same,"),
+                  last == frames_.lastIndex() ? "" : fmt::format(" up to {}", last));
+}
+
+}  // namespace
+
+FrameCheck checkFrames(const Scenario& scenario, const Particles& particles,
+                       const std::vector<FrameText>& frames, const CheckOptions& options) {
+  checkScenario(scenario);
+  const AllFrames numbers = readFrames(frames, particles.state.size());
+  return Checker(scenario, particles, numbers, options).check();
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,93 @@
+#include "checking/check_report.hpp"
+
+#include "base/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace spring_pendulum {
+namespace {
+
+std::string inJson(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\u{:04x}", static_cast<int>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+std::string listInJson(const std::vector<std::string>& items) {
+  std::string list;
+  for (const std::string& item : items) list += (list.empty() ? "" : ", ") + item;
+  return '[' + list + ']';
+}
+
+std::string textsInJson(const std::vector<std::string>& texts) {
+  std::vector<std::string> items;
+  items.reserve(texts.size());
+  for (const std::string& text : texts) items.push_back(inJson(text));
+  return listInJson(items);
+}
+
+std::string departureInJson(const FrameCheck& check) {
+  if (!check.departure) return "null";
+  const Departure& departure = *check.departure;
+  return fmt::format(R"({{"from": {}, "frame": {}, "time": {}, "particle": {}, "distance": {}}})",
+                     inJson(check.nearest), departure.frame, numberText(departure.time),
+                     departure.particle,
+                     std::isfinite(departure.distance) ? numberText(departure.distance) : "null");
+}
+
+std::string explanationsInJson(const FrameCheck& check) {
+  std::vector<std::string> items;
+  for (const Explanation& one : check.explanations) {
+    items.push_back(fmt::format(
+        R"({{"method": {}, "mistakes": {}, "sentences": {}, "last_frame": {}}})",
+        inJson(one.method), textsInJson(one.mistakes), textsInJson(one.sentences), one.last_frame));
+  }
+  return listInJson(items);
+}
+
+}  // namespace
+
+std::string reportOf(const FrameCheck& check) {
+  std::string report = check.text + "\n";
+  for (const std::string& remark : check.remarks) report += "note: " + remark + "\n";
+  return report;
+}
+
+std::string shortReportOf(const FrameCheck& check) {
+  if (check.equal) return "equal to " + check.methods.front();
+  if (!check.methods.empty()) return "different: frames of " + check.methods.front();
+  if (check.explanations.empty()) {
+    return fmt::format("different from frame {} on, no known mistake",
+                       check.departure.value_or(Departure{}).frame);
+  }
+  const Explanation& first = check.explanations.front();
+  return fmt::format("different: {} with {}", first.method, fmt::join(first.mistakes, " + "));
+}
+
+std::string jsonOf(const FrameCheck& check, const std::string& folder) {
+  return fmt::format(
+      R"({{"folder": {}, "equal": {}, "methods": {}, "frames": {}, "last_frame": {}, )"
+      R"("digits": {}, "printed_digits": {}, "departure": {}, "explanations": {}, )"
+      R"("remarks": {}, "text": {}}})"
+      "\n",
+      inJson(folder), check.equal, textsInJson(check.methods), check.frames, check.last_frame,
+      check.digits, check.printed_digits, departureInJson(check), explanationsInJson(check),
+      textsInJson(check.remarks), inJson(check.text));
+}
+
+std::string jsonOfError(const std::string& message, const std::string& folder) {
+  return fmt::format("{{\"folder\": {}, \"error\": {}}}\n", inJson(folder), inJson(message));
+}
+
+}  // namespace spring_pendulum

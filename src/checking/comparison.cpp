@@ -1,0 +1,68 @@
+#include "checking/comparison.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace spring_pendulum {
+namespace {
+
+/// Rounding errors above this share of the largest coordinate end a comparison.
+constexpr double kComparable = 1e-3;
+
+double largestFinite(const Eigen::ArrayX2d& numbers) {
+  double largest = 0.0;
+  for (const double number : numbers.reshaped()) {
+    if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
+  }
+  return largest;
+}
+
+/// The first particle of a frame that differs from a motion by more than a unit of the last digit and
+/// `rounding` m.
+std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::ArrayX2d& motion,
+                                     double rounding) {
+  const auto agrees = ((frame.positions - motion).abs() <= frame.units + rounding) ||
+                      (!frame.positions.isFinite() && !motion.isFinite());
+  for (Eigen::Index i = 0; i < motion.rows(); ++i) {
+    if (agrees.row(i).all()) continue;
+    return Departure{frame.index, 0.0, i + 1,
+                     (frame.positions.row(i) - motion.row(i)).matrix().norm()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Agreement compare(const AllFrames& frames, const MotionMaker& make, double& work,
+                  double most_work) {
+  const std::unique_ptr<Motion> motion = make();
+  const std::unique_ptr<Motion> companion = make();
+  std::mt19937 random(1);  // the same on every machine
+  Agreement agreement;
+  Eigen::ArrayX2d positions, disturbed;
+  double rounding = 0.0;  // m
+  companion->disturb(random);
+  for (const FrameNumbers& frame : frames.frames) {
+    if (work > most_work) return agreement;
+    motion->advanceTo(frame.index, work);
+    companion->advanceTo(frame.index, work);
+    motion->writePositions(positions);
+    companion->writePositions(disturbed);
+    const double spread = (positions - disturbed).abs().maxCoeff<Eigen::PropagateNaN>();
+    const double scale = std::max(agreement.scale, largestFinite(positions));
+    rounding = spread <= rounding ? rounding : spread;  // NaN replaces it
+    if (!(rounding <= kComparable * scale) && scale > 0.0) break;
+    agreement.departure = departureOf(frame, positions, rounding);
+    if (agreement.departure) return agreement;
+    if (!companion->isDisturbedOnce()) companion->disturb(random);
+    ++agreement.frames;
+    agreement.last_frame = frame.index;
+    agreement.scale = scale;
+    agreement.distance = std::max(
+        agreement.distance, (frame.positions - positions).matrix().rowwise().norm().maxCoeff());
+  }
+  agreement.complete = agreement.frames > 0;
+  return agreement;
+}
+
+}  // namespace spring_pendulum

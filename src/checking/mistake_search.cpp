@@ -1,0 +1,245 @@
+#include "checking/mistake_search.hpp"
+
+#include "base/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "checking/program_fit.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+/// Spring forces of the library that a search may compute: some 10 s.
+constexpr double kMostWork = 4e9;
+
+/// Significant digits of fitted constants.
+constexpr int kMostDigits = 15;
+
+using Kind = Constant::Kind;
+
+constexpr std::string_view kSinglePrecision = "single_precision";
+
+bool isSinglePrecision(const Mistake& mistake) {
+  return mistake.name == kSinglePrecision;
+}
+
+/// The sentence on a fitted constant: "uses g = 10 m/s² instead of 9.81".
+std::string sentenceOn(const Constant& constant, double value, double right) {
+  std::string sentence(constant.sentence);
+  sentence.replace(sentence.find("{}"), 2, roundedText(value, kMostDigits));
+  return fmt::format("{} instead of {}", sentence, roundedText(right, 6));
+}
+
+}  // namespace
+
+struct MistakeSearch::Candidate {
+  std::string method;
+  StudentProgram program;
+  Explanation explanation;
+
+  void make(const Mistake& mistake) {
+    mistake.make(program);
+    add(mistake.name, std::string(mistake.sentence));
+  }
+  void add(std::string_view name, std::string sentence) {
+    explanation.mistakes.emplace_back(name);
+    explanation.sentences.push_back(std::move(sentence));
+  }
+};
+
+MistakeSearch::MistakeSearch(const Scenario& scenario, const Particles& particles,
+                             const AllFrames& frames, std::size_t known_frames,
+                             const std::function<bool()>& stop)
+    : scenario_(scenario),
+      particles_(particles),
+      frames_(frames),
+      known_frames_(known_frames),
+      stop_(stop) {}
+
+std::vector<Explanation> MistakeSearch::singleMistakes(const Method& method) {
+  found_.clear();
+  tryMistakes(rightProgram(method));
+  return found_;
+}
+
+std::vector<Explanation> MistakeSearch::search(
+    const std::vector<std::vector<const Method*>>& methods) {
+  constexpr Level kLevels[] = {&MistakeSearch::tryMistakes,
+                               &MistakeSearch::tryConstants,
+                               &MistakeSearch::trySinglePrecision,
+                               &MistakeSearch::tryTwoMistakes,
+                               &MistakeSearch::tryMistakeAndConstant,
+                               &MistakeSearch::tryWeights,
+                               &MistakeSearch::trySinglePrecisionAndMistake};
+  found_.clear();
+  for (const Level level : kLevels) {
+    for (const std::vector<const Method*>& group : methods) {
+      for (const Method* method : group) (this->*level)(rightProgram(*method));
+      if (!found_.empty()) return found_;
+    }
+  }
+  return found_;
+}
+
+MistakeSearch::Candidate MistakeSearch::rightProgram(const Method& method) const {
+  Candidate candidate{
+      method.name, StudentProgram(*method.tableau, scenario_), {method.name, {}, {}, 0}};
+  if (frames_.single_precision) {
+    for (const Mistake& mistake : knownMistakes())
+      if (isSinglePrecision(mistake)) candidate.make(mistake);
+  }
+  return candidate;
+}
+
+bool MistakeSearch::isOver() {
+  gave_up_ |= work_ > kMostWork || (stop_ && stop_());
+  return gave_up_;
+}
+
+void MistakeSearch::tryMistakes(const Candidate& base) {
+  if (frames_.single_precision && explains(base)) return;
+  for (const Mistake& mistake : knownMistakes()) {
+    if (!concerns(mistake.stages, base.program) || isSinglePrecision(mistake) || isOver()) continue;
+    Candidate candidate = base;
+    candidate.make(mistake);
+    explains(candidate);
+  }
+}
+
+void MistakeSearch::tryConstants(const Candidate& base) {
+  constexpr double kFactors[] = {1.0, 0.1, 10.0, -1.0};
+  for (const Constant& constant : fittedConstants()) {
+    if (constant.kind != Kind::kModel && constant.kind != Kind::kTimeStep) continue;
+    for (const double factor : kFactors) {
+      if (isOver() || fit(base, {&constant}, factor)) break;
+    }
+  }
+}
+
+void MistakeSearch::trySinglePrecision(const Candidate& base) {
+  if (frames_.single_precision || frames_.digits >= 9) return;
+  for (const Mistake& mistake : knownMistakes()) {
+    if (!isSinglePrecision(mistake) || isOver()) continue;
+    Candidate candidate = base;
+    candidate.make(mistake);
+    explains(candidate);
+  }
+}
+
+void MistakeSearch::tryTwoMistakes(const Candidate& base) {
+  const std::vector<Mistake>& table = knownMistakes();
+  for (std::size_t first = 0; first < table.size(); ++first) {
+    if (!concerns(table[first].stages, base.program) || isSinglePrecision(table[first])) continue;
+    for (std::size_t second = first + 1; second < table.size(); ++second) {
+      if (!concerns(table[second].stages, base.program) || isSinglePrecision(table[second]) ||
+          table[first].name == table[second].name || isOver()) {
+        continue;
+      }
+      Candidate candidate = base;
+      candidate.make(table[first]);
+      candidate.make(table[second]);
+      explains(candidate);
+    }
+  }
+}
+
+void MistakeSearch::tryMistakeAndConstant(const Candidate& base) {
+  const std::vector<Constant>& constants = fittedConstants();
+  for (std::size_t first = 0; first < constants.size(); ++first) {
+    if (constants[first].kind != Kind::kModel) continue;
+    for (const Mistake& mistake : knownMistakes()) {
+      if (!concerns(mistake.stages, base.program) || isSinglePrecision(mistake) || isOver())
+        continue;
+      Candidate candidate = base;
+      candidate.make(mistake);
+      fit(candidate, {&constants[first]}, 1.0);
+    }
+    for (std::size_t second = first + 1; second < constants.size(); ++second) {
+      if (constants[second].kind != Kind::kModel || isOver()) continue;
+      fit(base, {&constants[first], &constants[second]}, 1.0);
+    }
+  }
+}
+
+void MistakeSearch::tryWeights(const Candidate& base) {
+  std::vector<const Constant*> weights;
+  for (const Constant& constant : fittedConstants()) {
+    const bool is_weight = constant.kind == Kind::kWeight;
+    if (!is_weight && constant.kind != Kind::kFraction) continue;
+    if (!concerns(constant.stages, base.program) || isOver()) continue;
+    fit(base, {&constant}, 1.0);
+    if (is_weight) weights.push_back(&constant);
+  }
+  if (found_.empty() && weights.size() > 1 && !isOver()) fit(base, weights, 1.0);
+}
+
+void MistakeSearch::trySinglePrecisionAndMistake(const Candidate& base) {
+  if (frames_.single_precision || frames_.digits >= 9) return;
+  Candidate candidate = base;
+  candidate.program.single_precision = true;
+  candidate.add(kSinglePrecision, "computes with float instead of double");
+  tryMistakes(candidate);
+  if (found_.empty()) tryConstants(candidate);
+}
+
+Agreement MistakeSearch::agreementOf(const Candidate& candidate) {
+  return compare(
+      frames_, [&] { return motionOf(candidate.program, particles_); }, work_, kMostWork);
+}
+
+bool MistakeSearch::explains(const Candidate& candidate) {
+  const Agreement agreement = agreementOf(candidate);
+  if (!agreement.complete || agreement.frames <= known_frames_) return false;
+  keep(candidate, agreement.last_frame);
+  return true;
+}
+
+void MistakeSearch::keep(const Candidate& candidate, std::int64_t last_frame) {
+  found_.push_back(candidate.explanation);
+  found_.back().last_frame = last_frame;
+}
+
+bool MistakeSearch::fit(Candidate candidate, const std::vector<const Constant*>& constants,
+                        double factor) {
+  StudentProgram start = candidate.program;
+  for (const Constant* constant : constants) constant->of(candidate.program) *= factor;
+  Agreement agreement = agreementOf(candidate);
+  while (!agreement.complete && !isOver()) {
+    const std::size_t window =
+        std::min(frames_.frames.size(), agreement.frames + agreement.frames / 2 + 2);
+    fitConstants(candidate.program, constants, frames_, window, particles_, work_);
+    const std::size_t before = agreement.frames;
+    agreement = agreementOf(candidate);
+    if (!agreement.complete && agreement.frames <= before) return false;
+  }
+  if (!agreement.complete || agreement.frames <= known_frames_) return false;
+  roundConstants(candidate, constants);
+  for (const Constant* constant : constants) {
+    constexpr double kSmallestMistake = 1e-6;  // smaller changes are rounding errors
+    const double value = constant->of(candidate.program);
+    const double right = constant->of(start);
+    if (std::abs(value - right) <= kSmallestMistake * std::abs(right)) return false;
+    candidate.add(constant->name, sentenceOn(*constant, value, right));
+  }
+  keep(candidate, agreement.last_frame);
+  return true;
+}
+
+void MistakeSearch::roundConstants(Candidate& candidate,
+                                   const std::vector<const Constant*>& constants) {
+  for (const Constant* constant : constants) {
+    double& value = constant->of(candidate.program);
+    const double fitted = value;
+    for (int digits = 1; digits <= kMostDigits; ++digits) {
+      value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
+      const Agreement agreement = agreementOf(candidate);
+      if (agreement.complete && agreement.frames > known_frames_) break;
+      value = fitted;
+    }
+  }
+}
+
+}  // namespace spring_pendulum

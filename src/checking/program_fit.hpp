@@ -1,0 +1,21 @@
+// Fits numbers of a program to frames.
+#pragma once
+
+#include <spring_pendulum/model/particles.hpp>
+
+#include <cstddef>
+#include <vector>
+
+#include "checking/frame_numbers.hpp"
+#include "checking/mistakes.hpp"
+
+namespace spring_pendulum {
+
+/// Fits constants of a program to the leading frames by least squares.
+/// \param window number of frames
+/// \param work   spring forces computed so far, increased
+void fitConstants(StudentProgram& program, const std::vector<const Constant*>& constants,
+                  const AllFrames& frames, std::size_t window, const Particles& particles,
+                  double& work);
+
+}  // namespace spring_pendulum
