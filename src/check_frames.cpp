@@ -1,5 +1,5 @@
 // Says what is wrong with the frames of another program for the exercise.
-#include "io/formats/frame_folder_reader.hpp"
+#include "io/files/frame_folder_reader.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"

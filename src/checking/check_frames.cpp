@@ -19,6 +19,10 @@ namespace {
 /// Work that a comparison with one method may take, in spring forces of the library: some minutes.
 constexpr double kMostWork = 1e11;
 
+/// Work of a search for mistakes, counted likewise: some 10 s, and a second if nothing seems wrong.
+constexpr double kMostSearchWork = 4e9;
+constexpr double kMostDoubtWork = 4e8;
+
 using Methods = std::vector<const Method*>;
 
 bool isExercise(const Method& method) {
@@ -44,6 +48,7 @@ class Checker {
     result_.equal = !result_.methods.empty();
     if (result_.equal) {
       result_.departure.reset();
+      doubt();
     } else {
       explain();
     }
@@ -69,9 +74,10 @@ class Checker {
   void note(const Agreement& agreement) {
     agreeing_ = agreement.frames;
     result_.last_frame = agreement.last_frame;
-    const double digits = agreement.distance > 0.0
-                              ? std::log10(agreement.scale / agreement.distance)
-                              : frames_.digits;
+    result_.digits = frames_.digits;
+    if (agreement.distance == 0.0 || agreement.scale == 0.0) return;
+    const double largest_digit = std::floor(std::log10(agreement.scale));
+    const double digits = largest_digit - std::log10(1.99 * agreement.distance) + 1.0;
     result_.digits = std::clamp(static_cast<int>(digits), 0, frames_.digits);
   }
 
@@ -95,7 +101,8 @@ class Checker {
       const bool is_wanted = std::find(wanted_.begin(), wanted_.end(), &method) != wanted_.end();
       (is_wanted ? first : exercise).push_back(&method);
     }
-    MistakeSearch search(scenario_, particles_, frames_, departing_, options_.stop);
+    MistakeSearch search(scenario_, particles_, frames_, departing_, options_.stop,
+                         kMostSearchWork);
     for (const Method* method : options_.method_is_given ? first : Methods{}) {
       result_.explanations = search.singleMistakes(*method);
     }
@@ -105,6 +112,32 @@ class Checker {
     }
     if (result_.explanations.empty() && search.gaveUp())
       result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
+  }
+
+  /// Right frames: names mistakes that they would not show, and mistakes by which a method of the
+  /// exercise becomes another one of the table.
+  void doubt() {
+    MistakeSearch search(scenario_, particles_, frames_, 0, options_.stop, kMostDoubtWork);
+    const Method& best = findMethod(result_.methods.front());
+    if (isExercise(best)) {
+      std::vector<std::string> hidden;
+      for (const Explanation& one : search.singleMistakes(best)) {
+        const std::string& name = one.mistakes.back();
+        if (std::find(hidden.begin(), hidden.end(), name) == hidden.end()) hidden.push_back(name);
+      }
+      if (hidden.empty()) return;
+      result_.remarks.push_back("this scene and these digits would not show the mistakes " +
+                                fmt::format("{}", fmt::join(hidden, ", ")));
+    } else if (best.hasFixedStep()) {
+      for (const Method& method : methodTable()) {
+        if (!isExercise(method)) continue;
+        for (const Explanation& one : search.singleMistakes(method)) {
+          result_.explanations.push_back(one);
+          result_.remarks.push_back(fmt::format("{} gives the same if the program {}", method.name,
+                                                one.sentences.front()));
+        }
+      }
+    }
   }
 
   void describe();
@@ -177,8 +210,11 @@ void Checker::describeDifferent() {
   }
   constexpr std::size_t kMostShown = 3;
   std::vector<std::string> texts;
+  std::vector<std::vector<std::string>> shown;
   for (const Explanation& one : result_.explanations) {
     if (texts.size() == kMostShown) break;
+    if (std::find(shown.begin(), shown.end(), one.mistakes) != shown.end()) continue;
+    shown.push_back(one.mistakes);
     texts.push_back(fmt::format("{}: the program {}", one.method, listOf(one.sentences, "and")));
   }
   const std::int64_t last = result_.explanations.front().last_frame;

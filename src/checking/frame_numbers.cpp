@@ -137,6 +137,15 @@ double unitOf(double value, const FrameReader& format) {
                   std::pow(10.0, std::floor(std::log10(std::abs(value))) - format.digits() + 1.0));
 }
 
+std::string fewDigits(int digits) {
+  constexpr int kFew = 5;
+  if (digits > kFew) return "";
+  return fmt::format(
+      "few digits: only {} printed, which hide small mistakes; print 17, for example with "
+      "std::setprecision(17)",
+      counted(digits, "digit") + (digits == 1 ? " is" : " are"));
+}
+
 std::string missingFrames(const std::vector<FrameNumbers>& frames) {
   std::int64_t count = frames.front().index;
   std::int64_t first = count > 0 ? 0 : -1;
@@ -170,7 +179,7 @@ AllFrames readFrames(const std::vector<FrameText>& texts, std::ptrdiff_t particl
   all.digits = reader.digits();
   all.single_precision = reader.areFloats() && reader.digits() >= 9;
   for (const std::string& remark :
-       {missingFrames(all.frames),
+       {missingFrames(all.frames), fewDigits(all.digits),
         std::string(reader.hasCommas() ? "commas separate the columns; the exercise wants blanks"
                                        : "")}) {
     if (!remark.empty()) all.remarks.push_back(remark);

@@ -12,9 +12,6 @@
 namespace spring_pendulum {
 namespace {
 
-/// Spring forces of the library that a search may compute: some 10 s.
-constexpr double kMostWork = 4e9;
-
 /// Significant digits of fitted constants.
 constexpr int kMostDigits = 15;
 
@@ -45,19 +42,21 @@ struct MistakeSearch::Candidate {
     add(mistake.name, std::string(mistake.sentence));
   }
   void add(std::string_view name, std::string sentence) {
-    explanation.mistakes.emplace_back(name);
+    if (explanation.mistakes.empty() || explanation.mistakes.back() != name)
+      explanation.mistakes.emplace_back(name);
     explanation.sentences.push_back(std::move(sentence));
   }
 };
 
 MistakeSearch::MistakeSearch(const Scenario& scenario, const Particles& particles,
                              const AllFrames& frames, std::size_t known_frames,
-                             const std::function<bool()>& stop)
+                             const std::function<bool()>& stop, double most_work)
     : scenario_(scenario),
       particles_(particles),
       frames_(frames),
       known_frames_(known_frames),
-      stop_(stop) {}
+      stop_(stop),
+      most_work_(most_work) {}
 
 std::vector<Explanation> MistakeSearch::singleMistakes(const Method& method) {
   found_.clear();
@@ -95,7 +94,7 @@ MistakeSearch::Candidate MistakeSearch::rightProgram(const Method& method) const
 }
 
 bool MistakeSearch::isOver() {
-  gave_up_ |= work_ > kMostWork || (stop_ && stop_());
+  gave_up_ |= work_ > most_work_ || (stop_ && stop_());
   return gave_up_;
 }
 
@@ -157,9 +156,12 @@ void MistakeSearch::tryMistakeAndConstant(const Candidate& base) {
       candidate.make(mistake);
       fit(candidate, {&constants[first]}, 1.0);
     }
+  }
+  for (std::size_t first = 0; found_.empty() && first < constants.size(); ++first) {
     for (std::size_t second = first + 1; second < constants.size(); ++second) {
-      if (constants[second].kind != Kind::kModel || isOver()) continue;
-      fit(base, {&constants[first], &constants[second]}, 1.0);
+      const bool both =
+          constants[first].kind == Kind::kModel && constants[second].kind == Kind::kModel;
+      if (both && !isOver()) fit(base, {&constants[first], &constants[second]}, 1.0);
     }
   }
 }
@@ -187,7 +189,7 @@ void MistakeSearch::trySinglePrecisionAndMistake(const Candidate& base) {
 
 Agreement MistakeSearch::agreementOf(const Candidate& candidate) {
   return compare(
-      frames_, [&] { return motionOf(candidate.program, particles_); }, work_, kMostWork);
+      frames_, [&] { return motionOf(candidate.program, particles_); }, work_, most_work_);
 }
 
 bool MistakeSearch::explains(const Candidate& candidate) {
@@ -230,15 +232,15 @@ bool MistakeSearch::fit(Candidate candidate, const std::vector<const Constant*>&
 
 void MistakeSearch::roundConstants(Candidate& candidate,
                                    const std::vector<const Constant*>& constants) {
-  for (const Constant* constant : constants) {
-    double& value = constant->of(candidate.program);
-    const double fitted = value;
-    for (int digits = 1; digits <= kMostDigits; ++digits) {
-      value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
-      const Agreement agreement = agreementOf(candidate);
-      if (agreement.complete && agreement.frames > known_frames_) break;
-      value = fitted;
+  const StudentProgram fitted = candidate.program;
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    for (const Constant* constant : constants) {
+      double& value = constant->of(candidate.program);
+      value = parseNumber(roundedText(value, digits)).value_or(value);
     }
+    const Agreement agreement = agreementOf(candidate);
+    if (agreement.complete && agreement.frames > known_frames_) return;
+    candidate.program = fitted;
   }
 }
 

@@ -14,8 +14,9 @@ namespace spring_pendulum {
 class MistakeSearch {
  public:
   /// \param known_frames number of leading frames without a sign of a mistake
+  /// \param most_work    spring forces that may be computed, counted as those of the library
   MistakeSearch(const Scenario& scenario, const Particles& particles, const AllFrames& frames,
-                std::size_t known_frames, const std::function<bool()>& stop);
+                std::size_t known_frames, const std::function<bool()>& stop, double most_work);
 
   /// Returns the mistakes in a method that each explain the frames, without fits: the fast part.
   std::vector<Explanation> singleMistakes(const Method& method);
@@ -55,6 +56,7 @@ class MistakeSearch {
   const AllFrames& frames_;
   std::size_t known_frames_;
   const std::function<bool()>& stop_;
+  double most_work_;
   double work_ = 0.0;
   bool gave_up_ = false;
   std::vector<Explanation> found_;

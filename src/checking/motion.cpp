@@ -15,16 +15,16 @@ namespace {
 /// for Runge-Kutta-4 in other orders of summation.
 constexpr double kRoundingErrors = 16.0;
 
-/// Adds rounding errors to numbers; nothing if all are equal, like x in a vertical chain: their
-/// differences are exact.
+/// Adds rounding errors to a column of the state, except to the first particle; nothing if all are
+/// equal, like x in a vertical chain: their differences are exact.
 template <typename Numbers>
 void disturbColumn(Numbers numbers, double epsilon, double steps, std::mt19937& random) {
-  if (numbers.size() == 0 || numbers.minCoeff() == numbers.maxCoeff()) return;
+  if (numbers.minCoeff() == numbers.maxCoeff()) return;
   const double size =
       kRoundingErrors * std::sqrt(steps) * epsilon * static_cast<double>(numbers.abs().maxCoeff());
-  for (auto& number : numbers) {
+  for (Eigen::Index i = 1; i < numbers.size(); ++i) {
     const double share = static_cast<double>(random()) / std::mt19937::max();
-    number += static_cast<std::decay_t<decltype(number)>>((2.0 * share - 1.0) * size);
+    numbers[i] += static_cast<typename Numbers::Scalar>((2.0 * share - 1.0) * size);
   }
 }
 
@@ -50,11 +50,9 @@ class MethodMotion : public Motion {
   void writePositions(Eigen::ArrayX2d& positions) const override { positions = state_.positions(); }
 
   void disturb(std::mt19937& random) override {
-    const auto moving = static_cast<Eigen::Index>(state_.size() - 1);
-    for (Eigen::Index column = 0; column < 4; ++column) {
-      disturbColumn(state_.values().col(column).tail(moving).array(),
-                    std::numeric_limits<double>::epsilon(), static_cast<double>(steps_.steps),
-                    random);
+    for (int column = 0; column < 4; ++column) {
+      disturbColumn(state_.values().col(column).array(), std::numeric_limits<double>::epsilon(),
+                    static_cast<double>(steps_.steps), random);
     }
     integrator_->restart();
   }
@@ -131,8 +129,7 @@ class ProgramMotion : public Motion {
     using Matrix = Eigen::Array<Real, 4, Eigen::Dynamic>;
     Eigen::Map<Matrix> numbers(state_.front().data(), 4, static_cast<Eigen::Index>(state_.size()));
     for (Eigen::Index column = 0; column < 4; ++column) {
-      disturbColumn(numbers.row(column).tail(numbers.cols() - 1),
-                    static_cast<double>(std::numeric_limits<Real>::epsilon()),
+      disturbColumn(numbers.row(column), static_cast<double>(std::numeric_limits<Real>::epsilon()),
                     static_cast<double>(program_.steps_per_frame), random);
     }
   }

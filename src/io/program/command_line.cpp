@@ -65,7 +65,9 @@ po::options_description describe(const OptionSet& options, const ProgramText& pr
     if (option.placeholder().empty()) {
       description.add_options()(name.c_str(), optionHelp(option).c_str());
     } else {
-      addWithValue(description, name, option.placeholder(), optionHelp(option));
+      addWithValue(description, name, option.placeholder(),
+                   option.key == kMethodKey ? "method that the frames should have [any]"
+                                            : optionHelp(option));
     }
   }
   auto add = description.add_options();

@@ -1,4 +1,4 @@
-#include "io/formats/frame_folder_reader.hpp"
+#include "io/files/frame_folder_reader.hpp"
 
 #include "base/numbers.hpp"
 #include "io/files/paths.hpp"

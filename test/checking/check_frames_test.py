@@ -1,0 +1,192 @@
+#!/usr/bin/python3
+"""check_frames names the mistakes of wrong programs and accuses no right program.
+
+Usage: check_frames_test.py CHECK_FRAMES EXERCISE3 [FRAMES [SEED [WRONG [RIGHT]]]]
+The programs are those of student.py, with random mistakes, scenes and digits.
+"""
+import json
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+import student
+from student import RK4
+
+PROJECT = pathlib.Path(__file__).resolve().parents[2]
+METHODS = ('Euler', 'Runge-Kutta-2', 'Runge-Kutta-4')
+FORMS = ('4g', '6g', '8g', '17g', '4f', '6f', '8f', 'r')
+# A vertical or symmetric scene hides mistakes; these show all.
+TELLING_SCENES = ('random_masses', 'heavy_bob', 'random')
+
+
+def tableau(start, weights):
+    return dict(tableau=dict(start=start, weights=weights), method='Runge-Kutta-4')
+
+
+def wrong(name, **more):
+    return dict(wrong=[name], **more)
+
+
+def single_mistakes(rng):
+    """Rows of the name that must be found and the arguments of student.frames."""
+    w, half, last = RK4['weights'], (0.5,), (0, 0, 1)
+    return [
+        ('heun', wrong('heun', method='Runge-Kutta-2')),
+        ('semi_implicit', wrong('semi_implicit')),
+        ('semi_implicit_stages', wrong('semi_implicit_stages', method=rng.choice(METHODS[1:]))),
+        ('weights', tableau(RK4['start'], (1 / 4, 1 / 4, 1 / 4, 1 / 4))),
+        ('weights', tableau(RK4['start'], (1 / 6, 1 / 6, 1 / 3, 1 / 3))),
+        ('weights', tableau(RK4['start'], (0.2, 0.3, 0.3, 0.2))),  # not listed
+        ('stage_slope', tableau([(), half, half, last], w)),
+        ('stage_slope', tableau([(), half, (0, 0.5), (0, 1, 0)], w)),
+        ('stage_fraction', tableau([(), half, (0, 0.5), (0, 0, 0.5)], w)),
+        ('stage_fraction', tableau([(), (0.4,), (0, 0.5), last], w)),  # not listed
+        ('damping_not_projected', wrong('damping_not_projected')),
+        ('damping_sign', wrong('damping_sign')),
+        ('no_damping', wrong('no_damping')),
+        ('mass_not_divided', wrong('mass_not_divided')),
+        ('gravity_divided', wrong('gravity_divided')),
+        ('force_sign', wrong('force_sign')),
+        ('one_spring', wrong('one_spring_next')),
+        ('one_spring', wrong('one_spring_previous')),
+        ('first_moves', wrong('first_moves')),
+        ('gravity_9.8', dict(g=9.8)),
+        ('gravity_10', dict(g=10)),
+        ('gravity_up', dict(g=-9.81)),
+        ('g', dict(g=round(rng.uniform(1, 20), 2))),
+        ('k_s', dict(k_s=round(rng.uniform(20, 100), 1))),
+        ('k_d', dict(k_d=round(rng.uniform(0.1, 3), 2))),
+        ('L_0', dict(L_0=round(rng.uniform(0.3, 1.5), 2))),
+        ('in_place', wrong('in_place', method='Euler')),
+        ('steps_per_frame', dict(steps=rng.choice((9, 11)))),
+        ('frame_shift', wrong('frame_late')),
+        ('frame_shift', wrong('frame_early')),
+        ('time_step', dict(h=0.1)),
+        ('swapped', wrong('swapped')),
+        ('single_precision', wrong('single_precision')),
+    ]
+
+
+def combined(rng):
+    """Two mistakes that do not cancel each other."""
+    force = [m for m in single_mistakes(rng) if 'method' not in m[1] and m[0] != 'single_precision']
+    while True:
+        (a, first), (b, second) = rng.sample(force, 2)
+        keys = set(first) & set(second) - {'wrong'}
+        damping = all('damping' in name or name == 'k_d' for name in (a, b))
+        gravity = all(name == 'g' or 'gravity' in name for name in (a, b))
+        if a != b and not keys and not damping and not gravity and {a, b} != {'frame_shift', 'time_step'}:
+            both = dict(first, **second)
+            both['wrong'] = first.get('wrong', []) + second.get('wrong', [])
+            return (a, b), both
+
+
+def random_scene(rng):
+    """A chain of springs stretched or compressed a little, with masses of 0.3 to 2 kg."""
+    p = [np.array([0.0, 0.0])]
+    for _ in range(rng.randint(2, 9)):
+        angle, length = rng.uniform(-np.pi, 0.5), rng.uniform(0.8, 1.2)
+        p.append(p[-1] + length * np.array([np.cos(angle), np.sin(angle)]))
+    return np.array([[round(x, 6), round(y, 6), round(rng.uniform(0.3, 2), 2)] for x, y in p])
+
+
+class Lab:
+    def __init__(self, folder, programs, seed):
+        self.folder, (self.check, self.exercise) = folder, programs
+        self.rng = random.Random(seed)
+        self.count = 0
+
+    def scene(self, name):
+        """Particles and their file."""
+        if name != 'random':
+            path = PROJECT / 'data' / (name + '.txt')
+            return student.read_scene(path), path
+        self.count += 1
+        path = self.folder / f'scene_{self.count}.txt'
+        scene = random_scene(self.rng)
+        np.savetxt(path, scene, fmt='%r')
+        return scene, path
+
+    def verdict(self, result, form, particles, method):
+        self.count += 1
+        folder = self.folder / f'frames_{self.count}'
+        student.write(folder, result, form)
+        command = [self.check, folder, '--particles', particles, '--json']
+        done = subprocess.run(command + ['--method', method], stdout=subprocess.PIPE, check=False)
+        return done.returncode, json.loads(done.stdout)
+
+
+def named(names, verdict):
+    """Whether the first explanation names exactly these mistakes, also by fitted values."""
+    found = verdict['explanations'][0]['mistakes'] if verdict['explanations'] else []
+    same = {'gravity_9.8': 'g', 'gravity_10': 'g', 'gravity_up': 'g'}
+    return sorted(same.get(name, name) for name in found) == sorted(same.get(name, name) for name in names)
+
+
+def try_wrong(lab, frames, number):
+    singles = [((name,), change) for name, change in single_mistakes(lab.rng)]
+    right = 0
+    for i in range(number):
+        # Each single mistake once, then combinations.
+        names, change = singles[i] if i < len(singles) else combined(lab.rng)
+        change = dict(change)
+        method = change.pop('method', None) or lab.rng.choice(METHODS)
+        if names == ('semi_implicit',):
+            method = 'Euler'
+        scene_name, form = lab.rng.choice(TELLING_SCENES), FORMS[i % len(FORMS)]
+        scene, path = lab.scene(scene_name)
+        status, verdict = lab.verdict(student.frames(scene, method, count=frames, **change), form, path, method)
+        good = status == 4 and named(names, verdict)
+        right += good
+        if not good:
+            print('not named:', names, change, method, scene_name, form, status, verdict['text'], path, sep='  ')
+    return right
+
+
+def exercise_frames(lab, path, method, frames):
+    """Frames of Exercise3."""
+    lab.count += 1
+    folder = lab.folder / f'exercise_{lab.count}'
+    subprocess.run([lab.exercise, method, path, '--output', folder, '--frames', str(frames), '--reference', 'never',
+                    '--on-divergence', 'continue'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    return [np.loadtxt(name, ndmin=2) for name in sorted(folder.iterdir())]
+
+
+def try_right(lab, frames, number):
+    """Half of the programs are those of student.py, half are Exercise3 with every method."""
+    listed = subprocess.run([lab.exercise, '--list-methods'], stdout=subprocess.PIPE, check=True).stdout.decode()
+    methods = [line.split()[0] for line in listed.splitlines() if line.startswith('  ') and line[2] != ' ']
+    scenes = sorted(path.stem for path in (PROJECT / 'data').glob('*.txt')) + ['random'] * 3
+    accused = 0
+    for i in range(number):
+        scene_name, form = scenes[i // 2 % len(scenes)], lab.rng.choice(FORMS)
+        scene, path = lab.scene(scene_name)
+        if i % 2:
+            method = lab.rng.choice(METHODS)
+            result = student.frames(scene, method, count=frames)
+        else:
+            method = methods[i // 2 % len(methods)]
+            result = exercise_frames(lab, path, method, frames)
+        status, verdict = lab.verdict(result, form, path, method)
+        if status != 0:
+            accused += 1
+            print('accused:', method, scene_name, form, status, verdict, sep='  ')
+    return accused
+
+
+def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
+    with tempfile.TemporaryDirectory() as folder:
+        lab = Lab(pathlib.Path(folder), (check, exercise), int(seed))
+        named_rightly = try_wrong(lab, int(frames), int(number_wrong))
+        accused = try_right(lab, int(frames), int(number_right))
+    print(f'{named_rightly} of {number_wrong} wrong programs named, {accused} of {number_right} right ones accused')
+    # Measured: 40 and 0 with these defaults.
+    return 0 if named_rightly >= 0.9 * int(number_wrong) and accused == 0 else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main(*sys.argv[1:]))
