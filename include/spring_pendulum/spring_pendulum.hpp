@@ -12,6 +12,7 @@
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/drive.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
 #include <spring_pendulum/model/particles.hpp>

@@ -1,6 +1,7 @@
 #include "base/checks.hpp"
 #include "base/spelling.hpp"
 #include "integration/automatic/auto_stepper.hpp"
+#include "integration/driven_integrator.hpp"
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 #include "integration/error_control/dense_output_integrator.hpp"
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
@@ -26,7 +27,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
                                                    const IntegratorOptions& options) {
-  if (findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr) {
+  if (chain.isDriven() || findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr) {
     return std::make_unique<PlainRungeKutta>(chain, *method.tableau, options.track_dissipation);
   }
   EngineOptions engine;
@@ -45,9 +46,10 @@ template <typename Stepper, typename... Arguments>
 std::unique_ptr<Integrator> makeErrorControlled(const Chain& chain,
                                                 const IntegratorOptions& options,
                                                 Arguments&&... arguments) {
+  const bool measured = options.track_dissipation || chain.isDriven();
   return std::make_unique<DenseOutputIntegrator>(
       std::make_unique<Stepper>(chain, std::forward<Arguments>(arguments)..., options.tolerance),
-      options.track_dissipation ? std::make_optional(chain) : std::nullopt);
+      measured ? std::make_optional(chain) : std::nullopt);
 }
 
 template <const EmbeddedPair& kPair>
@@ -251,10 +253,11 @@ std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& ch
     throw InputError(
         fmt::format("method '{}' has no factory: register it with registerMethod", method.name));
   }
-  std::unique_ptr<Integrator> integrator = method.make(method, chain, options);
+  std::unique_ptr<Integrator> integrator = method.make(method, chain.seenFromAnchor(), options);
   if (!integrator)
     throw InputError(fmt::format("the factory of method '{}' returned no integrator", method.name));
-  return integrator;
+  if (!chain.isDriven()) return integrator;
+  return std::make_unique<DrivenIntegrator>(chain, std::move(integrator), method.hasFixedStep());
 }
 
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,

@@ -7,8 +7,28 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace spring_pendulum {
+namespace {
+
+/// Mass of a held particle where code divides by it, kg: no spring changes its motion by a bit.
+constexpr double kHeldMass = 1e30;
+
+void requireFinite(const char* what, std::ptrdiff_t particle, const PlaneVector<double>& value) {
+  if (std::isfinite(value.x) && std::isfinite(value.y)) return;
+  throw InputError(fmt::format("{} of particle {} must be finite, got ({}, {})", what, particle + 1,
+                               numberText(value.x), numberText(value.y)));
+}
+
+void requireParticle(std::ptrdiff_t particle, std::ptrdiff_t size) {
+  if (0 <= particle && particle < size) return;
+  throw InputError(fmt::format("particle {} does not exist: the chain has particles 1 to {}",
+                               particle + 1, size));
+}
+
+}  // namespace
+
 Chain::Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
     : masses_(std::move(masses)), spring_(spring), gravity_(gravity) {
   if (masses_.size() < 1) throw InputError("a chain needs at least one particle, the fixed one");
@@ -27,6 +47,55 @@ Chain::Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
   inverse_masses_ = masses_.view().cwiseInverse();
   inverse_masses_[0] = 0.0;
   equal_masses_ = size() < 3 || (masses_.view().tail(size() - 1).array() == masses_[1]).all();
+}
+
+Chain Chain::drivenBy(Drive drive) const {
+  Chain chain(masses_, spring_, gravity_);
+  if (drive.empty()) return chain;
+  const std::ptrdiff_t size = chain.size();
+  chain.accelerations_ = AlignedNumbers(2 * size);
+  double* x = chain.accelerations_.data();
+  double* y = x + size;
+  for (std::ptrdiff_t i = 1; i < size; ++i) y[i] = -gravity_;
+  std::vector<bool> is_held(static_cast<std::size_t>(size), false);
+  for (const auto& [particle, acceleration] : drive.held) {
+    requireParticle(particle, size);
+    requireFinite("acceleration", particle, acceleration);
+    if (is_held[static_cast<std::size_t>(particle)])
+      throw InputError(fmt::format("particle {} is held twice", particle + 1));
+    is_held[static_cast<std::size_t>(particle)] = true;
+    chain.inverse_masses_[particle] = 0.0;
+    if (particle > 0) chain.equal_masses_ = false;
+    x[particle] = acceleration.x;
+    y[particle] = acceleration.y;
+  }
+  for (const auto& [particle, force] : drive.forces) {
+    requireParticle(particle, size);
+    requireFinite("force on", particle, force);
+    if (chain.isHeld(particle))
+      throw InputError(fmt::format("particle {} is held: a force would not move it", particle + 1));
+    x[particle] += force.x * inverse_masses_[particle];
+    y[particle] += force.y * inverse_masses_[particle];
+  }
+  chain.drive_ = std::move(drive);
+  return chain;
+}
+
+PlaneVector<double> Chain::springlessAcceleration(std::ptrdiff_t i) const {
+  if (isDriven()) return {accelerations_[i], accelerations_[size() + i]};
+  return {0.0, i == 0 ? 0.0 : -gravity_};
+}
+
+Chain Chain::seenFromAnchor() const {
+  Chain chain = *this;
+  if (!isDriven()) return chain;
+  const PlaneVector<double> anchor = springlessAcceleration(0);
+  for (std::ptrdiff_t i = 0; i < size(); ++i) {
+    chain.accelerations_[i] -= anchor.x;
+    chain.accelerations_[size() + i] -= anchor.y;
+    if (isHeld(i)) chain.masses_[i] = kHeldMass;
+  }
+  return chain;
 }
 
 Chain::Chain(const Chain& other) = default;

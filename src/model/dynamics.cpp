@@ -33,6 +33,10 @@ void computeSlope(const Chain& chain, const State& state, State& slope) {
   if (slope.size() != size) slope = State(size);
   slope.positions() = state.velocities();
   slope.values().row(0).setZero();
+  if (chain.isDriven()) {
+    const PlaneVector<double> anchor = chain.springlessAcceleration(0);
+    slope.values().row(0) << state.vx()[0], state.vy()[0], anchor.x, anchor.y;
+  }
   PlaneVector<double> left = size > 1 ? forceOn(chain.spring(), state, 0) : PlaneVector<double>{};
   for (std::ptrdiff_t i = 1; i < size; ++i) {
     const bool free_end = i + 1 == size;
@@ -40,6 +44,11 @@ void computeSlope(const Chain& chain, const State& state, State& slope) {
     const double inverse_mass = chain.inverseMasses()[i];
     slope.vx()[i] = (right.x - left.x) * inverse_mass;
     slope.vy()[i] = fused(right.y - left.y, inverse_mass, -chain.gravity());
+    if (chain.isDriven()) {
+      const PlaneVector<double> springless = chain.springlessAcceleration(i);
+      slope.vx()[i] += springless.x;
+      slope.vy()[i] = fused(right.y - left.y, inverse_mass, springless.y);
+    }
     left = right;
   }
 }

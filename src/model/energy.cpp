@@ -9,7 +9,7 @@ Energy computeEnergy(const Chain& chain, const State& state) {
   Energy energy;
   const SpringLaw& spring = chain.spring();
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
-    const double mass = chain.masses()[i];
+    const double mass = chain.isHeld(i) ? 0.0 : chain.masses()[i];
     const double speed_squared = state.vx()[i] * state.vx()[i] + state.vy()[i] * state.vy()[i];
     energy.kinetic += 0.5 * mass * speed_squared;
     energy.gravity += mass * chain.gravity() * (state.y()[i] - state.y()[0]);

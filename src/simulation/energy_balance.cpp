@@ -19,25 +19,47 @@ EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool track_
     : chain_(chain),
       start_time_(start_time),
       track_dissipation_(track_dissipation),
-      start_energy_(computeEnergy(chain, start).total()) {
-  const SpringLaw& spring = chain.spring();
+      start_energy_(computeEnergy(chain, start).total()),
+      start_height_(start.y()[0]) {
+  widenScale(start, start_energy_);
+}
+
+void EnergyBalance::change(const Chain& chain, const State& state, bool track_dissipation) {
+  chain_ = chain;
+  track_dissipation_ = track_dissipation;
+  changed_ = true;
+  widenScale(state, energyOf(state).total());
+}
+
+void EnergyBalance::widenScale(const State& state, double energy) {
+  const SpringLaw& spring = chain_.spring();
   double depth = 0.0;  // -E_min, J
   double least = 0.0;
   double weight = 0.0;
-  for (Eigen::Index i = chain.size() - 1; i > 0; --i) {
-    weight += chain.masses()[i] * std::abs(chain.gravity());
+  for (Eigen::Index i = chain_.size() - 1; i > 0; --i) {
+    weight += chain_.masses()[i] * std::abs(chain_.gravity());
     depth += weight * spring.rest_length;
     if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
-    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
+    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(state, i - 1));
     least += 0.5 * spring.stiffness * stretch * stretch;
   }
-  if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain.gravity());
-  constant_scale_ = std::max(std::max(start_energy_, 0.0) + depth, least);
-  if (!std::isfinite(start_energy_) || !std::isfinite(constant_scale_) || !std::isfinite(fall_)) {
+  if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain_.gravity());
+  constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + depth, least});
+  if (!std::isfinite(energy) || !std::isfinite(constant_scale_) || !std::isfinite(fall_)) {
     throw InputError(
         "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
         "gravity must be smaller");
   }
+}
+
+Energy EnergyBalance::energyOf(const State& state) const {
+  Energy energy = computeEnergy(chain_, state);
+  const double raised = state.y()[0] - start_height_;
+  if (raised == 0.0) return energy;
+  for (Eigen::Index i = 1; i < chain_.size(); ++i) {
+    if (!chain_.isHeld(i)) energy.gravity += chain_.masses()[i] * chain_.gravity() * raised;
+  }
+  return energy;
 }
 
 double EnergyBalance::scale(double time) const {
@@ -45,17 +67,20 @@ double EnergyBalance::scale(double time) const {
   return std::max(constant_scale_ + fall_ * elapsed * elapsed, std::numeric_limits<double>::min());
 }
 
-EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipated) const {
+EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipated,
+                                 double supplied) const {
   EnergyEntry entry;
   entry.time = time;
-  entry.energy = computeEnergy(chain_, state);
-  entry.gain = entry.energy.total() - start_energy_;
-  entry.relative_gain = entry.gain / scale(time);
+  entry.energy = energyOf(state);
+  entry.supplied = supplied;
+  entry.gain = entry.energy.total() - start_energy_ - supplied;
+  const double scale_now = scale(time) + std::abs(supplied);
+  entry.relative_gain = entry.gain / scale_now;
   if (track_dissipation_) entry.dissipated = dissipated;
-  if (chain_.spring().damping == 0.0) entry.dissipated = 0.0;
+  if (chain_.spring().damping == 0.0 && !changed_) entry.dissipated = 0.0;
   if (entry.dissipated) {
     entry.residual = entry.gain + *entry.dissipated;
-    entry.relative_residual = *entry.residual / scale(time);
+    entry.relative_residual = *entry.residual / scale_now;
   }
   return entry;
 }

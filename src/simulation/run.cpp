@@ -1,3 +1,4 @@
+#include "base/checks.hpp"
 #include "base/stopwatch.hpp"
 #include "simulation/expected_work.hpp"
 #include "simulation/memory.hpp"
@@ -66,23 +67,37 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
       first_frame_(particles.frame),
       state_(particles.state),
       frame_steps_(frameSteps(scenario)),
-      parts_(partsPerFrame(scenario, options.display_interval)),
+      parts_(1),
       track_dissipation_(scenario.damping > 0.0 &&
                          (options.track_dissipation || dissipationIsCheap(scenario, chain_))),
-      judge_(chain_, start_,
-             {track_dissipation_, scenario.method.get().symplectic ? scenario.time_step : 0.0,
-              toleranceOf(scenario), frame_steps_.timeOfFrame(first_frame_)}),
+      judge_(chain_, start_, judgeOptions()),
       frame_(first_frame_) {
   checkMemory(scenario, chain_.size());
-  if (!scenario.method.get().hasFixedStep()) {
-    checkTolerance(scenario.tolerance, chain_, start_);
-    frame_steps_ = {scenario.frame_interval / static_cast<double>(parts_), parts_};
-  }
-  const ReferenceOptions reference{toleranceOf(scenario),
-                                   scenario.reference == ReferenceUse::kAlways,
-                                   options_.shared_reference};
-  if (scenario.reference != ReferenceUse::kNever) reference_.emplace(chain_, start_, reference);
+  if (!scenario.method.get().hasFixedStep()) checkTolerance(scenario.tolerance, chain_, start_);
+  setFrameSteps();
+  startReference();
   judgeFrame();
+}
+
+JudgeOptions Run::judgeOptions() const {
+  const Method& method = scenario_.method;
+  return {track_dissipation_, method.symplectic ? scenario_.time_step : 0.0, toleranceOf(scenario_),
+          frameSteps(scenario_).timeOfFrame(first_frame_)};
+}
+
+void Run::setFrameSteps() {
+  frame_steps_ = frameSteps(scenario_);
+  parts_ = partsPerFrame(scenario_, options_.display_interval);
+  if (scenario_.method.get().hasFixedStep()) return;
+  frame_steps_ = {scenario_.frame_interval / static_cast<double>(parts_), parts_};
+}
+
+void Run::startReference() {
+  if (scenario_.reference == ReferenceUse::kNever) return;
+  const ReferenceOptions reference{toleranceOf(scenario_),
+                                   scenario_.reference == ReferenceUse::kAlways,
+                                   changed_ ? nullptr : options_.shared_reference};
+  reference_.emplace(chain_, start_, reference);
 }
 
 std::unique_ptr<Integrator> Run::makeIntegrator() const {
@@ -111,7 +126,8 @@ bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
   stopped_ = !integrate(steps, integrator) || !follow(steps);
   if (stopped_) return false;
   part_ = part % parts_;
-  dissipated_ = dissipated_before_sleep_ + integrator.dissipatedEnergy();
+  dissipated_ = dissipated_before_ + integrator.dissipatedEnergy();
+  supplied_ = supplied_before_ + integrator.suppliedEnergy();
   if (part_ != 0) return true;
   ++frame_;
   work_ = integrator.work() - work_at_start_;
@@ -124,7 +140,8 @@ bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
 
 bool Run::integrate(std::int64_t steps, Integrator& integrator) {
   const Stopwatch stopwatch(totals_.seconds);
-  if (scenario_.sleep > 0.0 && sleeps(integrator)) return !(options_.stop && options_.stop());
+  if (scenario_.sleep > 0.0 && !chain_.isDriven() && sleeps(integrator))
+    return !(options_.stop && options_.stop());
   while (steps > 0) {
     if (options_.stop && options_.stop()) return false;
     steps -= integrator.advanceWithin(state_, frame_steps_.time_step, steps,
@@ -140,7 +157,7 @@ bool Run::sleeps(Integrator& integrator) {
   }
   if (asleep_) {
     // The integrator keeps data from before the sleep. Its restart also clears the dissipated energy.
-    dissipated_before_sleep_ += integrator.dissipatedEnergy();
+    dissipated_before_ += integrator.dissipatedEnergy();
     integrator.restart();
     asleep_ = false;
   }
@@ -155,19 +172,74 @@ bool Run::follow(std::int64_t steps) {
 
 void Run::judgeFrame() {
   if (reference_) reference_->measure(work_);
-  judge_.judge(time(), state_, dissipated_, reference_ ? &*reference_ : nullptr);
+  judge_.judge(time(), state_, dissipated_, reference_ ? &*reference_ : nullptr, supplied_);
 }
 
 void Run::reset(Integrator& integrator) {
   integrator.restart();
-  judge_.restart();
-  if (reference_) reference_->restart();
+  if (changed_) {
+    judge_ = Judge(chain_, start_, judgeOptions());
+    startReference();
+    changed_ = false;
+  } else {
+    judge_.restart();
+    if (reference_) reference_->restart();
+  }
   state_ = start_;
   frame_ = first_frame_;
-  part_ = 0;
+  part_ = frame_origin_ = 0;
   started_ = stopped_ = asleep_ = false;
-  dissipated_before_sleep_ = dissipated_ = work_ = 0.0;
+  time_origin_ = dissipated_before_ = dissipated_ = supplied_before_ = supplied_ = work_ = 0.0;
   judgeFrame();
+}
+
+void Run::change(const Scenario& scenario, const Drive& drive, const State& state,
+                 std::unique_ptr<Integrator>& integrator) {
+  Scenario next = scenario_;
+  next.method = scenario.method;
+  next.tolerance = scenario.tolerance;
+  next.stiffness = scenario.stiffness;
+  next.damping = scenario.damping;
+  next.rest_length = scenario.rest_length;
+  next.gravity = scenario.gravity;
+  checkScenario(next);
+  const bool fixed_step = next.method.get().hasFixedStep();
+  const bool other_control = fixed_step != scenario_.method.get().hasFixedStep();
+  if (other_control && part_ != 0) {
+    throw InputError(
+        "a method with fixed steps and one with error control alternate at frames only");
+  }
+  Chain chain(chain_.masses(), next.spring(), next.gravity);
+  chain = chain.drivenBy(drive);
+  requireSize(chain.size(), state.size());
+  if (!state.values().allFinite()) throw InputError("the state has numbers that are not finite");
+  if (!fixed_step) checkTolerance(next.tolerance, chain, state);
+  const bool knows_dissipation =
+      track_dissipation_ || (chain_.spring().damping == 0.0 && !changed_);
+  const double energy_before = judge_.balance().energyOf(state_).total();
+  EnergyBalance balance = judge_.balance();
+  balance.change(chain, state, knows_dissipation);
+  const double jump = balance.energyOf(state).total() - energy_before;
+
+  const double start_of_steps = time();
+  chain_ = std::move(chain);
+  scenario_ = next;
+  state_ = state;
+  track_dissipation_ = knows_dissipation;
+  changed_ = true;
+  judge_.change(chain_, state_, judgeOptions());
+  if (reference_) reference_->stopAtChange();
+  if (other_control) {
+    setFrameSteps();
+    time_origin_ = start_of_steps;
+    frame_origin_ = frame_;
+  }
+  dissipated_before_ = dissipated_;
+  supplied_before_ = supplied_ = supplied_ + jump;
+  evaluations_before_ += integrator->forceEvaluations();
+  work_at_start_ -= integrator->work();
+  asleep_ = false;
+  integrator = makeIntegrator();
 }
 
 bool Run::isOver() const {
@@ -181,7 +253,8 @@ bool Run::isShown() const {
 }
 
 EnergyEntry Run::energyEntry() const {
-  return isAtFrame() ? judge_.entry() : judge_.balance().entry(time(), state_, dissipated_);
+  return isAtFrame() ? judge_.entry()
+                     : judge_.balance().entry(time(), state_, dissipated_, supplied_);
 }
 
 PositionError Run::positionError() const {
@@ -203,8 +276,9 @@ std::int64_t Run::stepOfPart(std::int64_t part) const {
 }
 
 double Run::timeOfPart(std::int64_t part) const {
-  return static_cast<double>(frame_ * frame_steps_.steps + stepOfPart(part)) *
-         frame_steps_.time_step;
+  const std::int64_t frames = frame_ - frame_origin_;
+  return time_origin_ + static_cast<double>(frames * frame_steps_.steps + stepOfPart(part)) *
+                            frame_steps_.time_step;
 }
 
 }  // namespace spring_pendulum

@@ -17,8 +17,9 @@ std::string Run::closingLine(const Integrator& integrator, const std::string& ou
                                : "",
       method.hasFixedStep() ? counted(totals_.integrated_frames * frame_steps_.steps, "step") + ", "
                             : "",
-      counted(integrator.forceEvaluations(), "force evaluation"), durationText(totals_.seconds),
-      output, durationText(totals_.reference_seconds), measurements(), toString(verdict().kind));
+      counted(evaluations_before_ + integrator.forceEvaluations(), "force evaluation"),
+      durationText(totals_.seconds), output, durationText(totals_.reference_seconds),
+      measurements(), toString(verdict().kind));
 }
 
 }  // namespace spring_pendulum

@@ -48,8 +48,10 @@ Verdict diverged(const Chain& chain, const State& state, const EnergyEntry& entr
 std::string gainedEnergyText(const EnergyEntry& entry) {
   return fmt::format(
       "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy scale, "
-      "although no force drives the chain",
-      entry.gain, entry.time, 100.0 * entry.relative_gain);
+      "although {}",
+      entry.gain, entry.time, 100.0 * entry.relative_gain,
+      entry.supplied == 0.0 ? "no force drives the chain"
+                            : "the energy supplied to the chain is counted");
 }
 
 std::string driftText(const EnergyEntry& entry) {
@@ -70,6 +72,9 @@ Verdict notMeasured(double time, const ReferenceRun* reference) {
   }
   std::string_view reason = "a reference run would cost more than the run itself";
   if (reference->status() == ReferenceRun::Status::kFailed) reason = "the reference run diverged";
+  if (reference->status() == ReferenceRun::Status::kChanged) {
+    reason = "the chain was driven or changed, and the reference run does not follow";
+  }
   if (reference->status() == ReferenceRun::Status::kRounded) {
     reason = "positions are so large that their rounding errors matter; start nearer to the origin";
   }
@@ -94,12 +99,12 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
       start_time_(options.start_time) {}
 
 const Verdict& Judge::judgeEnergy(double time, const State& state, double dissipated) {
-  return remember(energyVerdict(time, state, dissipated));
+  return remember(energyVerdict(time, state, dissipated, 0.0));
 }
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
-                            const ReferenceRun* reference) {
-  Verdict verdict = energyVerdict(time, state, dissipated);
+                            const ReferenceRun* reference, double supplied) {
+  Verdict verdict = energyVerdict(time, state, dissipated, supplied);
   measure(state, verdict.kind == VerdictKind::kDiverged ? nullptr : reference);
   if (verdict.kind == VerdictKind::kDrift && hasEnergyOf(reference))
     verdict.kind = VerdictKind::kOk;
@@ -129,8 +134,15 @@ void Judge::noteTolerance(const ReferenceRun& reference) {
   exceeds_by_itself_ = !unknown && !reference.isSensitive();
 }
 
-Verdict Judge::energyVerdict(double time, const State& state, double dissipated) {
-  entry_ = balance_.entry(time, state, dissipated);
+void Judge::change(const Chain& chain, const State& state, const JudgeOptions& options) {
+  chain_ = chain;
+  balance_.change(chain, state, options.track_dissipation);
+  symplectic_step_ = options.symplectic_step;
+  tolerance_ = options.tolerance;
+}
+
+Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
+  entry_ = balance_.entry(time, state, dissipated, supplied);
   const double spread = 2.0 * kPromise * tolerance_;  // m, of the length of a spring
   const double tolerated =
       static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;

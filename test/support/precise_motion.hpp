@@ -38,6 +38,9 @@ class PreciseMotion {
     slope_.resize(z_.size());
   }
 
+  /// Continues with another drive.
+  void drive(const Chain& chain) { chain_ = chain; }
+
   void advance(double seconds) {
     for (Quad left = seconds; left > 0;) {
       const bool last = step_ >= left;
@@ -94,7 +97,19 @@ class PreciseMotion {
       slope_[b + 2] -= tension * rx / mass(b);
       slope_[b + 3] -= tension * ry / mass(b);
     }
+    for (const AppliedForce& applied : chain_.drive().forces) {
+      const auto at = 4 * static_cast<std::size_t>(applied.particle);
+      slope_[at + 2] += Quad(applied.force.x) / chain_.masses()[applied.particle];
+      slope_[at + 3] += Quad(applied.force.y) / chain_.masses()[applied.particle];
+    }
     std::fill(slope_.begin(), slope_.begin() + 4, Quad(0));
+    for (const HeldParticle& held : chain_.drive().held) {
+      const auto at = 4 * static_cast<std::size_t>(held.particle);
+      slope_[at] = z[at + 2];
+      slope_[at + 1] = z[at + 3];
+      slope_[at + 2] = held.acceleration.x;
+      slope_[at + 3] = held.acceleration.y;
+    }
   }
 
   /// Gragg's smoothed midpoint rule with n steps over a time h.

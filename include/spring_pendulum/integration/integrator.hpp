@@ -37,7 +37,8 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   /// Advances `state` in place by `steps` >= 0 steps of `time_step` s. Taking a + b steps in one
-  /// call or in two gives the same bits. The first particle does not move.
+  /// call or in two gives the same bits. The first particle does not move
+  /// unless the chain is driven.
   /// A diverging motion does not throw: the state then has elements that are very large or not
   /// finite.
   /// \throws InputError if the size of the state is not that of the chain, `time_step` is not
@@ -64,6 +65,10 @@ class Integrator {
   /// the order of the method; 0 unless `IntegratorOptions::track_dissipation` is set.
   virtual double dissipatedEnergy() const = 0;
 
+  /// Energy in J that the holders of particles and the applied forces have supplied to the chain since
+  /// construction or the last restart; 0 for a chain that is not driven.
+  virtual double suppliedEnergy() const { return 0.0; }
+
   /// Terms that this integrator skips for its chain.
   virtual Skips skips() const { return {}; }
 
@@ -71,7 +76,8 @@ class Integrator {
   /// methods.
   virtual std::string report() const { return {}; }
 
-  /// Discards what the method keeps between calls and sets the dissipated energy to 0. Call it
+  /// Discards what the method keeps between calls and sets the dissipated and the
+  /// supplied energy to 0. Call it
   /// before passing `advance` a state other than the one that the last `advance` returned.
   virtual void restart() {}
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <spring_pendulum/base/aligned_numbers.hpp>
+#include <spring_pendulum/model/drive.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// A chain of N >= 1 particles P_1..P_N and N-1 equal springs. P_1 is fixed; its mass is not used.
-/// Validated by the constructor, immutable afterwards.
+/// A chain of N >= 1 particles P_1..P_N and N-1 equal springs. P_1 is fixed unless a drive moves it;
+/// its mass is not used. Validated by the constructor, immutable afterwards.
 class Chain {
  public:
   /// \param masses  an Eigen vector of N masses in kg; all but the first finite and above 0.
@@ -25,15 +26,30 @@ class Chain {
   Chain& operator=(Chain&& other) noexcept;
   ~Chain();
 
+  /// Returns the same chain with this drive instead of its own.
+  /// \throws InputError for a particle that does not exist or is held twice, a force on a held
+  ///   particle, or a number that is not finite
+  Chain drivenBy(Drive drive) const;
+
   std::ptrdiff_t size() const { return masses_.size(); }
   /// N masses, kg.
   AlignedNumbers::ConstView masses() const { return masses_.view(); }
-  /// N inverse masses, 1/kg; 0 for P_1, which corresponds to infinite mass.
+  /// N inverse masses, 1/kg; 0 for P_1 and other held particles, which corresponds to infinite mass.
   AlignedNumbers::ConstView inverseMasses() const { return inverse_masses_.view(); }
   const SpringLaw& spring() const { return spring_; }
   double gravity() const { return gravity_; }
   /// Whether all moving particles have exactly the same mass.
   bool equalMasses() const { return equal_masses_; }
+
+  const Drive& drive() const { return drive_; }
+  bool isDriven() const { return !drive_.empty(); }
+  bool isHeld(std::ptrdiff_t i) const { return inverse_masses_[i] == 0.0; }
+  /// Returns the acceleration of particle i without springs, m/s²: that of gravity and the applied
+  /// forces, or the prescribed one.
+  PlaneVector<double> springlessAcceleration(std::ptrdiff_t i) const;
+  /// Returns the chain as seen from P_1: there, P_1 is at rest, and all springless accelerations are
+  /// less by its acceleration. Held particles have a very large mass.
+  Chain seenFromAnchor() const;
 
  private:
   AlignedNumbers masses_;
@@ -41,6 +57,8 @@ class Chain {
   SpringLaw spring_;
   double gravity_;
   bool equal_masses_;
+  Drive drive_;
+  AlignedNumbers accelerations_;  ///< springless ones, all x and then all y; empty: not driven
 };
 
 }  // namespace spring_pendulum

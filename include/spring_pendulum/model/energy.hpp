@@ -9,7 +9,7 @@ namespace spring_pendulum {
 
 /// Energies of one state, J. Each sum has a fixed order, so the bits are the same on every machine.
 struct Energy {
-  double kinetic = 0.0;  ///< sum of m v²/2
+  double kinetic = 0.0;  ///< sum of m v²/2; held particles count as massless here and below
   double gravity = 0.0;  ///< sum of m g (y - y_1): 0 at the height of the fixed particle
   double spring = 0.0;   ///< sum of k_s (L - L_0)²/2
 

@@ -1,9 +1,9 @@
 // The energy balance of a run.
 //
-// No external force does work on the chain, so E(t) + D(t) = E(0) at all times, with the energy
-// E = kinetic + gravity + spring and the dissipated energy D. The residual E(t) + D(t) - E(0) is
-// the integration error of a quantity whose exact value is known. It is given relative to the
-// energy scale of the scene.
+// E(t) + D(t) - S(t) = E(0) at all times, with the energy E = kinetic + gravity + spring, the
+// dissipated energy D and the energy S that holders of particles and applied forces have supplied; S is
+// 0 unless the chain is driven. The residual E(t) + D(t) - S(t) - E(0) is the integration error of a
+// quantity whose exact value is known. It is given relative to the energy scale of the scene.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>
@@ -19,10 +19,11 @@ namespace spring_pendulum {
 struct EnergyEntry {
   double time = 0.0;                 ///< s
   Energy energy;                     ///< not finite if the state is not
-  double gain = 0.0;                 ///< E(t) - E(0)
+  double supplied = 0.0;             ///< S(t)
+  double gain = 0.0;                 ///< E(t) - E(0) - S(t)
   double relative_gain = 0.0;        ///< gain / scale
   std::optional<double> dissipated;  ///< nothing if not tracked
-  std::optional<double> residual;    ///< E(t) + D(t) - E(0)
+  std::optional<double> residual;    ///< E(t) + D(t) - E(0) - S(t)
   std::optional<double> relative_residual;
 };
 
@@ -34,7 +35,7 @@ struct EnergyEntry {
 ///     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
 ///
 /// For a chain that starts in equilibrium, this is the energy of lifting it to the height of P_1.
-/// Two rules keep the scale positive and finite:
+/// The supplied energy adds to the scale. Two rules keep the scale positive and finite:
 /// - it is at least the energy of all springs stretched by a millionth of their length;
 /// - without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
 ///   the mass M until time t, replaces the last term.
@@ -50,16 +51,31 @@ class EnergyBalance {
   /// Returns the balance of a state.
   /// \param time       s, at least the start time
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
-  EnergyEntry entry(double time, const State& state, double dissipated) const;
+  /// \param supplied   `Integrator::suppliedEnergy()`, J
+  EnergyEntry entry(double time, const State& state, double dissipated,
+                    double supplied = 0.0) const;
+
+  /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
+  Energy energyOf(const State& state) const;
+
+  /// Continues with another chain of as many particles. The caller adds the difference of the energies
+  /// of `state` before and after to the supplied energy.
+  /// \param track_dissipation whether the dissipated energy is known from the start on
+  /// \throws InputError if an energy exceeds the range of double
+  void change(const Chain& chain, const State& state, bool track_dissipation);
 
   /// Energy scale at a time in s, J; positive.
   double scale(double time) const;
 
  private:
+  void widenScale(const State& state, double energy);
+
   Chain chain_;
   double start_time_;  ///< s
   bool track_dissipation_;
+  bool changed_ = false;
   double start_energy_;          ///< J
+  double start_height_;          ///< of P_1, m
   double constant_scale_ = 0.0;  ///< J
   double fall_ = 0.0;            ///< scale of the free fall, J/s²
 };

@@ -87,7 +87,8 @@ class ReferenceRun {
     kCostTooMuch,  ///< stopped: the allowed work is used up
     kSensitive,    ///< stopped: the trajectories separated, the true motion is not known
     kRounded,      ///< stopped: the positions are too large to be resolved
-    kFailed        ///< stopped: a trajectory diverged
+    kFailed,       ///< stopped: a trajectory diverged
+    kChanged       ///< stopped: the measured run was changed
   };
 
   /// An uncertainty above this share of `chainLength` ends the measurement.
@@ -115,6 +116,9 @@ class ReferenceRun {
 
   /// Returns to the start.
   void restart();
+
+  /// Stops measuring, because the measured run is no longer that of the same chain.
+  void stopAtChange() { stop(Status::kChanged); }
 
   Status status() const { return status_; }
   bool isMeasuring() const { return status_ == Status::kMeasuring; }

@@ -12,6 +12,7 @@
 
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/drive.hpp>
 #include <spring_pendulum/model/particles.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
@@ -65,8 +66,18 @@ class Run {
   bool advancePart(Integrator& integrator);
 
   /// Returns to the start, as before the first call of `advance`, and discards the verdict. The closing
-  /// line counts the work of all rounds.
+  /// line counts the work of all rounds. Changed constants and the drive stay.
   void reset(Integrator& integrator);
+
+  /// Continues from another state, with other constants and another drive. The energy balance counts
+  /// the difference of the energies before and after as supplied. The reference run ends.
+  /// \param scenario   its method, tolerance and constants of the chain replace those of the run
+  /// \param state      the current one, or one that differs from it
+  /// \param integrator replaced by that of the changed run
+  /// \throws InputError for a value out of its range, a drive or a state that the chain cannot have,
+  ///   and a change between fixed steps and error control inside a frame; nothing has changed then
+  void change(const Scenario& scenario, const Drive& drive, const State& state,
+              std::unique_ptr<Integrator>& integrator);
 
   /// Whether no frame follows.
   bool isOver() const;
@@ -128,6 +139,9 @@ class Run {
     double reference_seconds = 0.0;      ///< wall-clock time of the reference run
   };
 
+  JudgeOptions judgeOptions() const;
+  void startReference();
+  void setFrameSteps();
   bool advanceTo(std::int64_t part, Integrator& integrator);
   bool integrate(std::int64_t steps, Integrator& integrator);
   bool follow(std::int64_t steps);
@@ -152,10 +166,16 @@ class Run {
   std::int64_t part_ = 0;  ///< completed parts of the next frame
   bool stopped_ = false;
   bool asleep_ = false;
-  double dissipated_before_sleep_ = 0.0;  ///< J
-  double dissipated_ = 0.0;               ///< J, until the current state
-  double work_at_start_ = 0.0;            ///< of the integrator, s
-  double work_ = 0.0;                     ///< until the last judged frame, s
+  bool changed_ = false;                 ///< since construction or the last reset
+  double time_origin_ = 0.0;             ///< s, of frame `frame_origin_`
+  std::int64_t frame_origin_ = 0;        ///< first frame of the current `frame_steps_`
+  double dissipated_before_ = 0.0;       ///< J, before the current integrator started
+  double dissipated_ = 0.0;              ///< J, until the current state
+  double supplied_before_ = 0.0;         ///< J, as above
+  double supplied_ = 0.0;                ///< J
+  std::int64_t evaluations_before_ = 0;  ///< by earlier integrators
+  double work_at_start_ = 0.0;           ///< of the integrator, s
+  double work_ = 0.0;                    ///< until the last judged frame, s
   Totals totals_;
 };
 

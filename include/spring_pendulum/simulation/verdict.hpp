@@ -1,7 +1,7 @@
 // The verdict on a run: can its result be trusted?
 //
-// Energy and positions are judged after every frame, before it is written. A chain that nothing
-// drives never gains energy, whatever its damping. So an energy above that of the start proves an
+// Energy and positions are judged after every frame, before it is written. Beyond the energy that its
+// drive supplies, a chain never gains energy, whatever its damping. So an energy above that of the start proves an
 // unstable or inaccurate integration, even if every number is finite. A reference run, if there is
 // one, gives the position error. If the energy balance is off, it also shows whether the energy or
 // only the dissipated energy is wrong.
@@ -85,8 +85,9 @@ class Judge {
   /// Judges the state at `time` s by its energy and its positions.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
   /// \param reference  at the same time, measured; null: none
+  /// \param supplied   `Integrator::suppliedEnergy()`, J
   const Verdict& judge(double time, const State& state, double dissipated,
-                       const ReferenceRun* reference);
+                       const ReferenceRun* reference, double supplied = 0.0);
 
   /// Judges the state by its energy only: the verdict is never `kNotChecked`. Does not allocate unless
   /// the verdict is bad.
@@ -94,6 +95,9 @@ class Judge {
 
   /// Discards all judged frames.
   void restart();
+
+  /// Continues with another chain; see EnergyBalance::change.
+  void change(const Chain& chain, const State& state, const JudgeOptions& options);
 
   const EnergyBalance& balance() const { return balance_; }
   /// The energy balance of the last judged state.
@@ -113,7 +117,7 @@ class Judge {
  private:
   void measure(const State& state, const ReferenceRun* reference);
   void noteTolerance(const ReferenceRun& reference);
-  Verdict energyVerdict(double time, const State& state, double dissipated);
+  Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
   /// Whether the last judged state has the energy of the reference.
   bool hasEnergyOf(const ReferenceRun* reference) const;
   Verdict positionVerdict(const ReferenceRun* reference) const;

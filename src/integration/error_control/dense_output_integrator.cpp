@@ -34,40 +34,47 @@ constexpr std::array<QuadraturePoint, 6> kGaussLegendre{
 }  // namespace
 
 DenseOutputIntegrator::DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
-                                             const std::optional<Chain>& dissipating)
+                                             const std::optional<Chain>& measured)
     : stepper_(std::move(stepper)) {
-  if (dissipating) dissipation_.emplace(*dissipating);
+  if (measured) quadrature_.emplace(*measured);
 }
 
-DenseOutputIntegrator::Dissipation::Dissipation(const Chain& chain)
+DenseOutputIntegrator::Quadrature::Quadrature(const Chain& chain)
     : constants(chain),
       kernels(fastestChainKernels(chain.size())),
       sample(chain.size()),
       padded_sample(chain.size()),
-      energies(chain.size()) {}
+      dissipated(chain.size()),
+      held_work(chain) {}
 
 void DenseOutputIntegrator::restart() {
   started_ = false;
-  dissipated_before_step_ = 0.0;
-  dissipated_in_step_ = 0.0;
+  before_step_ = in_step_ = {};
 }
 
-double DenseOutputIntegrator::dissipated(double fraction) {
-  if (!dissipation_) return 0.0;
-  Dissipation& d = *dissipation_;
-  d.energies.reset();
+DenseOutputIntegrator::Energies DenseOutputIntegrator::energiesOf(double fraction) {
+  if (!quadrature_) return {};
+  Quadrature& d = *quadrature_;
+  d.dissipated.reset();
+  d.held_work.reset();
   const double scale = 0.5 * fraction * step_length_ * d.constants.chain().spring.damping;
   for (const QuadraturePoint& point : kGaussLegendre) {
     stepper_->interpolate(0.5 * fraction * (1.0 + point.node), d.sample);
     d.padded_sample.values() = d.sample.values();
     d.kernels.addDissipation(d.constants.chain(), d.padded_sample.data(), scale * point.weight,
-                             d.energies.data());
+                             d.dissipated.data());
+    if (!d.held_work.isNeeded()) continue;
+    d.held_work.add(d.padded_sample, 0.5 * fraction * step_length_ * point.weight);
   }
-  return d.energies.total();
+  return {d.dissipated.total(), d.held_work.total()};
 }
 
 void DenseOutputIntegrator::takeStep() {
-  if (step_length_ > 0.0) dissipated_before_step_ += dissipated(1.0);
+  if (step_length_ > 0.0) {
+    const Energies energies = energiesOf(1.0);
+    before_step_.dissipated += energies.dissipated;
+    before_step_.supplied += energies.supplied;
+  }
   step_length_ = stepper_->step();
   shortest_steps_ = step_length_ > kShortestStep ? 0 : shortest_steps_ + 1;
   diverged_ = !(step_length_ > 0.0) || shortest_steps_ > kMostShortestSteps;
@@ -112,7 +119,7 @@ std::int64_t DenseOutputIntegrator::advanceWithin(State& state, double time_step
   }
   const double fraction = std::min((output_time - step_begin_) / step_length_, 1.0);
   stepper_->interpolate(fraction, state);
-  dissipated_in_step_ = dissipated(fraction);
+  in_step_ = energiesOf(fraction);
   return steps;
 }
 

@@ -10,6 +10,7 @@
 #include "integration/error_control/dense_output_stepper.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/dissipated_energy.hpp"
+#include "integration/kernels/held_work.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/work.hpp"
@@ -24,9 +25,10 @@ namespace spring_pendulum {
 
 class DenseOutputIntegrator final : public Integrator {
  public:
-  /// \param dissipating the chain if the dissipated energy is tracked, else nothing
+  /// \param measured the chain if the dissipated energy is tracked or other particles than P_1 are
+  ///   held, else nothing
   explicit DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
-                                 const std::optional<Chain>& dissipating = {});
+                                 const std::optional<Chain>& measured = {});
 
   /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
   /// as often with half the time_step gives the same bits at the common times. If time_step differs
@@ -41,7 +43,8 @@ class DenseOutputIntegrator final : public Integrator {
                              double most_work) override;
   double work() const override { return kTaylorTime.of(particles_) * statistics().work(); }
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
-  double dissipatedEnergy() const override { return dissipated_before_step_ + dissipated_in_step_; }
+  double dissipatedEnergy() const override { return before_step_.dissipated + in_step_.dissipated; }
+  double suppliedEnergy() const override { return before_step_.supplied + in_step_.supplied; }
   void restart() override;
   std::string report() const override { return stepper_->report(); }
 
@@ -49,21 +52,26 @@ class DenseOutputIntegrator final : public Integrator {
 
  private:
   void takeStep();
-  /// Returns the energy dissipated in the first `fraction` of the last step, J.
-  double dissipated(double fraction);
+  struct Energies {
+    double dissipated = 0.0;  ///< J
+    double supplied = 0.0;    ///< J
+  };
+  /// Returns the energies of the first `fraction` of the last step.
+  Energies energiesOf(double fraction);
 
   std::unique_ptr<DenseOutputStepper> stepper_;
-  /// Workspace for the dissipated energy.
-  struct Dissipation {
-    explicit Dissipation(const Chain& chain);
+  /// Workspace for the dissipated and the supplied energy.
+  struct Quadrature {
+    explicit Quadrature(const Chain& chain);
 
     KernelConstants constants;
     const ChainKernels& kernels;
     State sample;
     StateBuffer padded_sample;
-    DissipatedEnergy energies;
+    DissipatedEnergy dissipated;
+    HeldWork held_work;
   };
-  std::optional<Dissipation> dissipation_;
+  std::optional<Quadrature> quadrature_;
   bool started_ = false;
   std::ptrdiff_t particles_ = 0;  ///< size of the initial state
   bool diverged_ = false;
@@ -74,8 +82,8 @@ class DenseOutputIntegrator final : public Integrator {
   double step_begin_ = 0.0;     ///< s since the start
   double step_length_ = 0.0;    ///< s
   double step_end_ = 0.0;       ///< s since the start
-  double dissipated_before_step_ = 0.0;
-  double dissipated_in_step_ = 0.0;  ///< up to the last output time
+  Energies before_step_;
+  Energies in_step_;  ///< up to the last output time
 };
 
 }  // namespace spring_pendulum

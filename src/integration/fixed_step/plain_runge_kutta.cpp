@@ -13,6 +13,7 @@ PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& table
       constants_(chain),
       kernels_(kernels),
       dissipated_(chain.size()),
+      held_work_(chain),
       state_(chain.size()),
       stage_(chain.size()) {
   for (std::size_t i = 0; i < tableau.stages; ++i) slopes_.emplace_back(chain.size());
@@ -33,6 +34,7 @@ void PlainRungeKutta::step(double time_step) {
                      stage_.data());
     kernels_.stageSlope(constants_.chain(), stage_.data(), {}, slopes_[i].data());
     ++force_evaluations_;
+    if (held_work_.isNeeded()) held_work_.add(stage_, time_step * tableau_.b[i]);
     if (track_dissipation_ && damping_ != 0.0 && tableau_.b[i] != 0.0) {
       const double weight = time_step * tableau_.b[i] * damping_;
       kernels_.addDissipation(constants_.chain(), stage_.data(), weight, dissipated_.data());

@@ -5,6 +5,7 @@
 
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/dissipated_energy.hpp"
+#include "integration/kernels/held_work.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/work.hpp"
@@ -28,7 +29,11 @@ class PlainRungeKutta : public Integrator {
   }
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
   double dissipatedEnergy() const override { return dissipated_.total(); }
-  void restart() override { dissipated_.reset(); }
+  double suppliedEnergy() const override { return held_work_.total(); }
+  void restart() override {
+    dissipated_.reset();
+    held_work_.reset();
+  }
 
  private:
   void step(double time_step);
@@ -39,6 +44,7 @@ class PlainRungeKutta : public Integrator {
   KernelConstants constants_;
   const ChainKernels& kernels_;
   DissipatedEnergy dissipated_;
+  HeldWork held_work_;
   StateBuffer state_;
   StateBuffer stage_;                ///< z_n + h sum a_ij k_j
   std::vector<StateBuffer> slopes_;  ///< k_i, one per stage

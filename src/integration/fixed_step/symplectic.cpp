@@ -12,10 +12,12 @@ SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
       constants_(chain_),
       kernels_(fastestChainKernels()),
       current_(chain.size()),
-      dissipated_(chain.size()) {}
+      dissipated_(chain.size()),
+      held_work_(chain) {}
 
 void SymplecticMethod::restart() {
   dissipated_.reset();
+  held_work_.reset();
   forget();
 }
 
@@ -24,14 +26,16 @@ void SymplecticMethod::advance(State& state, double time_step, std::int64_t step
   state.velocities().row(0).setZero();
   current_.values() = state.values();
   for (std::int64_t n = 0; n < steps; ++n) {
-    if (track_dissipation_) addDissipation(0.5 * time_step);
+    addPowers(0.5 * time_step);
     step(time_step);
-    if (track_dissipation_) addDissipation(0.5 * time_step);
+    addPowers(0.5 * time_step);
   }
   state.values() = current_.values();
 }
 
-void SymplecticMethod::addDissipation(double time) {
+void SymplecticMethod::addPowers(double time) {
+  if (held_work_.isNeeded()) held_work_.add(current_, time);
+  if (!track_dissipation_) return;
   kernels_.addDissipation(constants_.chain(), current_.data(), time * chain_.spring().damping,
                           dissipated_.data());
 }

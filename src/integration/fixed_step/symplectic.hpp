@@ -22,6 +22,7 @@
 
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/dissipated_energy.hpp"
+#include "integration/kernels/held_work.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/work.hpp"
@@ -32,8 +33,8 @@
 
 namespace spring_pendulum {
 
-/// Base class with workspace, counters, and the dissipated energy, which is integrated with the
-/// trapezoidal rule over each step.
+/// Base class with workspace, counters, and the dissipated and supplied energies, which are integrated
+/// with the trapezoidal rule over each step.
 class SymplecticMethod : public Integrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
@@ -42,6 +43,7 @@ class SymplecticMethod : public Integrator {
   }
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
   double dissipatedEnergy() const final { return dissipated_.total(); }
+  double suppliedEnergy() const final { return held_work_.total(); }
   void restart() final;
 
  protected:
@@ -62,8 +64,8 @@ class SymplecticMethod : public Integrator {
   void drift(StateBuffer& state, double weight) const;
 
  private:
-  /// Adds the current dissipated power times `time` s.
-  void addDissipation(double time);
+  /// Adds the current powers, dissipated and supplied, times `time` s.
+  void addPowers(double time);
 
   Chain chain_;
   bool track_dissipation_;
@@ -71,6 +73,7 @@ class SymplecticMethod : public Integrator {
   const ChainKernels& kernels_;
   StateBuffer current_;
   DissipatedEnergy dissipated_;
+  HeldWork held_work_;
   std::int64_t force_evaluations_ = 0;
 };
 

@@ -212,11 +212,11 @@ void RadauStepper::computeResiduals() {
     Row right_x{}, right_y{};
     if (i < springs_.size()) springForces(i, right_x, right_y);
     const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
-    const double weight = mass * chain().gravity();
+    const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
     Row fx, fy;
     for (std::size_t s = 0; s < kStages; ++s) {
-      fx[s] = right_x[s] - left_x[s];
-      fy[s] = (right_y[s] - left_y[s]) - weight;
+      fx[s] = (right_x[s] - left_x[s]) + mass * fall.x;
+      fy[s] = (right_y[s] - left_y[s]) + mass * fall.y;
     }
     const Increments& increments = stages_.particles[i];
     real_.setRightHandSide(i, mass, increments, fx, fy);
@@ -303,10 +303,10 @@ double RadauStepper::filteredError(bool corrected) {
       right = {q * (force.x + change.x), q * (force.y + change.y)};
     }
     const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
-    const double fall = q * chain().gravity();
+    const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
     const Increments& stage = stages_.particles[i];
-    real_.x[i] = mass * radau::dot(radau::kError, stage.vx) + (right.x - left.x);
-    real_.y[i] = mass * (radau::dot(radau::kError, stage.vy) - fall) + (right.y - left.y);
+    real_.x[i] = mass * (radau::dot(radau::kError, stage.vx) + q * fall.x) + (right.x - left.x);
+    real_.y[i] = mass * (radau::dot(radau::kError, stage.vy) + q * fall.y) + (right.y - left.y);
     here = next;
     left = right;
   }

@@ -79,10 +79,24 @@ const ChainKernels& fastestChainKernels(std::ptrdiff_t particles) {
   return prefers_shorter ? *supported[1] : *supported.front();
 }
 
+AlignedNumbers driveColumns(const Chain& chain) {
+  if (!chain.isDriven()) return {};
+  const std::ptrdiff_t pitch = StateBuffer::pitchFor(chain.size());
+  AlignedNumbers columns(2 * pitch);
+  for (std::ptrdiff_t i = 1; i < chain.size(); ++i) {
+    const PlaneVector<double> acceleration = chain.springlessAcceleration(i);
+    columns[i - 1] = acceleration.x;
+    columns[pitch + i - 1] = acceleration.y;
+  }
+  return columns;
+}
+
 KernelConstants::KernelConstants(const Chain& chain) {
   const bool equal = chain.equalMasses() && chain.size() > 1;
   chain_.spring = chain.spring();
-  chain_.gravity = chain.gravity();
+  chain_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
+  drive_ = driveColumns(chain);
+  chain_.drive = chain.isDriven() ? drive_.data() : nullptr;
   chain_.mass_stride = equal ? 0 : 1;
   chain_.size = chain.size();
   chain_.pitch = StateBuffer::pitchFor(chain.size());

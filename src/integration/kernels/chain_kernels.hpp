@@ -29,7 +29,10 @@ inline constexpr std::ptrdiff_t kFirstMoving = 8;
 /// particle i is element c * pitch + kFirstMoving + i.
 struct KernelChain {
   SpringLaw spring;
-  double gravity = 0.0;  ///< m/s²
+  double gravity = 0.0;  ///< m/s²; 0 with a drive
+  /// Springless accelerations (x, y) of the particles of a driven chain after the first, m/s²: two
+  /// columns, `pitch` apart; else null
+  const double* drive = nullptr;
   /// Of the N - 1 moving particles, 1/kg, or 8 equal numbers if `mass_stride` is 0
   const double* inverse_masses = nullptr;
   std::ptrdiff_t mass_stride = 1;  ///< 1, or 0 if all moving particles have the same mass

@@ -21,7 +21,11 @@ class KernelConstants {
 
  private:
   AlignedNumbers inverse_masses_;
+  AlignedNumbers drive_;
   KernelChain chain_;
 };
+
+/// Returns the columns of `KernelChain::drive`, empty if the chain is not driven.
+AlignedNumbers driveColumns(const Chain& chain);
 
 }  // namespace spring_pendulum

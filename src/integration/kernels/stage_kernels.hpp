@@ -27,6 +27,13 @@ constexpr double kNoLength = 1e-12;
   return result;
 }
 
+/// to += from, for a number of blocks
+inline void addTo(std::ptrdiff_t blocks, const double* from, double* to) {
+  for (std::ptrdiff_t first = 0; first < blocks * kLanes; first += kLanes) {
+    (Pack::load(to + first) + Pack::load(from + first)).store(to + first);
+  }
+}
+
 // Local copy of the chain: through the reference it would be reloaded after every store.
 template <bool kDamped>
 void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum sum,
@@ -47,8 +54,14 @@ void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum 
 }
 
 void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, double* slope) {
-  if (chain.spring.damping == 0.0) return stageSlope<false>(chain, state, sum, slope);
-  stageSlope<true>(chain, state, sum, slope);
+  const auto spring_slope = chain.spring.damping == 0.0 ? stageSlope<false> : stageSlope<true>;
+  spring_slope(chain, state, sum, slope);
+  if (chain.drive == nullptr) return;
+  double* velocities = slope + 2 * chain.pitch + kFirstMoving;
+  for (int column = 0; column < 2; ++column) {
+    addTo(blocksOf(chain.size), chain.drive + column * chain.pitch,
+          velocities + column * chain.pitch);
+  }
 }
 
 void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out) {

@@ -9,6 +9,8 @@
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -278,10 +280,36 @@ template <Index n, Index kBlocks>
   finish(blocks - 1, {});
 }
 
+/// Adds the drive to coefficient 0 of the accelerations and, as differences of neighbours, to
+/// coefficient 2 of the separations.
+inline void addDrive(const TaylorWorkspace& work) {
+  const double* drive_x = work.drive;
+  const double* drive_y = drive_x + work.pitch;
+  PlaneVector<Pack> left{};
+  for (Index block = 0; block < blocksOf(work.size); ++block) {
+    const Index first = block * kLanes;
+    const PlaneVector<Pack> here{Pack::load(drive_x + first), Pack::load(drive_y + first)};
+    double* accelerations = work.accelerations + first;
+    (Pack::load(accelerations) + here.x).store(accelerations);
+    (Pack::load(accelerations + work.pitch) + here.y).store(accelerations + work.pitch);
+    SpringSeries spring(work, block);
+    const PlaneVector<Pack> separation = spring.separation(2);
+    spring.setSeparation(2, {separation.x + 0.5 * (here.x - leftNeighbours(left.x, here.x)),
+                             separation.y + 0.5 * (here.y - leftNeighbours(left.y, here.y))});
+    left = here;
+  }
+}
+
 template <Index kBlocks, Index... n>
 [[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work,
                                              std::integer_sequence<Index, n...> /*orders*/) {
-  (void)((n < work.order && (addOrder<n, kBlocks>(work), true)) && ...);
+  const auto add = [&](auto order) {
+    addOrder<order, kBlocks>(work);
+    if constexpr (order == 0 && kBlocks == 0) {
+      if (work.drive != nullptr) addDrive(work);
+    }
+  };
+  (void)((n < work.order && (add(std::integral_constant<Index, n>()), true)) && ...);
 }
 
 template <Index kBlocks>
@@ -294,7 +322,7 @@ void seriesOf(const TaylorWorkspace& work, const double* state) {
 // chain of one block keeps its coefficients in registers.
 void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
   const TaylorWorkspace work = callers_work;
-  if (blocksOf(work.size) == 1) return seriesOf<1>(work, state);
+  if (blocksOf(work.size) == 1 && work.drive == nullptr) return seriesOf<1>(work, state);
   seriesOf<0>(work, state);
 }
 

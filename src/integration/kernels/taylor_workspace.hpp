@@ -13,7 +13,8 @@ inline constexpr std::ptrdiff_t kLargestTaylorOrder = 14;
 /// columns are padded to `pitch`; the padding holds springs that exert no force.
 struct TaylorWorkspace {
   SpringLaw spring;
-  double gravity = 0.0;                         ///< m/s²
+  double gravity = 0.0;                         ///< m/s²; 0 with a drive
+  const double* drive = nullptr;                ///< as in `KernelChain`
   const double* inverse_masses = nullptr;       ///< of the moving particles, 1/kg; 0 if padding
   const double* left_inverse_masses = nullptr;  ///< of their left neighbours, 1/kg; 0 if fixed
   std::ptrdiff_t size = 0;                      ///< N >= 1 particles

@@ -1,5 +1,7 @@
 #include "integration/taylor/taylor_expansion.hpp"
 
+#include "integration/kernels/kernel_constants.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,7 +22,9 @@ constexpr auto kReciprocals = [] {
 
 TaylorExpansion::TaylorExpansion(const Chain& chain, int order) {
   work_.spring = chain.spring();
-  work_.gravity = chain.gravity();
+  work_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
+  drive_ = driveColumns(chain);
+  work_.drive = chain.isDriven() ? drive_.data() : nullptr;
   work_.size = chain.size();
   work_.pitch = StateBuffer::pitchFor(chain.size());
   work_.order = order;

@@ -21,6 +21,7 @@ class TaylorExpansion {
  private:
   AlignedNumbers inverse_masses_;
   AlignedNumbers left_inverse_masses_;
+  AlignedNumbers drive_;
   AlignedNumbers springs_;
   AlignedNumbers accelerations_;
   TaylorWorkspace work_;

@@ -53,6 +53,7 @@ bool TaylorStepper::fallsFreely(Eigen::Index spring) const {
 
 // The springs beyond the computed part fell freely in the last step and still do.
 void TaylorStepper::skipFreeEnd() {
+  if (chain_.isDriven()) return;
   Eigen::Index first = work_.size - 1;
   while (first > 1 && fallsFreely(first - 1)) --first;
   const Eigen::Index moving = StateBuffer::paddedSize(first + work_.order + 1);

@@ -1,0 +1,52 @@
+// The work that holders of particles do on a chain, integrated along with the motion.
+#pragma once
+
+#include "integration/kernels/state_buffer.hpp"
+#include <spring_pendulum/model/chain.hpp>
+
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Sums the work done on the held particles of a chain other than P_1, which is at rest where
+/// integrators compute. Free of cost without such particles.
+class HeldWork {
+ public:
+  explicit HeldWork(const Chain& chain) : spring_(chain.spring()) {
+    for (Eigen::Index i = 1; i < chain.size(); ++i) {
+      if (chain.isHeld(i)) held_.push_back(i);
+    }
+  }
+
+  bool isNeeded() const { return !held_.empty(); }
+  void reset() { work_ = 0.0; }
+  double total() const { return work_; }  ///< J
+
+  /// Adds the power at a state times `time` s.
+  void add(const StateBuffer& state, double time) {
+    const Eigen::Index pitch = state.pitch();
+    double power = 0.0;
+    for (const Eigen::Index i : held_) {
+      const double* z = state.particle(i);
+      const auto add_spring = [&](Eigen::Index other) {
+        const auto difference = [&](Eigen::Index column) {
+          return z[column * pitch + other] - z[column * pitch];
+        };
+        const PlaneVector<double> separation{difference(0), difference(1)};
+        const PlaneVector<double> relative_velocity{difference(2), difference(3)};
+        const PlaneVector<double> force = springForce(spring_, separation, relative_velocity);
+        power -= force.x * z[2 * pitch] + force.y * z[3 * pitch];
+      };
+      add_spring(-1);
+      if (i + 1 < state.size()) add_spring(1);
+    }
+    work_ += time * power;
+  }
+
+ private:
+  SpringLaw spring_;
+  std::vector<Eigen::Index> held_;
+  double work_ = 0.0;
+};
+
+}  // namespace spring_pendulum

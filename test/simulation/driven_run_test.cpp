@@ -1,0 +1,280 @@
+// Held particles, applied forces and changes of a run, against solutions with 113 bits.
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/precise_motion.hpp"
+#include "support/scenes.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using test::PreciseMotion;
+using test::Scene;
+
+constexpr double kInterval = 0.02;  // s between two inputs: 50 Hz
+
+/// Acceleration of a hand that moves about, in the input interval k.
+PlaneVector<double> handAcceleration(int k, double phase) {
+  const double t = kInterval * k;
+  return {0.4 * std::sin(2.1 * t + phase) + 3.0 * std::cos(5.3 * t),
+          0.9 * std::cos(3.7 * t - phase) - 2.0 * std::sin(6.1 * t + phase)};
+}
+
+Scene slackCable(Eigen::Index particles, double mass) {
+  Scene scene = test::horizontalChain("slack cable", particles, mass);
+  scene.start.x() *= 0.8;
+  return scene;
+}
+
+Scenario scenarioOf(const std::string& method, const Scene& scene) {
+  Scenario scenario;
+  scenario.method = findMethod(method);
+  scenario.stiffness = scene.chain.spring().stiffness;
+  scenario.damping = scene.chain.spring().damping;
+  scenario.rest_length = scene.chain.spring().rest_length;
+  scenario.gravity = scene.chain.gravity();
+  scenario.frames = 1000000;
+  scenario.steps_per_frame = 2;
+  scenario.time_step = 0.5 * kInterval;
+  scenario.frame_interval = kInterval;
+  return scenario;
+}
+
+/// A run and the precise motion, both driven in the same way.
+struct DrivenPair {
+  DrivenPair(const Scenario& scenario, const Scene& scene)
+      : run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}}),
+        integrator(run.makeIntegrator()),
+        precise(scene) {
+    run.advance(*integrator);
+  }
+
+  void drive(const Drive& drive) {
+    run.change(run.scenario(), drive, run.state(), integrator);
+    precise.drive(run.chain());
+  }
+
+  void advance() {
+    run.advance(*integrator);
+    precise.advance(kInterval);
+  }
+
+  double error() const { return precise.errorOf(run.state()); }
+
+  Run run;
+  std::unique_ptr<Integrator> integrator;
+  PreciseMotion precise;
+};
+
+/// Drives both ends of a cable, and a particle inside in between, like three hands.
+void moveHands(DrivenPair& pair, int inputs) {
+  const std::ptrdiff_t last = pair.run.chain().size() - 1;
+  for (int k = 0; k < inputs; ++k) {
+    Drive drive{{{0, handAcceleration(k, 0.0)}, {last, handAcceleration(k, 2.0)}}, {}};
+    if (k >= 20 && k < 60) drive.held.push_back({last / 3, handAcceleration(k, 4.0)});
+    if (k >= 40 && k < 50) drive.forces.push_back({last / 2, {3.0, -5.0}});
+    pair.drive(drive);
+    pair.advance();
+  }
+}
+
+std::vector<std::string> errorControlled() {
+  std::vector<std::string> names;
+  for (const Method& method : methodTable()) {
+    if (!method.hasFixedStep()) names.push_back(method.name);
+  }
+  return names;
+}
+
+class DrivenErrorControlled : public testing::TestWithParam<std::string> {};
+
+TEST_P(DrivenErrorControlled, KeepsTheTolerance) {
+  const Scene scene = slackCable(7, 1.0);
+  for (const double tolerance : {1e-5, 1e-9}) {
+    Scenario scenario = scenarioOf(GetParam(), scene);
+    scenario.tolerance = tolerance;
+    DrivenPair pair(scenario, scene);
+    moveHands(pair, 150);
+    EXPECT_LE(pair.error(), 10.0 * tolerance) << tolerance;
+    EXPECT_GT(pair.error(), 0.0);
+    const EnergyEntry entry = pair.run.energyEntry();
+    EXPECT_GT(std::abs(entry.supplied), 1.0);
+    EXPECT_LE(std::abs(entry.relative_residual.value()), tolerance);
+    EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kNotChecked) << pair.run.verdict().text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllMethods, DrivenErrorControlled, testing::ValuesIn(errorControlled()));
+
+TEST(DrivenRun, FollowsLightParticlesWithAuto) {
+  const Scene scene = slackCable(5, 1e-3);
+  Scenario scenario = scenarioOf("Auto", scene);
+  DrivenPair pair(scenario, scene);
+  moveHands(pair, 25);
+  EXPECT_LE(pair.error(), 10.0 * scenario.tolerance);
+  EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6);
+}
+
+double errorOf(const Scene& scene, const std::string& method, std::int64_t steps,
+               double* residual = nullptr) {
+  Scenario scenario = scenarioOf(method, scene);
+  scenario.steps_per_frame = steps;
+  scenario.time_step = kInterval / static_cast<double>(steps);
+  DrivenPair pair(scenario, scene);
+  moveHands(pair, 100);
+  if (residual) *residual = std::abs(pair.run.energyEntry().relative_residual.value());
+  return pair.error();
+}
+
+TEST(DrivenRun, HasTheOrderOfItsMethod) {
+  const Scene scene = slackCable(7, 1.0);
+  for (const auto& [method, order, steps] : {std::tuple{"Euler", 1, 64},
+                                             {"Runge-Kutta-2", 2, 4},
+                                             {"Runge-Kutta-4", 4, 2},
+                                             {"Semi-Implicit-Euler", 1, 64},
+                                             {"Velocity-Verlet", 2, 4}}) {
+    double residual = 0.0, half_residual = 0.0;
+    const double error = errorOf(scene, method, steps, &residual);
+    const double half = errorOf(scene, method, 2 * steps, &half_residual);
+    EXPECT_NEAR(std::log2(error / half), order, 0.25) << method << ": " << error;
+    EXPECT_GT(std::log2(residual / half_residual), order - 0.75) << method << ": " << residual;
+  }
+}
+
+TEST(DrivenRun, ClosesTheEnergyBalanceOfRungeKutta4) {
+  double residual = 0.0;
+  errorOf(slackCable(7, 1.0), "Runge-Kutta-4", 8, &residual);
+  EXPECT_LE(residual, 1e-6);
+  EXPECT_GT(residual, 0.0);
+}
+
+TEST(DrivenRun, IsTheSameInOneCallOrInMany) {
+  const Scene scene = slackCable(7, 1.0);
+  const Drive drive{{{0, {0.3, -0.2}}, {4, {0.1, 0.5}}}, {{2, {1.0, 0.0}}}};
+  for (const Method& method : methodTable()) {
+    State one = scene.start, many = scene.start;
+    one.vx()[4] = many.vx()[4] = 0.7;
+    one.vy()[0] = many.vy()[0] = -0.4;
+    const auto a = makeIntegrator(method, scene.chain.drivenBy(drive));
+    const auto b = makeIntegrator(method, scene.chain.drivenBy(drive));
+    a->advance(one, 0.01, 50);
+    for (int i = 0; i < 10; ++i) b->advance(many, 0.01, 5);
+    EXPECT_EQ(one.values(), many.values()) << method.name;
+    EXPECT_EQ(a->suppliedEnergy(), b->suppliedEnergy()) << method.name;
+    // The prescribed motion is exact for every method.
+    EXPECT_NEAR(one.x()[4], scene.start.x()[4] + 0.7 * 0.5 + 0.5 * 0.1 * 0.25, 1e-15)
+        << method.name;
+    EXPECT_NEAR(one.y()[0], -0.4 * 0.5 - 0.5 * 0.2 * 0.25, 1e-15) << method.name;
+    EXPECT_NEAR(one.vy()[0], -0.4 - 0.2 * 0.5, 1e-15) << method.name;
+  }
+}
+
+TEST(DrivenRun, HangsFromAHeldParticleAsFromAnAnchor) {
+  const Scene scene = slackCable(7, 1.0);
+  Scene part{"part", Chain(Eigen::VectorXd::Ones(4), scene.chain.spring(), 9.81), State(4)};
+  part.start.values() = scene.start.values().bottomRows(4);
+  for (const char* method : {"Runge-Kutta-4", "Taylor-12", "Radau-9"}) {
+    State whole = scene.start, free = part.start;
+    makeIntegrator(method, scene.chain.drivenBy({{{3, {}}}, {}}))->advance(whole, 0.01, 200);
+    makeIntegrator(method, part.chain)->advance(free, 0.01, 200);
+    EXPECT_LE((whole.values().bottomRows(4) - free.values()).cwiseAbs().maxCoeff(), 1e-6) << method;
+    EXPECT_EQ(whole.x()[3], scene.start.x()[3]);
+  }
+}
+
+TEST(DrivenRun, MovesUnchangedInAFrameOfConstantVelocity) {
+  const Scene scene = test::horizontalChain("horizontal", 5, 1.0);
+  State rest = scene.start, moving = scene.start;
+  moving.vx().array() += 2.0;
+  makeIntegrator("Runge-Kutta-4", scene.chain)->advance(rest, 0.01, 300);
+  const auto integrator = makeIntegrator("Runge-Kutta-4", scene.chain.drivenBy({{{0, {}}}, {}}));
+  integrator->advance(moving, 0.01, 300);
+  moving.x().array() -= 2.0 * 3.0;
+  EXPECT_LE((rest.positions() - moving.positions()).cwiseAbs().maxCoeff(), 1e-12);  // 3e-14
+}
+
+TEST(DrivenRun, KeepsTheVelocityOfAReleasedParticle) {
+  const Scene scene = slackCable(5, 1.0);
+  DrivenPair pair(scenarioOf("Auto", scene), scene);
+  pair.drive({{{4, {2.0, 1.0}}}, {}});
+  for (int k = 0; k < 25; ++k) pair.advance();
+  const State held = pair.run.state();
+  EXPECT_NEAR(held.vx()[4], 2.0 * 0.5, 1e-14);
+  pair.drive({});
+  EXPECT_EQ(pair.run.state().values(), held.values());
+  for (int k = 0; k < 25; ++k) pair.advance();
+  EXPECT_LE(pair.error(), 1e-5);
+  EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6);
+}
+
+TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
+  const Scene scene = test::horizontalChain("horizontal", 6, 1.0);
+  DrivenPair pair(scenarioOf("Auto", scene), scene);
+  const auto go_on = [&] {
+    for (int k = 0; k < 30; ++k) pair.run.advance(*pair.integrator);
+    EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6);
+    EXPECT_FALSE(isBad(pair.run.verdict().kind)) << pair.run.verdict().text;
+  };
+  Scenario scenario = pair.run.scenario();
+  State state = pair.run.state();
+  for (const double factor : {0.0, 3.0}) {
+    go_on();
+    scenario.damping = factor;
+    scenario.gravity = -9.81 * factor;
+    scenario.stiffness = 200.0;
+    pair.run.change(scenario, {}, pair.run.state(), pair.integrator);
+  }
+  go_on();
+  state = pair.run.state();
+  state.vx()[5] += 3.0;
+  scenario.method = findMethod("Runge-Kutta-4");
+  scenario.rest_length = 0.5;
+  const double time = pair.run.time();
+  pair.run.change(scenario, {}, state, pair.integrator);
+  EXPECT_EQ(pair.run.time(), time);
+  pair.run.advance(*pair.integrator);
+  EXPECT_NEAR(pair.run.time(), time + kInterval, 1e-12);
+}
+
+TEST(DrivenRun, ReturnsToAMeasuredStart) {
+  const Scene scene = test::horizontalChain("horizontal", 4, 1.0);
+  DrivenPair pair(scenarioOf("Auto", scene), scene);
+  pair.drive({{{3, {1.0, 1.0}}}, {}});
+  pair.advance();
+  EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kNotChecked);
+  pair.run.change(pair.run.scenario(), {}, pair.run.start(), pair.integrator);
+  pair.run.reset(*pair.integrator);
+  EXPECT_EQ(pair.run.time(), 0.0);
+  for (int k = 0; k < 10; ++k) pair.run.advance(*pair.integrator);
+  EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kOk) << pair.run.verdict().text;
+  EXPECT_EQ(pair.run.energyEntry().supplied, 0.0);
+}
+
+TEST(DrivenRun, RefusesWhatAChainCannotDo) {
+  const Scene scene = slackCable(4, 1.0);
+  const double nan = std::nan("");
+  EXPECT_THROW(scene.chain.drivenBy({{{4, {}}}, {}}), InputError);
+  EXPECT_THROW(scene.chain.drivenBy({{{-1, {}}}, {}}), InputError);
+  EXPECT_THROW(scene.chain.drivenBy({{{1, {}}, {1, {}}}, {}}), InputError);
+  EXPECT_THROW(scene.chain.drivenBy({{{1, {nan, 0.0}}}, {}}), InputError);
+  EXPECT_THROW(scene.chain.drivenBy({{}, {{0, {1.0, 0.0}}}}), InputError);
+  EXPECT_THROW(scene.chain.drivenBy({{}, {{9, {1.0, 0.0}}}}), InputError);
+  EXPECT_THROW(scene.chain.drivenBy({{}, {{2, {0.0, nan}}}}), InputError);
+  DrivenPair pair(scenarioOf("Auto", scene), scene);
+  State state = scene.start;
+  state.x()[2] = nan;
+  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, state, pair.integrator), InputError);
+  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, State(3), pair.integrator), InputError);
+  Scenario scenario = pair.run.scenario();
+  scenario.stiffness = -1.0;
+  EXPECT_THROW(pair.run.change(scenario, {}, scene.start, pair.integrator), InputError);
+  EXPECT_EQ(pair.run.chain().spring().stiffness, scene.chain.spring().stiffness);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
