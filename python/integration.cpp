@@ -1,6 +1,7 @@
 // Chain, State and Integrator.
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "binding.hpp"
 
@@ -19,7 +21,6 @@ namespace {
 using namespace py::literals;
 
 constexpr double kWorkBetweenStops = 0.005;  // s, see Integrator::work
-const double kGravity = 9.81;
 
 Numbers finiteVector(const py::object& argument, const std::string& name) {
   Numbers numbers = toNumbers(argument, name, 1);
@@ -136,7 +137,7 @@ void defineChain(py::module_& module) {
                     "N particles joined by N - 1 equal springs; the first is fixed.")
       .def(py::init(make), "masses"_a, py::kw_only(), "stiffness"_a = kSpring.stiffness,
            "damping"_a = kSpring.damping, "rest_length"_a = kSpring.rest_length,
-           "gravity"_a = kGravity)
+           "gravity"_a = Scenario{}.gravity)
       .def_property_readonly("masses",
                              [](const py::object& self) {
                                const auto& chain = self.cast<const Chain&>();
@@ -219,6 +220,8 @@ void defineIntegrator(py::module_& module) {
       .def_property_readonly(
           "dissipated_energy",
           [](const PythonIntegrator& i) { return i.integrator().dissipatedEnergy(); })
+      .def_property_readonly("report",
+                             [](const PythonIntegrator& i) { return i.integrator().report(); })
       .def("__repr__",
            [](const PythonIntegrator& i) {
              return fmt::format("<Integrator {}, {} particles>", i.method().name, i.chain().size());

@@ -1,6 +1,7 @@
 // simulate, check and the table of options.
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/io/run_output.hpp>
 #include <spring_pendulum/simulation/option_list.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -8,11 +9,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <pybind11/stl.h>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -100,11 +102,12 @@ std::string particleText(const Numbers& rows) {
 /// \param particles a path or an array; sets `scenario.particles`
 Particles particlesOf(const py::object& particles, Scenario& scenario) {
   scenario.particles.clear();
-  if (!isPath(particles)) {
-    return parseParticles(particleText(toNumbers(particles, "particles", 2)), "particles");
+  if (isPath(particles)) {
+    scenario.particles = pathText(particles);
+    return readStart(scenario);
   }
-  scenario.particles = pathText(particles);
-  return readParticleFile(scenario.particles);
+  if (scenario.resume) throw InputError("resume: needs a file of save_state, not an array");
+  return parseParticles(particleText(toNumbers(particles, "particles", 2)), "particles");
 }
 
 double orNan(const std::optional<double>& number) {
@@ -161,10 +164,10 @@ py::tuple tupleOf(const Verdict& verdict) {
 }
 
 /// What Exercise3 prints as a warning at the end.
-std::string warningOf(const Run& run) {
+std::string warningOf(const Run& run, const std::function<bool()>& stop) {
   const Verdict& verdict = run.verdict();
   if (verdict.kind == VerdictKind::kDiverged) {
-    const std::string remedy = remedyForDivergence(run.chain(), run.start(), run.scenario());
+    const std::string remedy = remedyForDivergence(run.chain(), run.start(), run.scenario(), stop);
     return verdict.text + (remedy.empty() ? "" : "; " + remedy);
   }
   if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) return verdict.text;
@@ -188,18 +191,47 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
   Interruption interruption;
   Run run = makeRun(scenario, start, {true, 0.0, [&] { return interruption(); }});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
-  Recording recording(scenario.frames, run.chain().size());
+  Recording recording(scenario.frames - start.frame, run.chain().size());
+  RunOutput output(run);
+  std::string warning;
   {
     const Computation computation;
-    while (run.advance(*integrator)) recording.add(run);
+    while (run.advance(*integrator)) {
+      recording.add(run);
+      output.write(run);
+    }
+    output.finish();
+    if (!run.wasStopped()) warning = warningOf(run, [&] { return interruption(); });
   }
   interruption.raise();
   return py::dict("states"_a = recording.states(), "numbers"_a = recording.numbers(),
                   "chain"_a = run.chain(), "method"_a = scenario.method.get().name,
-                  "verdict"_a = tupleOf(run.verdict()), "warning"_a = warningOf(run),
+                  "verdict"_a = tupleOf(run.verdict()), "warning"_a = warning,
                   "seconds"_a = run.seconds(),
                   "force_evaluations"_a = integrator->forceEvaluations(),
-                  "closing_line"_a = run.closingLine(*integrator));
+                  "closing_line"_a = run.closingLine(*integrator, output.closingText()));
+}
+
+/// NaN becomes None.
+py::object orNone(double number) {
+  return std::isnan(number) ? py::object(py::none()) : py::float_(number);
+}
+
+py::tuple check(const py::object& particles, const py::dict& options) {
+  Scenario scenario = scenarioOf(options);
+  const Particles start = particlesOf(particles, scenario);
+  const Chain chain(start.masses, scenario.spring(), scenario.gravity);
+  Interruption interruption;
+  StabilityReport report;
+  {
+    const Computation computation;
+    report = checkStability(chain, start.state, scenario, [&] { return interruption(); });
+  }
+  interruption.raise();
+  return py::make_tuple(report.text,
+                        report.tried ? tupleOf(report.verdict) : py::object(py::none()),
+                        report.tried ? orNone(report.position_error.largest) : py::none(),
+                        orNone(report.limits.stable), orNone(report.limits.accurate));
 }
 
 }  // namespace
@@ -207,6 +239,8 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
 void defineSimulation(py::module_& module) {
   module.def("simulate", &simulate, "particles"_a, "options"_a,
              "Integrates particles (a path or an array) and returns the parts of a Run.");
+  module.def("check", &check, "particles"_a, "options"_a,
+             "Tries a run and returns the parts of a Report.");
   module.def(
       "options",
       [] {

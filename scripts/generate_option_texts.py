@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes what follows from the tables of options into launch/, config/ and docs/.
+"""Writes what follows from the tables of options into launch/, config/, docs/ and python/.
 
 Usage: generate_option_texts.py PROGRAM [check]
 PROGRAM prints the tables: test/support/option_table.cpp. With `check`, writes nothing and fails if a
@@ -78,12 +78,20 @@ def launch_parameter(option):
     return '    <param if="$(eval %s != \'unset\')" name="%s"%s value="$(arg %s)"/>\n' % (key, key, text, key)
 
 
+def keyword(option):
+    placeholder = option['placeholder']
+    types = {'FILE': '_Path', 'DIR': '_Path', 'METHOD': 'str', 'N': 'int', '': 'bool'}
+    choices = 'Literal[%s]' % ', '.join(map(repr, placeholder.split('|')))
+    return '    %s: %s = ...,\n' % (option['key'], choices if '|' in placeholder else types.get(placeholder, 'float'))
+
+
 # How an option is written, the tables of its options, and the head of the list.
 KINDS = {'yaml': (yaml_entry, 'run', ''),
          'options': (option_row, 'run', '| option | meaning | unit | default |\n|---|---|---|---|\n'),
          'parameters': (parameter_row, 'display play',
                         '| parameter | default | range | meaning |\n|---|---|---|---|\n'),
          'arguments': (launch_argument, 'run display play', ''),
+         'keywords': (keyword, 'run', ''),
          'params': (launch_parameter, 'run display play', '')}
 
 
@@ -100,7 +108,7 @@ def main(program, *check):
     lines = subprocess.run([program], check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
     options = [json.loads(line) for line in lines]
     has_ros = any(option['group'] == 'play' for option in options)
-    paths = ['config/pendulum.yaml', 'docs/exercise3.md']
+    paths = ['config/pendulum.yaml', 'docs/exercise3.md', 'python/spring_pendulum/_functions.pyi']
     if has_ros:
         paths += ['docs/ros.md', 'launch/pendulum.launch', 'launch/record.launch', 'launch/compare.launch']
     different = []

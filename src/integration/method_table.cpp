@@ -8,6 +8,7 @@
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/symplectic.hpp"
 #include "integration/implicit/radau_stepper.hpp"
+#include "integration/tableau.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
 #include "integration/taylor/taylor_stepper.hpp"
 #include <spring_pendulum/base/errors.hpp>
@@ -149,26 +150,6 @@ std::deque<Method>& mutableMethodTable() {
   return table;
 }
 
-void checkTableau(const Method& method) {
-  const ButcherTableau& tableau = *method.tableau;
-  if (tableau.stages < 1 || tableau.stages > ButcherTableau::kMaxStages) {
-    throw InputError(fmt::format("tableau of method '{}' has {} stages: must be 1 to {}",
-                                 method.name, tableau.stages, ButcherTableau::kMaxStages));
-  }
-  for (std::size_t i = 0; i < tableau.stages; ++i) {
-    bool explicit_row = std::isfinite(tableau.b[i]);
-    for (std::size_t j = 0; j < tableau.stages; ++j) {
-      explicit_row =
-          explicit_row && (j < i ? std::isfinite(tableau.a[i][j]) : tableau.a[i][j] == 0.0);
-    }
-    if (explicit_row) continue;
-    throw InputError(
-        fmt::format("stage {} of the tableau of method '{}': coefficients must be finite, and 0 on "
-                    "and above the diagonal",
-                    i + 1, method.name));
-  }
-}
-
 void checkMethod(const Method& method) {
   const auto refuse = [&](std::string_view what) {
     throw InputError(fmt::format("method '{}': {}", method.name, what));
@@ -185,7 +166,7 @@ void checkMethod(const Method& method) {
   }
   if (method.tableau == nullptr && !method.make) refuse("needs a tableau or a factory");
   if (method.tableau == nullptr) return;
-  checkTableau(method);
+  checkTableau(method.name, *method.tableau);
   if (!method.make && !method.hasFixedStep())
     refuse("a tableau without a factory is a fixed-step method");
   if (!method.make && static_cast<std::size_t>(method.stages) != method.tableau->stages) {

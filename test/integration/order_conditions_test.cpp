@@ -1,4 +1,4 @@
-#include "support/order_conditions.hpp"
+#include "integration/order_conditions.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>
 
@@ -6,9 +6,6 @@
 
 namespace spring_pendulum {
 namespace {
-
-using test::orderConditionResidual;
-using test::rootedTrees;
 
 TEST(RootedTrees, AreAsManyAsCayleyCounted) {
   EXPECT_EQ(rootedTrees(1).size(), 1U);

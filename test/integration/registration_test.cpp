@@ -1,4 +1,5 @@
 // Methods that a program registers.
+#include "integration/order_conditions.hpp"
 #include "io/program/command_line.hpp"
 #include "simulation/options/scenario_options.hpp"
 
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include "own_methods.hpp"
-#include "support/order_conditions.hpp"
 #include "support/reference.hpp"
 
 namespace spring_pendulum {
@@ -78,8 +78,8 @@ TEST(OwnMethods, HaveTheirOrder) {
 TEST(OwnMethods, PassTheOrderConditionsOfTheirTableau) {
   const ButcherTableau& tableau = *ownMethods()[0]->tableau;
   EXPECT_NE(&tableau, &kRalstonTableau);  // the table has a copy
-  EXPECT_LT(test::orderConditionResidual(tableau, tableau.b, 2), 1e-15);
-  EXPECT_GT(test::orderConditionResidual(tableau, tableau.b, 3), 1e-3);
+  EXPECT_LT(orderConditionResidual(tableau, tableau.b, 2), 1e-15);
+  EXPECT_GT(orderConditionResidual(tableau, tableau.b, 3), 1e-3);
 }
 
 TEST(OwnMethods, GetStabilityAdvice) {

@@ -13,8 +13,10 @@
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #pragma GCC visibility push(default)
@@ -40,8 +42,25 @@ StepLimits findStepLimits(const Method& method, const Chain& chain, const State&
 /// and for error-controlled methods, 0 if none is known.
 double linearStepLimit(const Method& method, const Chain& chain, double duration);
 
-/// The text that `--check` prints: one or more lines.
+/// What `--check` finds out.
+struct StabilityReport {
+  std::string text;              ///< that `--check` prints: one or more lines
+  bool tried = false;            ///< whether the run was tried; if not, the next two are unset
+  Verdict verdict;               ///< on the trial
+  PositionError position_error;  ///< of the trial
+  /// Of a fixed-step method. If the run takes too long to be tried, `stable` is `linearStepLimit`. NaN if
+  /// not known, and for error-controlled methods.
+  StepLimits limits = {std::numeric_limits<double>::quiet_NaN(),
+                       std::numeric_limits<double>::quiet_NaN()};
+};
+
+/// Tries a run and finds the largest step sizes.
+/// \param stop asked during the trials; when it returns true, the report is incomplete
 /// \throws InputError for a value of the scenario out of its range
+StabilityReport checkStability(const Chain& chain, const State& start, const Scenario& scenario,
+                               const std::function<bool()>& stop = {});
+
+/// Returns `checkStability(...).text`.
 std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario);
 
 /// One line if the time step is clearly above the stability limit of the method, whatever the

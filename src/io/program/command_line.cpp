@@ -3,10 +3,10 @@
 #include "base/spelling.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/option_file.hpp"
-#include "io/formats/state_file.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/io/run_output.hpp>
 
 #include <boost/program_options/errors.hpp>
 #include <boost/program_options/options_description.hpp>
@@ -253,8 +253,7 @@ Particles readParticles(const Scenario& scenario, std::string_view argument) {
     throw FileError(fmt::format("{}: no such file; give a particle file with {}",
                                 fullPath(scenario.particles), argument));
   }
-  if (scenario.resume) return readStateFile(scenario);
-  return readParticleFile(scenario.particles);
+  return readStart(scenario);
 }
 
 }  // namespace spring_pendulum

@@ -1,13 +1,13 @@
 #include "simulation/advice/linear_stability.hpp"
 
 #include "base/checks.hpp"
+#include "integration/tableau.hpp"
 #include "model/chain_modes.hpp"
 #include "simulation/advice/step_search.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -34,26 +34,17 @@ constexpr double kClearShare = 0.6;
 
 /// Returns R(z) - 1.
 Complex increment(const Method& method, Complex z) {
+  if (method.tableau != nullptr) return stabilityIncrement(*method.tableau, z);
   Complex sum = 0.0;
-  if (method.tableau == nullptr) {
-    Complex term = 1.0;
-    const int stages = std::min(method.order, kMostStages);
-    for (int i = 1; i <= stages; ++i) sum += term *= z / static_cast<double>(i);
-    return sum;
-  }
-  std::array<Complex, ButcherTableau::kMaxStages> slopes{};
-  for (std::size_t i = 0; i < method.tableau->stages; ++i) {
-    slopes[i] = z;
-    for (std::size_t j = 0; j < i; ++j) slopes[i] += z * method.tableau->a[i][j] * slopes[j];
-    sum += method.tableau->b[i] * slopes[i];
-  }
+  Complex term = 1.0;
+  const int stages = std::min(method.order, kMostStages);
+  for (int i = 1; i <= stages; ++i) sum += term *= z / static_cast<double>(i);
   return sum;
 }
 
 /// Returns ln |R(z)|.
 double growthOf(const Method& method, Complex z) {
-  const Complex w = increment(method, z);
-  return 0.5 * std::log1p(2.0 * w.real() + std::norm(w));
+  return spring_pendulum::growthOf(increment(method, z));
 }
 
 /// Returns ln of the spectral radius of Semi-Implicit-Euler, whose two limits are 2, with hω and hc

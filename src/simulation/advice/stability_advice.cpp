@@ -145,36 +145,49 @@ StepLimits findStepLimits(const Method& method, const Chain& chain, const State&
   return stepLimits(TrialBench(chain, start, duration, frame_interval), method, first);
 }
 
-std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
+StabilityReport checkStability(const Chain& chain, const State& start, const Scenario& scenario,
+                               const std::function<bool()>& stop) {
   requireSize(chain.size(), start.size());
   checkScenario(scenario);
   const Method& method = scenario.method;
   const bool fixed = method.hasFixedStep();
-  const TrialBench bench = benchFor(chain, start, scenario);
+  const TrialBench bench = benchFor(chain, start, scenario, TrialBench::kMostWork, stop);
   const double least = fixed ? bench.leastStep(method) : 0.0;
+  StabilityReport report;
   Trial trial;
   if (!fixed || scenario.time_step >= least) trial = bench.run(scenario, ReferenceUse::kAuto);
   if (!trial.finished) {
-    if (!fixed) return fmt::format("{}: takes too long to try\n", method.name);
-    return fmt::format(
+    report.text = fmt::format("{}: takes too long to try\n", method.name);
+    if (!fixed) return report;
+    report.limits.stable = linearStepLimit(method, chain, bench.duration());
+    report.text = fmt::format(
         "{}: too many particles and steps to try; linear estimate of the largest stable step size: "
         "{}\n",
-        method.name, stepText(linearStepLimit(method, chain, bench.duration())));
+        method.name, stepText(report.limits.stable));
+    return report;
   }
-  std::string text =
+  report.tried = true;
+  report.verdict = trial.verdict;
+  report.position_error = trial.position_error;
+  report.text =
       fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
                   settingText(method, numberText(fixed ? scenario.time_step : scenario.tolerance)),
                   bench.duration(), trial.verdict.text, trial.measurements);
   if (fixed) {
-    const StepLimits limits = stepLimits(bench, method, scenario.time_step);
-    text += fmt::format("largest stable step size: {}\nlargest accurate step size: {}\n",
-                        limitText(limits.stable, least), limitText(limits.accurate, least));
+    report.limits = stepLimits(bench, method, scenario.time_step);
+    report.text += fmt::format("largest stable step size: {}\nlargest accurate step size: {}\n",
+                               limitText(report.limits.stable, least),
+                               limitText(report.limits.accurate, least));
   }
   if (scenario.wanted_error > 0.0) {
     const double first = fixed ? scenario.time_step : Scenario{}.time_step;
-    text += cheapestFor(bench, first, scenario.wanted_error);
+    report.text += cheapestFor(bench, first, scenario.wanted_error);
   }
-  return text;
+  return report;
+}
+
+std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
+  return checkStability(chain, start, scenario).text;
 }
 
 std::string stabilityWarning(const Chain& chain, const Scenario& scenario, const State* start) {

@@ -1,6 +1,7 @@
 #include "integration/embedded/embedded_pair.hpp"
 
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
+#include "integration/order_conditions.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>
@@ -11,13 +12,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "support/order_conditions.hpp"
 #include "support/reference.hpp"
 
 namespace spring_pendulum {
 namespace {
 
-using test::orderConditionResidual;
 using test::referenceScene;
 using test::Scene;
 

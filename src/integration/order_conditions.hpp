@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace spring_pendulum::test {
+namespace spring_pendulum {
 
 /// A rooted tree as the list of its root's subtrees.
 struct Tree {
@@ -87,4 +87,4 @@ double orderConditionResidual(const ButcherTableau& tableau, const Weights& b, i
   return largest;
 }
 
-}  // namespace spring_pendulum::test
+}  // namespace spring_pendulum

@@ -1,0 +1,79 @@
+"""simulate and check. Their keywords, defaults and documentation come from the option table."""
+import inspect
+import textwrap
+import warnings
+
+from . import _core
+from ._run import Report, Run
+
+
+def _default(text, is_text, is_flag, is_count):
+    if is_text:
+        return text
+    return text == 'true' if is_flag else int(text) if is_count else float(text)
+
+
+def _with_options(function):
+    """Completes signature and documentation of a function of particles and options."""
+    parameters, lines = [], []
+    for key, text, unit, accepted, meaning, users, *kinds in _core.options():
+        default = _default(text, *kinds)
+        is_first = key == 'particles'
+        kind = inspect.Parameter.POSITIONAL_OR_KEYWORD if is_first else inspect.Parameter.KEYWORD_ONLY
+        parameters.insert(0 if is_first else len(parameters), inspect.Parameter(key, kind, default=default))
+        if is_first:
+            meaning = ('path of a particle file, or an array of shape (N, 3) with x, y in m and the mass in kg, or '
+                       '(N, 5) with vx, vy in m/s as well; the first particle is fixed')
+        text = '%s; %s [%r%s]' % (meaning + ('; ' + users if users else ''), accepted, default, unit and ' ' + unit)
+        lines.insert(0 if is_first else len(lines),
+                     textwrap.fill(key + ': ' + text, 96, initial_indent='    ', subsequent_indent='        '))
+    function.__signature__ = inspect.Signature(parameters)
+    function.__kwdefaults__ = None
+    function.__defaults__ = (parameters[0].default,)
+    function.__doc__ = function.__doc__.replace('    OPTIONS', '\n'.join(lines))
+    return function
+
+
+@_with_options
+def simulate(particles, **options):
+    """Integrates a chain of particles and springs and returns its frames.
+
+Frames have the bits of those that Exercise3 writes. Writes files only if `output`, `energy` or
+`save_state` is given. The interpreter is free for other threads meanwhile; Ctrl-C ends the call.
+
+Args:
+    OPTIONS
+
+Returns:
+    a Run
+
+Raises:
+    InputError: a wrong value, an unknown keyword or a malformed file
+    FileError: a file that cannot be read or written
+    MemoryError: the run needs more memory than there is
+
+Warns:
+    RuntimeWarning: the motion diverged, or its energy or positions are wrong
+"""
+    parts = _core.simulate(particles, options)
+    warning = parts.pop('warning')
+    if warning:
+        warnings.warn(warning, RuntimeWarning, stacklevel=2)
+    return Run(**parts)
+
+
+@_with_options
+def check(particles, **options):
+    """Tries a run and finds the largest step sizes, like Exercise3 --check.
+
+Args:
+    OPTIONS
+
+Returns:
+    a Report
+
+Raises:
+    InputError: a wrong value, an unknown keyword or a malformed file
+    FileError: a file that cannot be read
+"""
+    return Report(*_core.check(particles, options))
