@@ -113,7 +113,6 @@ std::string recordBag(Run& run, Integrator& integrator, const NodeOptions& optio
   const Scenario& scenario = run.scenario();
   auto bag = std::make_unique<rosbag::Bag>();
   BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
-  Stamps(true).next(frameSteps(scenario).timeOfFrame(scenario.frames - 1));  // throws if too late
   // What can refuse the options is done: these remove files of earlier runs.
   TouchedFiles touched = touchedFiles(scenario, to.config);
   touched.outputs.push_back(to.path);

@@ -275,6 +275,7 @@ TEST_F(Exercise3Endless, ASignalEndsItInsideAFrame) {
       process.sendSignal(signal_number);
       const Result result = process.wait();
       EXPECT_EQ(result.status, 128 + signal_number);
+      EXPECT_LT(result.seconds_after_signal, 1.0);  // 0.02
       EXPECT_THAT(result.output, HasSubstr(": 2 particles, 1 frame, "));
       EXPECT_THAT(listFolder(folder_.path("out")), ElementsAre("frame_0000.txt"));
       EXPECT_THAT(read("e.csv"), HasSubstr("\n0,0,"));

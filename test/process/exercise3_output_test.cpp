@@ -97,6 +97,7 @@ TEST_F(LongRun, InterruptedEndsWithAWholeFrameAndTheClosingLine) {
     process.sendSignal(signal_number);
     const Result result = process.wait();
     EXPECT_EQ(result.status, 128 + signal_number);
+    EXPECT_LT(result.seconds_after_signal, 1.0);  // 0.02
     const int count = countFrames(folder_.path(stopped));
     EXPECT_LT(count, kEndless);
     EXPECT_EQ(listFolder(folder_.path(stopped)).size(), static_cast<std::size_t>(count));

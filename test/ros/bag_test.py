@@ -148,7 +148,7 @@ class Bag(unittest.TestCase):
         for steps, tracked in (('10', True), ('1000000', False)):
             with self.subTest(steps=steps), Folder() as folder:
                 path, _ = record(folder, 'one.bag', '--frames', '2', '--time-step', '1e-6',
-                                 '--steps-per-frame', steps, '--track-energy', 'false')
+                                 '--steps-per-frame', steps, '--track-dissipation', 'false')
                 error = contents(path, '/state')[-1][0].energy_error
                 self.assertEqual(math.isnan(error), not tracked)
 

@@ -62,6 +62,17 @@ class Parameters(unittest.TestCase):
                         self.assertIn(name, node.lines('FATAL')[0], case)
         markers.close()
 
+    def test_a_clock_that_would_end_during_the_run_is_refused_before_it(self):
+        with Folder() as folder:
+            with open(folder + '/frame_0000.txt', 'w') as earlier:
+                earlier.write('1 2\n')
+            with PendulumNode(output=folder, frames=4, time_step=1e9, steps_per_frame=1,
+                              publish_clock=True) as node:
+                self.assertEqual(node.wait(), 2, node.output())
+                self.assertIn('simulated time 3e+09 s is too large', node.lines('FATAL')[0])
+            with open(folder + '/frame_0000.txt') as earlier:
+                self.assertEqual(earlier.read(), '1 2\n')
+
     def test_the_unknown_one_is_told_all_known_ones(self):
         with PendulumNode(bogus=1) as node:
             self.assertEqual(node.wait(), 2)

@@ -1,6 +1,7 @@
 """Runs the programs of the package as processes, and reads their messages and files."""
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -33,6 +34,19 @@ def wait_until(condition, what, patience=PATIENCE):
         if time.monotonic() > end:
             raise AssertionError('never happened: ' + what)
         time.sleep(0.02)
+
+
+def computing_time(pid):
+    """The computing time of a process so far, s."""
+    with open('/proc/%d/stat' % pid) as status:
+        fields = status.read().rpartition(')')[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
+
+def total_computing_time():
+    """The computing time of all ended children, s."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 class Folder:

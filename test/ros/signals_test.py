@@ -11,7 +11,8 @@ import rostest
 from std_srvs.srv import SetBool
 
 from fault_injection import NO_MASTER
-from pendulum_process import Folder, PendulumNode, program, project, wait_until
+from pendulum_process import (Folder, PendulumNode, computing_time, program, project,
+                              total_computing_time, wait_until)
 
 SCENE = project('data/horizontal_11.txt')
 
@@ -27,13 +28,36 @@ class Signals(unittest.TestCase):
                     PendulumNode(preexec=ignore_interrupts,
                                  **dict(dict(particles=SCENE, output=folder), **parameters)) as node:
                 wait_until(lambda: phase(node, folder), 'the phase')
+                before = computing_time(node.process.pid)
+                ended_before = total_computing_time()
                 node.interrupt(number)
                 self.assertIn(node.wait(), (0, 3), node.output())
+                # Computing time, as other programs share the computer. Measured: at most 0.1 s.
+                self.assertLess(total_computing_time() - ended_before - before, 1.0, node.output())
                 ended[number] = node.output()
         return ended[signal.SIGINT]
 
     def first_frame(self, node, folder):
         return os.path.exists(folder + '/frame_0000.txt')
+
+    def test_record_bag(self):
+        for options in (('--steps-per-frame', '2000000000', '--time-step', '1e-4'),
+                        ('--time-step', '1e6', '--steps-per-frame', '1', '--reference', 'always')):
+            with self.subTest(options=options), Folder() as folder:
+                process = subprocess.Popen(
+                    [program('record_bag'), 'Runge-Kutta-4', SCENE, '--bag', folder + '/run.bag', *options],
+                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                try:
+                    wait_until(lambda: os.path.exists(folder + '/run.bag.unfinished'), 'a bag')
+                    before = computing_time(process.pid)
+                    ended_before = total_computing_time()
+                    process.send_signal(signal.SIGINT)
+                    errors = process.communicate(timeout=60)[1]
+                    self.assertIn(process.returncode, (3, 128 + signal.SIGINT), errors)
+                    self.assertLess(total_computing_time() - ended_before - before, 1.0)
+                finally:
+                    process.kill()
+                    process.wait()
 
     def test_without_a_master(self):
         for number in (signal.SIGINT, signal.SIGTERM):

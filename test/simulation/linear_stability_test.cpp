@@ -16,18 +16,10 @@
 namespace spring_pendulum {
 namespace {
 
+using test::forEachFixedStepMethod;
 using test::Scene;
 
 constexpr double kDuration = 5.0;  // s
-
-template <typename Visitor>
-void forEachFixedStepMethod(const Visitor& visitor) {
-  for (const Method& method : methodTable()) {
-    if (!method.hasFixedStep()) continue;
-    SCOPED_TRACE(std::string(method.name));
-    visitor(method);
-  }
-}
 
 /// ln of the spectral radius of the matrix by which one step multiplies (q, q'/rate), for
 /// q'' + decay q' + swing² q = 0 and a step size of 1 s.

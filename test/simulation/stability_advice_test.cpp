@@ -19,6 +19,7 @@
 namespace spring_pendulum {
 namespace {
 
+using test::forEachFixedStepMethod;
 using test::Scene;
 using testing::ContainsRegex;
 using testing::HasSubstr;
@@ -30,15 +31,6 @@ constexpr double kFrameInterval = 0.1;  // s
 bool isStable(const Scene& scene, const Method& method, double step) {
   const auto kind = VerdictKind::kGainedEnergy;
   return test::verdictOfRun(scene, method, step, kDuration, true, kind).kind < kind;
-}
-
-template <typename Visitor>
-void forEachFixedStepMethod(const Visitor& visitor) {
-  for (const Method& method : methodTable()) {
-    if (!method.hasFixedStep()) continue;
-    SCOPED_TRACE(std::string(method.name));
-    visitor(method);
-  }
 }
 
 TEST(StabilityAdvice, LargestStableStepIsThatOfRealRuns) {

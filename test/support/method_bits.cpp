@@ -1,8 +1,9 @@
-// Prints a hash of the motion, the energies and the energy balance for each method, one method per
-// line. Equal lines on two machines mean equal bits (scripts/test_arm64.sh).
+// Prints a hash of the motion, the energies, the position errors and the verdicts for each method, one
+// method per line. Equal lines on two machines mean equal bits (scripts/test_arm64.sh).
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/simulation/energy_balance.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +12,10 @@
 
 namespace spring_pendulum {
 namespace {
+
+constexpr double kTolerance = 1e-7;  // m
+constexpr double kTimeStep = 0.005;  // s
+constexpr int kSteps = 20;           ///< per frame
 
 /// FNV-1a over the bytes of a number, continuing `hash`.
 std::uint64_t hashOf(double number, std::uint64_t hash) {
@@ -40,18 +45,26 @@ std::uint64_t hashOfRuns(const Method& method) {
     for (Eigen::Index i = 0; i < size; ++i) masses[i] = 0.5 + static_cast<double>(i % 7) / 10.0;
     for (const double damping : {1.0, 0.0}) {
       const Chain chain(masses, {50.0, damping, 1.0}, 9.81);
-      const auto integrator = method.make(method, chain, {1e-7, true, 1});
+      const auto integrator = method.make(method, chain, {kTolerance, true, 1});
       State state = zigzag(size);
-      const EnergyBalance balance(chain, state, true);
-      for (int frame = 0; frame < 3; ++frame) {
-        integrator->advance(state, 0.005, 20);
+      const double tolerance = method.hasFixedStep() ? 0.0 : kTolerance;
+      ReferenceRun reference(chain, state, {tolerance, true});
+      Judge judge(chain, state, {true, method.symplectic ? kTimeStep : 0.0, tolerance});
+      for (int frame = 1; frame <= 3; ++frame) {
+        integrator->advance(state, kTimeStep, kSteps);
+        reference.advance(kTimeStep, kSteps);
+        reference.measure(integrator->work());
+        const Verdict& verdict = judge.judge(kTimeStep * kSteps * frame, state,
+                                             integrator->dissipatedEnergy(), &reference);
         for (Eigen::Index i = 0; i < size; ++i) {
           for (Eigen::Index c = 0; c < 4; ++c) hash = hashOf(state.values()(i, c), hash);
         }
-        const EnergyEntry entry = balance.entry(0.1, state, integrator->dissipatedEnergy());
+        const EnergyEntry& entry = judge.entry();
+        const PositionError& error = judge.positionError();
         for (const double number :
              {*entry.dissipated, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
-              entry.relative_gain, *entry.relative_residual}) {
+              entry.relative_gain, *entry.relative_residual, error.now, error.uncertainty,
+              error.bound, static_cast<double>(verdict.kind)}) {
           hash = hashOf(number, hash);
         }
       }

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <linux/capability.h>
 #include <stdexcept>
 #include <sys/mman.h>
@@ -47,6 +48,10 @@ std::string takeText(int& descriptor) {
   return text;
 }
 
+double secondsOf(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 }  // namespace
 
 Process::Process(const Command& command)
@@ -62,7 +67,13 @@ Process::~Process() {
   wait();
 }
 
-void Process::sendSignal(int signal_number) const {
+void Process::sendSignal(int signal_number) {
+  clockid_t clock{};
+  timespec used{};
+  if (clock_getcpuclockid(pid_, &clock) == 0 && clock_gettime(clock, &used) == 0) {
+    seconds_before_signal_ =
+        static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  }
   kill(pid_, signal_number);
 }
 
@@ -83,7 +94,8 @@ Result Process::wait() {
     throw std::runtime_error("no such child");
   const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {exit_status, takeText(output_), takeText(errors_),
-          1024.0 * static_cast<double>(usage.ru_maxrss)};
+          1024.0 * static_cast<double>(usage.ru_maxrss),
+          secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime) - seconds_before_signal_};
 }
 
 Result run(const Command& command) {

@@ -23,6 +23,9 @@ struct Result {
   std::string output;
   std::string errors;
   double peak_memory = 0.0;  ///< B
+  /// Computing time after the last signal, s. Unlike wall-clock time, it does not depend on what else
+  /// the computer does.
+  double seconds_after_signal = 0.0;
 };
 
 /// A running program, killed if it is still running at the end of its scope.
@@ -33,7 +36,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  void sendSignal(int signal_number) const;
+  void sendSignal(int signal_number);
   /// Waits until the program has written a file.
   /// \throws std::runtime_error if the program ends without it
   void waitForFile(const std::string& path) const;
@@ -41,6 +44,7 @@ class Process {
 
  private:
   pid_t pid_ = -1;
+  double seconds_before_signal_ = 0.0;  ///< computing time
   int output_ = -1;  ///< memory files, so that the output is not limited by a pipe
   int errors_ = -1;
 };

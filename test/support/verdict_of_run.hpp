@@ -1,8 +1,10 @@
-// The verdict on a run without output.
+// The verdict on a run without output, and a loop over methods with a fixed step.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +33,15 @@ inline Verdict verdictOfRun(const Scene& scene, const Method& method, double tim
     if (judge.judgeEnergy(time, state, integrator->dissipatedEnergy()).kind >= enough) break;
   }
   return judge.worst();
+}
+
+template <typename Visitor>
+void forEachFixedStepMethod(const Visitor& visitor) {
+  for (const Method& method : methodTable()) {
+    if (!method.hasFixedStep()) continue;
+    SCOPED_TRACE(method.name);
+    visitor(method);
+  }
 }
 
 }  // namespace spring_pendulum::test

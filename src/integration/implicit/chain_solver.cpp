@@ -5,10 +5,11 @@ namespace spring_pendulum {
 template <typename Scalar>
 ChainSolver<Scalar>::ChainSolver(const Chain& chain)
     : chain_(chain),
-      middle_(chain.size() / 2),
       pivots_(static_cast<std::size_t>(chain.size())),
       forward_(pivots_.size()),
-      backward_(pivots_.size()) {}
+      backward_(pivots_.size()) {
+  resize(chain.size());
+}
 
 template <typename Scalar>
 typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::product(const Block& a, const Block& b) {
@@ -24,7 +25,7 @@ typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::inverse(const Block& a)
 
 template <typename Scalar>
 typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::springBlock(Eigen::Index i) const {
-  if (i + 1 >= chain_.size()) return {};
+  if (i + 1 >= size_) return {};
   const LinearSpring& spring = (*springs_)[static_cast<std::size_t>(i)];
   const double damping = chain_.spring().damping;
   const auto row = [&](double r) {  // r times the row vector q k_d rᵀ + q² (a - e r)ᵀ
@@ -58,7 +59,7 @@ void ChainSolver<Scalar>::eliminate(Eigen::Index from, const Block& spring, Bloc
 
 template <typename Scalar>
 void ChainSolver<Scalar>::factor(const std::vector<LinearSpring>& springs, Scalar q) {
-  const Eigen::Index size = chain_.size();
+  const Eigen::Index size = size_;
   if (size < 2) return;
   springs_ = &springs;
   q_ = q;
@@ -90,7 +91,7 @@ void ChainSolver<Scalar>::factor(const std::vector<LinearSpring>& springs, Scala
 // chain of dependent operations, which determines the time.
 template <typename Scalar>
 void ChainSolver<Scalar>::solve(Scalar* x, Scalar* y) const {
-  const auto size = static_cast<std::ptrdiff_t>(chain_.size());
+  const std::ptrdiff_t size = size_;
   if (size < 2) return;
   using Vector = PlaneVector<Scalar>;
   const auto add = [x, y](std::ptrdiff_t i, const Block& a, const Vector& v) {

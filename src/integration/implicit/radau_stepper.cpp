@@ -1,6 +1,6 @@
 #include "integration/implicit/radau_stepper.hpp"
 
-#include "integration/implicit/radau_sums.hpp"
+#include "integration/error_control/free_fall.hpp"
 #include "integration/work.hpp"
 
 #include <algorithm>
@@ -31,6 +31,13 @@ constexpr int kMostIterations = 10;
 /// Size of rounding errors of the positions, m.
 constexpr double kRounding = 1e-14;
 
+/// Speed in m/s below which a particle counts as still, far below the error of any tolerance.
+constexpr double kStill = 1e-20;
+
+/// Particles computed beyond the first spring that falls freely. A step that needs more doubles their
+/// number.
+constexpr std::size_t kMargin = 64;
+
 /// Error, relative to the allowed error, that a failed iteration reports; it halves the step size.
 constexpr double kErrorOfFailure = 32.0;
 
@@ -56,30 +63,6 @@ double RadauStepper::Change::norm() const {
   return std::max(position, velocity) + 0.0 * (position + velocity);
 }
 
-template <typename Scalar>
-void RadauStepper::System<Scalar>::factor(const std::vector<LinearSpring>& springs, double h) {
-  q = h * reciprocal(eigenvalue.value);
-  solver.factor(springs, q);
-}
-
-template <typename Scalar>
-void RadauStepper::System<Scalar>::setRightHandSide(std::size_t particle, double mass,
-                                                    const Increments& increments, const Row& fx,
-                                                    const Row& fy) {
-  x[particle] =
-      q * radau::dot(eigenvalue.left, fx) - mass * radau::dot(eigenvalue.left, increments.vx);
-  y[particle] =
-      q * radau::dot(eigenvalue.left, fy) - mass * radau::dot(eigenvalue.left, increments.vy);
-}
-
-template <typename Scalar>
-void RadauStepper::System<Scalar>::addChange(std::size_t particle, Increments& change) const {
-  radau::addTo(change.vx, eigenvalue.right, x[particle]);
-  radau::addTo(change.vy, eigenvalue.right, y[particle]);
-  radau::addTo(change.x, eigenvalue.right, q * x[particle]);
-  radau::addTo(change.y, eigenvalue.right, q * y[particle]);
-}
-
 RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKernels& kernels)
     : ErrorEstimatingStepper(chain,
                              {kShareOfTolerance * tolerance, static_cast<int>(kStages),
@@ -88,6 +71,7 @@ RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKern
       allowed_rate_(kShareOfTolerance * tolerance),
       stages_(chain.size()),
       previous_(chain.size()),
+      active_(stages_.particles.size()),
       springs_(static_cast<std::size_t>(chain.size() - 1)),
       real_(this->chain(), radau::kReal),
       pairs_{{{this->chain(), radau::kPairs[0]}, {this->chain(), radau::kPairs[1]}}},
@@ -96,6 +80,29 @@ RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKern
 void RadauStepper::prepare(bool restarted) {
   std::swap(stages_, previous_);
   previous_length_ = restarted ? 0.0 : statistics().last_step;
+  if (restarted) active_ = stages_.particles.size();
+  if (chain().isDriven()) return;
+  const auto size = static_cast<Eigen::Index>(active_);
+  const Eigen::Index first = beginOfFreeFall(begin(), size, chain().spring().rest_length, kStill);
+  setActive(static_cast<std::size_t>(first) + kMargin);
+}
+
+void RadauStepper::setActive(std::size_t particles) {
+  const std::size_t before = active_;
+  active_ = std::min(particles, stages_.particles.size());
+  for (std::size_t i = before; i < active_; ++i) {
+    previous_.particles[i] = previous_.particles[before - 1];
+    previous_.tensions[i - 1] = {};
+  }
+  const auto size = static_cast<Eigen::Index>(active_);
+  real_.solver.resize(size);
+  for (System<Complex>& pair : pairs_) pair.solver.resize(size);
+}
+
+bool RadauStepper::reachesFreeEnd() const {
+  if (active_ == stages_.particles.size()) return false;
+  const Row& speeds = stages_.particles[active_ - 1].vx;
+  return std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v) > kStill; });
 }
 
 double RadauStepper::attempt(double h) {
@@ -105,6 +112,10 @@ double RadauStepper::attempt(double h) {
   real_.factor(springs_, h);
   for (System<Complex>& pair : pairs_) pair.factor(springs_, h);
   if (!solveStages(h)) return kErrorOfFailure * allowed_rate_;
+  if (reachesFreeEnd()) {
+    setActive(2 * active_);
+    return attempt(h);
+  }
   const double error = estimateError(h);
   setEndFromLastStage();
   return error / h;
@@ -143,14 +154,14 @@ void RadauStepper::predict(double h) {
     }
   };
   const std::ptrdiff_t pitch = begin().pitch();
-  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+  for (std::size_t i = 0; i < active_; ++i) {
     const double* velocity = begin().particle(static_cast<Eigen::Index>(i)) + 2 * pitch;
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
     guess(velocity[0], old.vx, next.x, next.vx);
     guess(velocity[pitch], old.vy, next.y, next.vy);
   }
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < active_; ++i) {
     Row& tensions = stages_.tensions[i];
     const Ends ends = endsOf(i, begin());
     tensions.fill(springTension(chain().spring(), ends.separation, ends.relative_velocity));
@@ -162,7 +173,7 @@ void RadauStepper::predict(double h) {
 }
 
 void RadauStepper::linearise() {
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < active_; ++i) {
     const Ends middle = endsOf(i, endsOf(i, begin()), kMiddleStage);
     springs_[i] = linearSpring(chain().spring(), middle.separation, middle.relative_velocity,
                                stages_.tensions[i][kMiddleStage]);
@@ -208,9 +219,9 @@ void RadauStepper::springForces(std::size_t spring, Row& fx, Row& fy) {
 
 void RadauStepper::computeResiduals() {
   Row left_x{}, left_y{};
-  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+  for (std::size_t i = 0; i < active_; ++i) {
     Row right_x{}, right_y{};
-    if (i < springs_.size()) springForces(i, right_x, right_y);
+    if (i + 1 < active_) springForces(i, right_x, right_y);
     const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
     const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
     Row fx, fy;
@@ -232,7 +243,7 @@ RadauStepper::Change RadauStepper::updateStages() {
   Change largest;
   double finite = 0.0;
   Increments left{};
-  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
+  for (std::size_t i = 1; i < active_; ++i) {
     Increments change{};
     real_.addChange(i, change);
     for (const System<Complex>& pair : pairs_) pair.addChange(i, change);
@@ -293,9 +304,9 @@ double RadauStepper::filteredError(bool corrected) {
                                q * velocity[begin().pitch()] + radau::dot(radau::kError, stage.y)};
   };
   PlaneVector<double> here{}, left{};
-  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+  for (std::size_t i = 0; i < active_; ++i) {
     PlaneVector<double> right{}, next{};
-    if (i < springs_.size()) {
+    if (i + 1 < active_) {
       next = position_part(i + 1);
       const PlaneVector<double> force = startForce(i, corrected);
       const PlaneVector<double> change =
@@ -313,7 +324,7 @@ double RadauStepper::filteredError(bool corrected) {
   real_.solve();
   ++counters().force_evaluations;
   double largest = 0.0, finite = 0.0;
-  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
+  for (std::size_t i = 1; i < active_; ++i) {
     const PlaneVector<double> part = position_part(i);
     const double errors[] = {part.x + q * real_.x[i], part.y + q * real_.y[i], real_.x[i],
                              real_.y[i]};
@@ -329,7 +340,7 @@ double RadauStepper::stepExplicitly(double h) {
   ++counters().force_evaluations;
   const std::ptrdiff_t pitch = begin().pitch();
   double finite = 0.0;
-  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
+  for (std::size_t i = 0; i < active_; ++i) {
     const double* slope = change_.particle(static_cast<Eigen::Index>(i));
     Increments& stage = stages_.particles[i];
     for (std::size_t s = 0; s < kStages; ++s) {
@@ -341,7 +352,7 @@ double RadauStepper::stepExplicitly(double h) {
     }
     finite += 0.0 * (stage.x[0] + stage.y[0] + stage.vx[0] + stage.vy[0]);
   }
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < active_; ++i) {
     const Ends ends = endsOf(i, begin());
     stages_.tensions[i].fill(
         springTension(chain().spring(), ends.separation, ends.relative_velocity));
@@ -353,7 +364,7 @@ double RadauStepper::stepExplicitly(double h) {
 void RadauStepper::setEndFromLastStage() {
   const std::ptrdiff_t pitch = begin().pitch();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const Increments& stage = stages_.particles[i];
+    const Increments& stage = stages_.particles[std::min(i, active_ - 1)];
     const double* lost = carry().particle(static_cast<Eigen::Index>(i));
     const double changes[] = {lost[0] + stage.x.back(), lost[pitch] + stage.y.back(),
                               lost[2 * pitch] + stage.vx.back(), lost[3 * pitch] + stage.vy.back()};
@@ -370,7 +381,7 @@ void RadauStepper::interpolate(double fraction, State& state) const {
   const Row weights = radau::lagrangeWeights(fraction, true);
   state.values() = begin().values();
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
-    const Increments& stage = stages_.particles[i];
+    const Increments& stage = stages_.particles[std::min(i, active_ - 1)];
     const auto row = static_cast<Eigen::Index>(i);
     state.x()[row] += radau::dot(weights, stage.x);
     state.y()[row] += radau::dot(weights, stage.y);

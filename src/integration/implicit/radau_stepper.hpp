@@ -28,7 +28,7 @@
 #include "integration/implicit/chain_solver.hpp"
 #include "integration/implicit/complex.hpp"
 #include "integration/implicit/linear_spring.hpp"
-#include "integration/implicit/radau_coefficients.hpp"
+#include "integration/implicit/radau_sums.hpp"
 
 #include <array>
 #include <cstddef>
@@ -69,12 +69,24 @@ class RadauStepper final : public ErrorEstimatingStepper {
           solver(chain),
           x(static_cast<std::size_t>(chain.size())),
           y(x.size()) {}
-    void factor(const std::vector<LinearSpring>& springs, double h);
-    void setRightHandSide(std::size_t particle, double mass, const Increments& increments,
-                          const Row& fx, const Row& fy);
+    void factor(const std::vector<LinearSpring>& springs, double h) {
+      q = h * reciprocal(eigenvalue.value);
+      solver.factor(springs, q);
+    }
+    void setRightHandSide(std::size_t i, double mass, const Increments& increments, const Row& fx,
+                          const Row& fy) {
+      const auto& left = eigenvalue.left;
+      x[i] = q * radau::dot(left, fx) - mass * radau::dot(left, increments.vx);
+      y[i] = q * radau::dot(left, fy) - mass * radau::dot(left, increments.vy);
+    }
     void solve() { solver.solve(x.data(), y.data()); }
     /// Adds this system's contribution to the change of a particle's stages.
-    void addChange(std::size_t particle, Increments& change) const;
+    void addChange(std::size_t i, Increments& change) const {
+      radau::addTo(change.vx, eigenvalue.right, x[i]);
+      radau::addTo(change.vy, eigenvalue.right, y[i]);
+      radau::addTo(change.x, eigenvalue.right, q * x[i]);
+      radau::addTo(change.y, eigenvalue.right, q * y[i]);
+    }
 
     const radau::Eigenvalue<Scalar>& eigenvalue;
     ChainSolver<Scalar> solver;
@@ -99,6 +111,10 @@ class RadauStepper final : public ErrorEstimatingStepper {
   static Ends endsOf(std::size_t spring, const StateBuffer& state);
   Ends endsOf(std::size_t spring, const Ends& start, std::size_t stage) const;
 
+  /// Computes this number of particles from now on. Those beyond fall like the last of these.
+  void setActive(std::size_t particles);
+  /// Whether the motion has reached the end of the computed part, so that more must be computed.
+  bool reachesFreeEnd() const;
   /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.
   void predict(double h);
   void linearise();
@@ -124,6 +140,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
   Collocation stages_;
   Collocation previous_;
   double previous_length_ = 0.0;  ///< size of the previous step; 0: none
+  std::size_t active_;  ///< number of computed particles, without an end that falls freely
   std::vector<LinearSpring> springs_;
   System<double> real_;
   std::array<System<Complex>, 2> pairs_;

@@ -1,6 +1,7 @@
 #include "integration/taylor/taylor_stepper.hpp"
 
 #include "base/checks.hpp"
+#include "integration/error_control/free_fall.hpp"
 #include "integration/error_control/step_size_controller.hpp"
 
 #include <algorithm>
@@ -42,20 +43,10 @@ void TaylorStepper::start(const State& state) {
   work_.size = chain_.size();
 }
 
-bool TaylorStepper::fallsFreely(Eigen::Index spring) const {
-  const auto state = begin_.values();
-  const double width = state(spring + 1, 0) - state(spring, 0);
-  const double square = width * width;
-  return state(spring, 1) == state(spring + 1, 1) && state(spring, 2) == 0.0 &&
-         state(spring + 1, 2) == 0.0 && state(spring, 3) == state(spring + 1, 3) &&
-         square * inverseSquareRoot(square) == work_.spring.rest_length;
-}
-
 // The springs beyond the computed part fell freely in the last step and still do.
 void TaylorStepper::skipFreeEnd() {
   if (chain_.isDriven()) return;
-  Eigen::Index first = work_.size - 1;
-  while (first > 1 && fallsFreely(first - 1)) --first;
+  const Eigen::Index first = beginOfFreeFall(begin_, work_.size, work_.spring.rest_length);
   const Eigen::Index moving = StateBuffer::paddedSize(first + work_.order + 1);
   const Eigen::Index size = std::min<Eigen::Index>(chain_.size(), 1 + moving);
   // A store would delay the kernel, which loads the whole workspace at once.

@@ -58,9 +58,6 @@ class TaylorStepper final : public DenseOutputStepper {
   void stepBy(double h);
 
  private:
-  /// Whether a spring falls without force until its neighbours exert one: it is level, has exactly
-  /// its rest length, and both ends have the same vertical velocity.
-  bool fallsFreely(Eigen::Index spring) const;
   /// Excludes the end of the chain that falls freely throughout the next step. In one step,
   /// information travels as many springs as the series has coefficients. Changes no bit.
   void skipFreeEnd();

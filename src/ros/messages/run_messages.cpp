@@ -40,7 +40,10 @@ RunMessages::RunMessages(const Run& run, const NodeOptions& options, bool simula
       has_camera_(!options.camera_frame.empty()),
       stamps_(simulated),
       markers_(run, options),
-      state_(options.y_offset) {}
+      state_(options.y_offset) {
+  const Scenario& scenario = run.scenario();
+  if (simulated) Stamps(true).next(frameSteps(scenario).timeOfFrame(scenario.frames - 1));
+}
 
 std_msgs::Header RunMessages::header(double simulated_time) {
   std_msgs::Header header;

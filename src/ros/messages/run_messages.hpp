@@ -19,6 +19,7 @@ namespace spring_pendulum {
 class RunMessages {
  public:
   /// \param simulated stamp with simulated time instead of ROS time
+  /// \throws InputError if the run ends after the last simulated stamp
   RunMessages(const Run& run, const NodeOptions& options, bool simulated);
 
   /// Returns the header of the next messages, with a new stamp.
