@@ -15,12 +15,12 @@ endif()
 
 install(TARGETS spring_pendulum EXPORT spring_pendulumTargets
   LIBRARY DESTINATION ${install_lib} ARCHIVE DESTINATION ${install_lib})
-install(TARGETS Exercise3 check_frames RUNTIME DESTINATION ${install_bin})
+install(TARGETS Exercise3 check_frames sweep RUNTIME DESTINATION ${install_bin})
 install(DIRECTORY include/spring_pendulum DESTINATION include)
 install(DIRECTORY data config DESTINATION ${install_share})
 
 # Completion for bash, and manual pages made from --help.
-foreach(program Exercise3 check_frames record_bag)
+foreach(program Exercise3 check_frames sweep record_bag)
   if(NOT TARGET ${program})
     continue()
   endif()

@@ -51,8 +51,14 @@ tolerance() {
   return $status
 }
 stability() {
-  run stability "$@"
-  (cd "$results" && gnuplot "$reports/stability_map.plt")
+  local study=$project/config/studies/stability_map.yaml
+  say stability
+  if [ "$what" = smoke ]; then
+    mkdir -p "$folder/config/studies" && ln -sfn "$project/data" "$folder/data"
+    sed 's/, 48\]/, 4]/' "$study" > "$folder/config/studies/stability_map.yaml"
+    study=$folder/config/studies/stability_map.yaml
+  fi
+  "$folder/sweep" "$study" --output "$results/stability_map.csv" --plot "$@" > "$folder/stability.log"
   [ "$what" = smoke ] || mv "$results/stability_map.png" "$project/docs/"
 }
 

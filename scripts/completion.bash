@@ -30,3 +30,4 @@ _spring_pendulum() {
   $reset
 }
 complete -o filenames -F _spring_pendulum Exercise3 record_bag
+complete -o filenames -o default -F _spring_pendulum sweep

@@ -3,14 +3,13 @@
 #include "base/spelling.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/option_file.hpp"
+#include "io/program/arguments.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/io/run_output.hpp>
 
-#include <boost/program_options/errors.hpp>
 #include <boost/program_options/options_description.hpp>
-#include <boost/program_options/parsers.hpp>
 #include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
@@ -99,30 +98,6 @@ std::string listOfMethods() {
         fmt::format("  {:<20} order {}\n      {}\n", method.name, method.order, method.use);
   }
   return lists[0] + lists[1];
-}
-
-/// \param arguments without the name of the program
-std::vector<po::option> split(const std::vector<std::string>& arguments,
-                              const po::options_description& description) {
-  namespace style = po::command_line_style;
-  try {
-    return po::command_line_parser(arguments)
-        .options(description)
-        .style(style::unix_style & ~style::allow_guessing)
-        .run()
-        .options;
-  } catch (const po::unknown_option& error) {
-    std::vector<std::string> known;
-    for (const auto& option : description.options()) known.push_back("--" + option->long_name());
-    throw InputError(unknownName("option", error.get_option_name(), known));
-  } catch (const po::invalid_command_line_syntax& error) {
-    const bool lacks_value = error.kind() == po::invalid_syntax::missing_parameter ||
-                             error.kind() == po::invalid_syntax::empty_adjacent_parameter;
-    if (!lacks_value) throw InputError(error.what());
-    throw InputError(fmt::format("{}: needs a value, see --help", error.get_option_name()));
-  } catch (const po::error& error) {
-    throw InputError(fmt::format("{}, see --help", error.what()));
-  }
 }
 
 bool has(const std::vector<po::option>& given, std::string_view name) {
@@ -216,8 +191,7 @@ std::string optionHelp(const Option& option) {
 Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
                           OptionSet& options, const Scenario& scenario) {
   const po::options_description description = describe(options, program);
-  const std::vector<po::option> given =
-      split(std::vector<std::string>(argv + std::min(argc, 1), argv + argc), description);
+  const std::vector<po::option> given = splitArguments(argc, argv, description);
   Switches switches;
   if (has(given, "help"))
     switches.answer = helpText(program, description);

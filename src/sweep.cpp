@@ -1,0 +1,65 @@
+// Runs the cases of a study on all cores, ranks or shards and writes one table.
+#include "io/files/touched_files.hpp"
+#include "io/program/exit_status.hpp"
+#include "io/program/standard_streams.hpp"
+#include <spring_pendulum/base/errors.hpp>
+
+#include "sweep/command_line.hpp"
+#include "sweep/running/sweep_run.hpp"
+#include "sweep/single_case.hpp"
+
+namespace spring_pendulum::sweep {
+namespace {
+
+void checkFiles(const CommandLine& line, const Study& study) {
+  TouchedFiles files{{line.study}, {line.options.output}, ""};
+  for (const auto& [path, particles] : study.particles) files.inputs.push_back(path);
+  if (line.options.plot) {
+    for (const char* const extension : {".png", ".svg"}) {
+      files.outputs.push_back(picturePath(line.options.output) + extension);
+    }
+  }
+  checkTouchedFiles(files);
+}
+
+int runCommandLine(const CommandLine& line, Ranks& ranks) {
+  if (ranks.rank() > 0) {
+    if (line.only_case >= 0) return kDone;
+    ranks.meet();  // rank 0 checks everything first, so each error is reported once
+  }
+  const Study study = readStudy(line.study);
+  if (line.only_case >= 0) return runSingleCase(study, line.only_case, line.options.output);
+  checkFiles(line, study);
+  if (line.options.plot && study.plot.type == PlotOptions::Type::kNone) {
+    throw InputError("--plot: the study has no entry plot");
+  }
+  return runSweep(study, line.options, ranks);
+}
+
+/// A failure of one rank ends all of them.
+int runRank(const CommandLine& line) {
+  Ranks ranks;
+  try {
+    return runCommandLine(line, ranks);
+  } catch (const std::exception& error) {
+    if (ranks.size() == 1) throw;
+    const Failure failure = failureOf(error);
+    printError(failure.message + "\n");
+    ranks.abort(failure.status);
+    return failure.status;
+  }
+}
+
+int run(int argc, const char* const* argv) {
+  const CommandLine line = parseCommandLine(argc, argv);
+  if (line.answer.empty()) return runRank(line);
+  printOutput(line.answer);
+  return kDone;
+}
+
+}  // namespace
+}  // namespace spring_pendulum::sweep
+
+int main(int argc, char** argv) {
+  return spring_pendulum::runProgram([&] { return spring_pendulum::sweep::run(argc, argv); });
+}

@@ -1,0 +1,17 @@
+// One case of a study by itself.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "sweep/study/study.hpp"
+
+namespace spring_pendulum::sweep {
+
+/// Prints a case as a command line of Exercise3 and, if there is a folder, runs it.
+/// \param folder for the frames, and for particles that are in no file; empty: none
+/// \returns the exit status, as that of Exercise3
+/// \throws InputError also if there is no such case
+int runSingleCase(const Study& study, std::int64_t index, const std::string& folder);
+
+}  // namespace spring_pendulum::sweep

@@ -1,0 +1,155 @@
+#include "sweep/study/study.hpp"
+
+#include "base/numbers.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sweep/study/random_numbers.hpp"
+
+namespace spring_pendulum::sweep {
+namespace {
+
+/// Quantities with random numbers of their own.
+constexpr std::uint32_t kMass = 0;
+constexpr std::uint32_t kDisplacement = 1;
+constexpr std::uint32_t kVelocity = 2;
+
+/// Options that belong to a single run, not to a case.
+constexpr std::string_view kOfOneRun[] = {"resume",     "output",       "no_frames", "energy",
+                                          "save_state", "wanted_error", "threads"};
+
+double draw(const Distribution& distribution, RandomNumbers& numbers) {
+  const double a = distribution.first, b = distribution.second;
+  switch (distribution.kind) {
+    case Distribution::Kind::kUniform:
+      return a + (b - a) * numbers.uniform();
+    case Distribution::Kind::kLogUniform: {
+      const double log_a = portableLog(a);
+      return portableExp(log_a + (portableLog(b) - log_a) * numbers.uniform());
+    }
+    case Distribution::Kind::kNormal:
+      return a + b * numbers.normal();
+    case Distribution::Kind::kLogNormal:
+      return portableExp(portableLog(a) + b * numbers.normal());
+    case Distribution::Kind::kNone:
+      break;
+  }
+  return 0.0;
+}
+
+void add(const Distribution& distribution, RandomNumbers numbers, double& x, double& y) {
+  if (distribution.kind == Distribution::Kind::kNone) return;
+  x += draw(distribution, numbers);
+  y += draw(distribution, numbers);
+}
+
+}  // namespace
+
+std::vector<Option> caseOptions(Settings& s) {
+  std::vector<Option> options = scenarioOptions(s.scenario);
+  const auto of_one_run = [](const Option& option) {
+    return std::find(std::begin(kOfOneRun), std::end(kOfOneRun), option.key) != std::end(kOfOneRun);
+  };
+  options.erase(std::remove_if(options.begin(), options.end(), of_one_run), options.end());
+  options.push_back({"duration", Number{&s.duration, Range::atLeast(0)}, "s",
+                     "simulated time, in frames of frame_interval; 0: given by frames"});
+  options.push_back({"mass_factor", Number{&s.mass_factor, Range::above(0)}, "",
+                     "factor for the masses of the particle file"});
+  return options;
+}
+
+std::int64_t Study::cases() const {
+  std::int64_t cases = std::max<std::int64_t>(samples, 1);
+  for (const Axis& axis : axes) {
+    if (!axis.is_joined) cases *= static_cast<std::int64_t>(axis.values.size());
+  }
+  return cases;
+}
+
+Place Study::placeOf(std::int64_t index) const {
+  Place place{std::vector<std::size_t>(axes.size()), 0};
+  auto left = static_cast<std::size_t>(index);
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    place.values[i] = left % axes[i].values.size();
+    if (!axes[i].is_joined) left /= axes[i].values.size();
+  }
+  place.sample = static_cast<std::int64_t>(left);
+  return place;
+}
+
+bool Study::changesParticles(const Settings& settings) const {
+  return settings.mass_factor != 1.0 || mass_factor.kind != Distribution::Kind::kNone ||
+         displacement.kind != Distribution::Kind::kNone ||
+         velocity.kind != Distribution::Kind::kNone;
+}
+
+CaseMaker::CaseMaker(const Study& study) : study_(study), options_(caseOptions(case_.settings)) {
+  for (const Axis& axis : study.axes) {
+    varied_.push_back(&*std::find_if(options_.begin(), options_.end(),
+                                     [&](const Option& option) { return option.key == axis.key; }));
+  }
+}
+
+const Case& CaseMaker::make(std::int64_t index) try {
+  case_.settings = study_.base;
+  case_.index = index;
+  const Place place = study_.placeOf(index);
+  case_.sample = place.sample;
+  for (std::size_t i = 0; i < varied_.size(); ++i) {
+    varied_[i]->assign(study_.axes[i].values[place.values[i]]);
+  }
+  setFrames();
+  checkScenario(case_.settings.scenario);
+  setParticles();
+  return case_;
+} catch (const InputError& error) {
+  throw InputError(fmt::format("case {}: {}", index, error.what()));
+}
+
+void CaseMaker::setFrames() {
+  Scenario& scenario = case_.settings.scenario;
+  const double duration = case_.settings.duration;
+  if (duration == 0.0) return;
+  double frame = scenario.frame_interval;
+  if (scenario.method.get().hasFixedStep()) {
+    const double steps = std::max(1.0, std::round(std::min(frame, duration) / scenario.time_step));
+    frame = steps * scenario.time_step;
+    // Longer frames than 64 bits can count are refused with the other options.
+    scenario.steps_per_frame = static_cast<std::int64_t>(std::min(steps, 9e18));
+  }
+  // The subtrahend ensures that rounding adds no frame.
+  const double frames = std::max(1.0, std::ceil(duration / frame - 1e-9)) + 1.0;
+  scenario.frames = static_cast<std::int64_t>(std::min(frames, 9e18));
+}
+
+void CaseMaker::setParticles() {
+  case_.particles = study_.particles.at(case_.settings.scenario.particles);
+  if (!study_.changesParticles(case_.settings)) return;
+  State& state = case_.particles.state;
+  const auto sample = static_cast<std::uint64_t>(case_.sample);
+  for (Eigen::Index i = 0; i < state.size(); ++i) {
+    const auto numbersOf = [&](std::uint32_t quantity) {
+      return RandomNumbers(study_.seed, sample, static_cast<std::uint32_t>(i), quantity);
+    };
+    double& mass = case_.particles.masses[i];
+    mass *= case_.settings.mass_factor;
+    if (study_.mass_factor.kind != Distribution::Kind::kNone) {
+      RandomNumbers numbers = numbersOf(kMass);
+      mass *= draw(study_.mass_factor, numbers);
+    }
+    if (!std::isfinite(mass) || mass <= 0.0) {
+      throw InputError(fmt::format("particle {}: mass must be positive and finite, got {}", i + 1,
+                                   numberText(mass)));
+    }
+    if (i == 0) continue;  // fixed
+    add(study_.displacement, numbersOf(kDisplacement), state.x()[i], state.y()[i]);
+    add(study_.velocity, numbersOf(kVelocity), state.vx()[i], state.vy()[i]);
+  }
+}
+
+}  // namespace spring_pendulum::sweep

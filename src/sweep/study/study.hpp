@@ -1,0 +1,118 @@
+// A study: a base scenario, axes that vary it, random masses and starts, the columns wanted.
+//
+// Case i is a function of the study and i alone. The last axis varies fastest, the samples slowest.
+// Cases of one sample have the same random masses and starts, so methods are compared on the same
+// scenes.
+#pragma once
+
+#include "simulation/options/option_set.hpp"
+#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum::sweep {
+
+/// What a case has besides the options of a run.
+struct Settings {
+  Scenario scenario;
+  /// Simulated time in s. If above 0, it gives the number of frames, which are `frame_interval` s apart,
+  /// and for fixed steps the steps per frame.
+  double duration = 0.0;
+  double mass_factor = 1.0;  ///< for all masses
+};
+
+/// The options of a case, bound to `settings`.
+std::vector<Option> caseOptions(Settings& settings);
+
+struct Distribution {
+  enum class Kind { kNone, kUniform, kLogUniform, kNormal, kLogNormal };
+  Kind kind = Kind::kNone;
+  double first = 0.0;   ///< least value, mean or median
+  double second = 0.0;  ///< most value, or standard deviation (of the logarithm)
+};
+
+struct Axis {
+  std::string key;
+  std::string title;                ///< key and unit: "time_step [s]"
+  std::vector<std::string> values;  ///< as Exercise3 takes them
+  bool is_joined = false;           ///< to the axis before: both take their n-th value at once
+};
+
+/// How --plot draws the table. All but `type` are titles of axes and columns without units.
+struct PlotOptions {
+  enum class Type { kNone, kMap, kLines, kHistogram };
+  Type type = Type::kNone;
+  std::string x, y;
+  std::string color;   ///< of a map
+  std::string lines;   ///< one line for each value of this axis
+  std::string panels;  ///< one panel for each value of this axis
+  std::string limit;   ///< drawn as a line over a map
+  std::string title;
+  bool log_x = false, log_y = false;
+};
+
+/// Where a case is in a study.
+struct Place {
+  std::vector<std::size_t> values;  ///< which value of each axis
+  std::int64_t sample = 0;
+};
+
+struct Study {
+  std::string name;  ///< of the file, without folder and extension
+  Settings base;
+  std::vector<Axis> axes;
+  std::uint64_t seed = 0;
+  std::int64_t samples = 0;   ///< 0: nothing is random
+  Distribution mass_factor;   ///< of each particle
+  Distribution displacement;  ///< of each particle in x and in y, m
+  Distribution velocity;      ///< added to that of each particle in x and in y, m/s
+  std::vector<std::string> columns;
+  PlotOptions plot;
+  std::map<std::string, Particles> particles;  ///< content of each particle file
+  std::uint64_t hash = 0;                      ///< of the study and its particle files
+
+  std::int64_t cases() const;
+  Place placeOf(std::int64_t index) const;
+  /// Whether cases have particles that are in no file.
+  bool changesParticles(const Settings& settings) const;
+};
+
+/// Reads a study and its particle files. Paths of particle files are relative to the study.
+/// \throws FileError, and InputError with file and line
+Study readStudy(const std::string& path);
+
+/// One case of a study.
+struct Case {
+  std::int64_t index = 0;
+  std::int64_t sample = 0;
+  Settings settings;
+  Particles particles;
+};
+
+/// Makes cases; one object for each thread.
+class CaseMaker {
+ public:
+  /// \param study must outlive this object
+  explicit CaseMaker(const Study& study);
+  CaseMaker(const CaseMaker&) = delete;
+  CaseMaker& operator=(const CaseMaker&) = delete;
+
+  /// Returns case 0 <= index < study.cases(), valid until the next call.
+  /// \throws InputError naming the case for values that do not go together
+  const Case& make(std::int64_t index);
+
+ private:
+  void setFrames();
+  void setParticles();
+
+  const Study& study_;
+  Case case_;
+  std::vector<Option> options_;        ///< bound to `case_`
+  std::vector<const Option*> varied_;  ///< for each axis
+};
+
+}  // namespace spring_pendulum::sweep

@@ -1,0 +1,169 @@
+#include "sweep/study/study.hpp"
+
+#include <spring_pendulum/base/errors.hpp>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/temporary_folder.hpp"
+#include "sweep/running/schedule.hpp"
+
+namespace spring_pendulum::sweep {
+namespace {
+
+constexpr const char* kParticles = "0 0 1\n1 0 1\n2 0 3\n";
+
+Study studyOf(const TemporaryFolder& folder, const std::string& text) {
+  folder.write("particle.txt", kParticles);
+  return readStudy(folder.write("study.yaml", text));
+}
+
+TEST(Study, LastAxisVariesFastestAndSamplesSlowest) {
+  const TemporaryFolder folder;
+  const Study study = studyOf(folder,
+                              "axes:\n  method: [Euler, Auto]\n  stiffness: {linear: [10, 30, 3]}\n"
+                              "random: {samples: 2, displacement: {normal: [0, 0.01]}}\n");
+  ASSERT_EQ(study.cases(), 12);
+  CaseMaker maker(study);
+  const Case& made = maker.make(4);
+  EXPECT_EQ(made.settings.scenario.method.get().name, "Auto");
+  EXPECT_EQ(made.settings.scenario.stiffness, 20.0);
+  EXPECT_EQ(made.sample, 0);
+  EXPECT_EQ(maker.make(6).sample, 1);
+  EXPECT_EQ(maker.make(6).settings.scenario.method.get().name, "Euler");
+}
+
+TEST(Study, CasesOfOneSampleHaveTheSameParticles) {
+  const TemporaryFolder folder;
+  const Study study =
+      studyOf(folder,
+              "axes:\n  method: all\n"
+              "random:\n  seed: 3\n  samples: 5\n  mass_factor: {log_normal: [1, 0.2]}\n"
+              "  velocity: {uniform: [-1, 1]}\n");
+  const std::int64_t methods = study.cases() / 5;
+  CaseMaker maker(study);
+  const Particles of_first = maker.make(0).particles;
+  EXPECT_EQ(maker.make(methods - 1).particles.masses.view(), of_first.masses.view());
+  EXPECT_EQ(maker.make(methods - 1).particles.state.values(), of_first.state.values());
+  EXPECT_NE(maker.make(methods).particles.masses[1], of_first.masses[1]);
+  EXPECT_NE(of_first.masses[1], 1.0);
+  EXPECT_NE(of_first.state.vx()[1], 0.0);
+  EXPECT_EQ(of_first.state.vx()[0], 0.0);
+  // Whatever came before.
+  EXPECT_EQ(maker.make(0).particles.masses.view(), of_first.masses.view());
+}
+
+TEST(Study, DurationGivesFramesAndSteps) {
+  const TemporaryFolder folder;
+  const Study study = studyOf(folder,
+                              "base: {duration: 2}\naxes:\n  method: [Euler, Auto]\n"
+                              "  time_step: [0.01, 0.03, 0.5, 4]\n");
+  CaseMaker maker(study);
+  const std::int64_t expected[][2] = {{21, 10}, {24, 3}, {5, 1}, {2, 1}};
+  for (std::int64_t i = 0; i < 4; ++i) {
+    const Scenario scenario = maker.make(i).settings.scenario;
+    EXPECT_EQ(scenario.frames, expected[i][0]) << i;
+    EXPECT_EQ(scenario.steps_per_frame, expected[i][1]) << i;
+  }
+  EXPECT_EQ(maker.make(7).settings.scenario.frames, 21);
+}
+
+TEST(Study, LogarithmicValuesAreShort) {
+  const TemporaryFolder folder;
+  const Study study = studyOf(folder, "axes: {time_step: {log: [1e-4, 1, 5]}}\n");
+  EXPECT_EQ(study.axes[0].values,
+            (std::vector<std::string>{"0.0001", "0.001", "0.01", "0.1", "1"}));
+}
+
+TEST(Study, JoinedAxesVaryTogether) {
+  const TemporaryFolder folder;
+  const Study study = studyOf(folder,
+                              "axes:\n  method: [Auto, Euler]\n  time_step: {list: [0.1, 0.01]}\n"
+                              "  tolerance: {list: [1e-3, 1e-6], with: time_step}\n");
+  ASSERT_EQ(study.cases(), 4);
+  CaseMaker maker(study);
+  EXPECT_EQ(maker.make(1).settings.scenario.tolerance, 1e-6);
+  EXPECT_EQ(maker.make(1).settings.scenario.time_step, 0.01);
+}
+
+TEST(Study, HashDependsOnTheParticles) {
+  const TemporaryFolder folder;
+  const std::uint64_t hash = studyOf(folder, "axes: {method: all}\n").hash;
+  EXPECT_EQ(studyOf(folder, "axes: {method: all}\n").hash, hash);
+  EXPECT_NE(studyOf(folder, "axes: {method: all }\n").hash, hash);
+  folder.write("particle.txt", "0 0 1\n1 0 1\n");
+  EXPECT_NE(readStudy(folder.path("study.yaml")).hash, hash);
+}
+
+TEST(Study, ShippedStudiesAreValid) {
+  int studies = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PROJECT_DIR "/config/studies")) {
+    const Study study = readStudy(entry.path().string());
+    EXPECT_NE(study.plot.type, PlotOptions::Type::kNone) << entry.path();
+    EXPECT_EQ(makeSchedule(study, 1).scene_of.size(), static_cast<std::size_t>(study.cases()));
+    ++studies;
+  }
+  EXPECT_EQ(studies, 4);
+}
+
+TEST(Study, BadInputIsFoundBeforeTheFirstCase) {
+  const std::pair<const char*, const char*> bad[] = {
+      {"", ":1: study: must be lines 'key: value'"},
+      {"[1, 2]\n", "study: must be lines 'key: value'"},
+      {"bass: {}\n", "unknown key 'bass'; did you mean 'base'?"},
+      {"base: {time_stp: 1}\n", "unknown key 'time_stp'; did you mean 'time_step'?"},
+      {"base: {time_step: 0}\n", ":1: time_step: must be a number above 0 s, got '0'"},
+      {"base: {time_step: '0.1'}\n", "single value without quotes"},
+      {"base: {output: here}\n", "unknown key 'output'"},
+      {"base: {time_step: 1, time_step: 2}\n", "time_step: is given twice"},
+      {"base: {particles: none.txt}\n", "none.txt: could not be read"},
+      {"base: {duration: 1, frames: 2}\n", "duration sets frames"},
+      {"axes: {time_step: []}\n", "must be a list with at least one value"},
+      {"axes: {time_step: [0.1, x]}\n", "got 'x'"},
+      {"axes: {time_step: {log: [0, 1, 3]}}\n", "must be above 0"},
+      {"axes: {time_step: {log: [1, 2]}}\n", "[first, last, number of values]"},
+      {"axes: {time_step: {linear: [1, 2, 1]}}\n", "must be a whole number from 2"},
+      {"axes: {time_step: {cubic: [1, 2, 3]}}\n", "unknown key 'cubic'"},
+      {"axes: {time_step: {}}\n", "must be {list: ...}, {linear: ...} or {log: ...}"},
+      {"axes: {method: some}\n", "must be a list, all, fixed-step or error-controlled"},
+      {"axes: {method: [Oiler]}\n", "did you mean 'Euler'?"},
+      {"axes: {damping: [1, 2], time_step: {list: [1], with: damping}}\n", "as many values as"},
+      {"axes: {damping: [1, 2], time_step: {list: [1], with: method}}\n", "key of the axis before"},
+      {"random: {seed: 1}\n", "samples is missing"},
+      {"random: {samples: 1, mass_factor: {normal: [1, 1]}}\n", "positive values only"},
+      {"random: {samples: 1, displacement: {normal: [1, -1]}}\n", "must be at least 0"},
+      {"random: {samples: 1, displacement: {uniform: [1, -1]}}\n", "at least the first one"},
+      {"random: {samples: 1, displacement: {uniform: [nan, 1]}}\n", "got 'nan'"},
+      {"columns: [verdikt]\n", "did you mean 'verdict'?"},
+      {"columns: [verdict, verdict]\n", "verdict is given twice"},
+      {"plot: {type: map}\n", "needs type and x"},
+      {"plot: {type: lines, x: color, y: verdict}\n", "unknown axis or column 'color'"},
+      {"a: &x 1\nb: *x\n", "must not use aliases"},
+      {"[[[[[[[[1]]]]]]]]\n", "is nested too deeply"},
+      {"base: 'x\n", "a quotation mark is not closed"},
+      {"axes: {frames: {linear: [1, 9999, 9999]}, damping: {linear: [0, 1, 9999]}, gravity: "
+       "{linear: [0, 1, 99]}}\n",
+       "there are more than 1e9 cases"},
+      // These depend on several values, so each case is tried.
+      {"axes: {frames: [10, 9000000000000000000]}\n", "case 1: frames times steps_per_frame"},
+      {"base: {method: Auto}\naxes: {tolerance: [1e-6, 1e-30]}\n", "case 1: tolerance: must be at"},
+      {"axes: {mass_factor: [1, 1e308]}\n", "case 1: particle 3: mass must be positive and finite"},
+      {"axes: {gravity: [1, 1e308]}\n", "case 1: the initial energy exceeds"},
+  };
+  const TemporaryFolder folder;
+  for (const auto& [text, message] : bad) {
+    try {
+      makeSchedule(studyOf(folder, text), 2);
+      ADD_FAILURE() << text << " is accepted";
+    } catch (const std::exception& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(message)) << text;
+      EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n"))) << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_pendulum::sweep
