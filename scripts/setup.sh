@@ -8,6 +8,7 @@
 #   test       additional packages for the tests
 #   test-ros   packages for the tests of the node: rostest, a virtual display
 #   film       packages for scripts/film.sh
+#   lab        emscripten, the JavaScript libraries of the page, and a browser for its tests
 #   lint       clang-format, clang-tidy, catkin_lint
 #   sanitize   clang's sanitizers and fuzzer, valgrind, coverage
 #   compilers  clang, for scripts/compilers.sh
@@ -38,6 +39,9 @@ packages_of() {
       echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \
            imagemagick ;;
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
+    lab)
+      echo emscripten cmake ninja-build libeigen3-dev libfmt-dev esbuild libjs-chart.js libjs-katex node-jszip \
+           python3-selenium chromium chromium-driver ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev valgrind gcovr ;;
     compilers) echo clang ;;
@@ -72,7 +76,7 @@ offered_components() {
   local component
   for component in "$@"; do
     case $component in
-      ros | rviz | test-ros)
+      ros | rviz | test-ros | lab)
         apt-cache show $(packages_of "$component") > /dev/null 2>&1 ||
           { say "this release carries no $component: left out" >&2; continue; } ;;
     esac

@@ -3,7 +3,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-"$project/scripts/setup.sh" core mpi python test film ros rviz test-ros
+"$project/scripts/setup.sh" core mpi python test film lab ros rviz test-ros
 say "building into $build"
 configure "$build"
 compile "$build"

@@ -1,0 +1,184 @@
+// Starts the page, and gives scripts window.pendulumLab.
+import {Library, LibraryError} from './library.js';
+import * as check from './check.js';
+import * as motion from './motion.js';
+import * as own from './own.js';
+import * as plots from './plots.js';
+import * as report from './report.js';
+import {restart, restartSoon, scene, tools, tracks, truthTrack} from './runs.js';
+import * as editor from './scene.js';
+import * as share from './share.js';
+import * as stability from './stability.js';
+import {constants, described, fromAddress, newRun, on, presets, setDefaults, settings, tell, toAddress}
+  from './state.js';
+import * as step from './step.js';
+import * as studies from './studies.js';
+
+const panels = [...document.querySelectorAll('[role="tabpanel"]')];
+const tabs = document.getElementById('tabs');
+
+function showTab(name) {
+  settings.tab = name;
+  for (const panel of panels) panel.hidden = panel.id !== `panel-${name}`;
+  for (const button of tabs.children) {
+    const chosen = button.dataset.tab === name;
+    button.setAttribute('aria-selected', chosen);
+    button.tabIndex = chosen ? 0 : -1;
+  }
+  tell('tab', name);
+  keepAddress();
+}
+
+function makeTabs() {
+  for (const panel of panels) {
+    const button = document.createElement('button');
+    button.textContent = panel.dataset.title;
+    button.dataset.tab = panel.id.replace('panel-', '');
+    button.setAttribute('role', 'tab');
+    button.setAttribute('aria-controls', panel.id);
+    button.addEventListener('click', () => showTab(button.dataset.tab));
+    tabs.append(button);
+  }
+  tabs.addEventListener('keydown', ({key}) => {
+    const turn = {ArrowRight: 1, ArrowLeft: -1}[key];
+    if (!turn) return;
+    const all = [...tabs.children];
+    const next = all[(all.findIndex((b) => b.dataset.tab === settings.tab) + turn + all.length) % all.length];
+    showTab(next.dataset.tab);
+    next.focus();
+  });
+}
+
+let address = 0;
+function keepAddress() {
+  clearTimeout(address);
+  address = setTimeout(() => history.replaceState(null, '', toAddress()), 300);
+}
+
+function setTheme(name) {
+  document.documentElement.dataset.theme = name;
+  tell('theme');
+}
+
+function takeDrops() {
+  const stop = (event) => {
+    event.preventDefault();
+    document.body.classList.toggle('over', event.type === 'dragover');
+  };
+  for (const type of ['dragover', 'dragleave']) document.addEventListener(type, stop);
+  document.addEventListener('drop', async (event) => {
+    stop(event);
+    const {items, files} = event.dataTransfer;
+    const folder = [...items].map((item) => item.webkitGetAsEntry?.()).find((entry) => entry?.isDirectory);
+    if (folder || files.length > 1 || /\.zip$/i.test(files[0]?.name ?? '')) {
+      showTab('check');
+      check.take(folder, [...files]);
+    } else if (files[0]) {
+      editor.openFile(files[0]);
+    }
+  });
+}
+
+function fileOf(particles) {
+  if (particles === undefined) return settings.file;
+  const name = String(particles).replace(/^.*data\//, '');
+  if (presets[name]) return {name, text: presets[name]};
+  return {name: 'particle.txt', text: String(particles)};
+}
+
+function showAll() {
+  editor.showConstants();
+  report.showRuns();
+  document.getElementById('layout').value = settings.layout;
+  showTab(settings.tab);
+  tell('file');
+}
+
+/** For scripts; docs/lab.md describes it. */
+window.pendulumLab = {
+  async run({particles, ...options} = {}) {
+    const library = new Library();
+    try {
+      const {frames, energy, output, status, messages, kind, text, time, particle, ...end} =
+        await library.call('run', {
+          settings: options, file: fileOf(particles), interval: 0, energies: true, texts: true, room: 1e9,
+        });
+      const {largest, largestTime, bound, measuredUntil, energyError, evaluations} = end;
+      return {status, messages, output, frames, energy, verdict: {kind, text, time, particle}, evaluations,
+              errors: {position: largest, time: largestTime, bound, measuredUntil, energy: energyError}};
+    } catch (error) {
+      if (!(error instanceof LibraryError)) throw error;
+      return {status: error.status, messages: [error.message], output: '', frames: [], energy: '',
+              verdict: null, evaluations: 0, errors: null};
+    } finally {
+      library.cancel();
+    }
+  },
+  /** Changes settings of the page and resolves when all runs have ended. */
+  async set({particles, runs, ...changes} = {}) {
+    if (particles !== undefined) settings.file = fileOf(particles);
+    for (const key of [...constants, 'frames', 'interval', 'reference', 'layout', 'tab']) {
+      if (changes[key] !== undefined) settings[key] = String(changes[key]);
+    }
+    if (runs) {
+      settings.runs = runs.slice(0, 4).map((run) => {
+        const made = {...newRun(run.method), ...run};
+        return {...made, time_step: String(made.time_step), tolerance: String(made.tolerance)};
+      });
+    }
+    showAll();
+    clearTimeout(address);
+    await restart();
+    keepAddress();
+  },
+  state: () => ({
+    time: motion.play.time, playing: motion.play.on, pictures: motion.play.pictures,
+    firstPicture: motion.play.firstPicture, scene: {x: [...scene.x], y: [...scene.y], m: [...scene.m]},
+    problem: document.getElementById('problem').textContent, settings: structuredClone(settings),
+    sentences: report.sentences(),
+    runs: tracks.map((track) => ({
+      until: track.lastTime, samples: track.times.length, failure: track.failure, progress: track.progress,
+      end: track.end, positions: Array.from(track.positionsAt(motion.play.time) ?? []).slice(0, 2 * scene.x.length),
+    })),
+    truth: Array.from(truthTrack()?.positionsAt(motion.play.time, truthTrack().truths) ?? []),
+    plots: plots.values(),
+  }),
+  studies: studies.results,
+  onScreen: motion.onScreen,
+  methods: () => described.methods.map(({name}) => name),
+  seek: motion.seek,
+  play: motion.setPlaying,
+};
+
+async function start() {
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  setTheme(dark.matches ? 'dark' : 'light');
+  dark.addEventListener('change', () => setTheme(dark.matches ? 'dark' : 'light'));
+  document.getElementById('theme').addEventListener('click', () => {
+    setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
+  });
+  makeTabs();
+  takeDrops();
+  Object.assign(described, await tools.call('describe'));
+  setDefaults();
+  fromAddress(location.hash);
+  for (const part of [motion, editor, report, plots, studies, stability, step, own, share, check]) part.start();
+  document.getElementById('layout').addEventListener('change', ({target}) => {
+    settings.layout = target.value;
+    keepAddress();
+    tell('fit');
+  });
+  on('settings', keepAddress);
+  if (settings.own) await own.restore();
+  showAll();
+  window.addEventListener('hashchange', async () => {
+    fromAddress(location.hash);
+    if (settings.own) await own.restore();
+    showAll();
+    restartSoon();
+  });
+  await restart();
+  document.body.dataset.ready = 'true';
+}
+
+start().catch((error) => editor.say(`The page could not start: ${error.message}`));

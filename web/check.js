@@ -1,0 +1,125 @@
+// Checks the frames of a student's program, and draws them over the right motion.
+import JSZip from '/usr/share/nodejs/jszip/lib/index.js';
+import {Cancelled, Library} from './library.js';
+import {seek, showFrames} from './motion.js';
+import {paragraph} from './step.js';
+import {scene} from './runs.js';
+import {methodOf, on, optionsOf, settings} from './state.js';
+
+const get = (id) => document.getElementById(id);
+const note = get('check-note');
+const MOST_BYTES = 2e8;
+const NAME = /(?:^|\/)(frame[^\d/]*(\d+)\.(?:txt|dat|csv))$/i;
+let library = null;
+
+const frameOf = (path) => {
+  const found = NAME.exec(path);
+  return found && {name: found[1], index: Number(found[2])};
+};
+
+function say(...lines) {
+  note.replaceChildren(...lines.map((line) => paragraph(line)));
+}
+
+/** All files of a dropped folder. */
+async function filesIn(folder) {
+  const reader = folder.createReader();
+  const files = [];
+  for (;;) {
+    const entries = await new Promise((resolve, reject) => { reader.readEntries(resolve, reject); });
+    if (entries.length === 0) return files;
+    for (const entry of entries) {
+      if (entry.isFile) files.push(await new Promise((resolve, reject) => { entry.file(resolve, reject); }));
+    }
+  }
+}
+
+async function readZip(file) {
+  if (file.size > MOST_BYTES) throw new Error(tooMuch(file.size));
+  const zip = await JSZip.loadAsync(file).catch(() => {
+    throw new Error(`${file.name}: could not be read as a zip file`);
+  });
+  const frames = [];
+  let bytes = 0;
+  for (const [path, entry] of Object.entries(zip.files)) {
+    const frame = frameOf(path);
+    if (!frame || entry.dir) continue;
+    // A small zip may hold a huge file.
+    bytes += entry._data?.uncompressedSize ?? 0;
+    if (bytes > MOST_BYTES) throw new Error(tooMuch(bytes));
+    frames.push({...frame, text: await entry.async('string')});
+  }
+  return frames;
+}
+
+const tooMuch = (bytes) => `${(bytes / 1e6).toFixed(0)} MB of frames are too much for this page: use check_frames`;
+
+async function readFiles(files) {
+  const named = files.map((file) => ({file, frame: frameOf(file.name)})).filter(({frame}) => frame);
+  const bytes = named.reduce((sum, {file}) => sum + file.size, 0);
+  if (bytes > MOST_BYTES) throw new Error(tooMuch(bytes));
+  return Promise.all(named.map(async ({file, frame}) => ({...frame, text: await file.text()})));
+}
+
+/** Numbers of a frame in the order of drawing: all x, then all y. */
+function positionsOf({text}) {
+  const rows = text.trim().split('\n').map((line) => line.trim().split(/[\s,;]+/).map(Number));
+  return Float64Array.from([...rows.map(([x]) => x), ...rows.map(([, y]) => y)]);
+}
+
+function drawOver(frames, interval) {
+  const byIndex = new Map(frames.map((frame) => [frame.index, frame]));
+  showFrames({
+    positions(time) {
+      const frame = byIndex.get(Math.floor(time / interval + 1e-6));
+      const positions = frame && positionsOf(frame);
+      return positions?.length === 2 * scene.x.length ? positions : null;
+    },
+  });
+}
+
+/** Checks a dropped or chosen folder, zip or list of files. */
+export async function take(folder, files) {
+  showFrames(null);
+  library?.cancel();
+  library = new Library();
+  try {
+    say('Reading …');
+    const zip = files.find((file) => /\.zip$/i.test(file.name));
+    const frames = zip && !folder ? await readZip(zip) : await readFiles(folder ? await filesIn(folder) : files);
+    if (frames.length === 0) {
+      say('No frames here: the files must be named frame_0000.txt, frame_0001.txt and so on.');
+      return;
+    }
+    await check(frames);
+  } catch (error) {
+    if (!(error instanceof Cancelled)) say(error.message);
+  } finally {
+    get('check-cancel').hidden = true;
+  }
+}
+
+async function check(frames) {
+  const run = settings.runs[0];
+  const {reference: _, frames: __, ...options} = optionsOf(run);
+  const began = performance.now();
+  get('check-cancel').hidden = false;
+  say(`Comparing ${frames.length} frames …`);
+  const result = await library.call('check', {
+    settings: options, file: settings.file, given: get('check-method').checked, frames,
+  }, () => say(`Searching for the mistake, ${Math.round((performance.now() - began) / 1000)} s …`));
+  say(...result.report.trim().split('\n'));
+  const method = methodOf(run.method);
+  const interval = method?.fixed ? Number(options.steps_per_frame) * Number(options.time_step) : Number(options.frame_interval);
+  drawOver(frames, interval);
+  if (result.time === undefined) return;
+  note.append(paragraph('The frames are drawn dashed over the motion; the page shows the time where they depart.'));
+  seek(result.time);
+}
+
+export function start() {
+  get('check-folder').addEventListener('change', ({target}) => { take(null, [...target.files]); target.value = ''; });
+  get('check-zip').addEventListener('change', ({target}) => { take(null, [...target.files]); target.value = ''; });
+  get('check-cancel').addEventListener('click', () => { library?.cancel(); say('Cancelled.'); });
+  on('tab', (tab) => { if (tab !== 'check') showFrames(null); });
+}

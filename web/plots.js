@@ -1,0 +1,151 @@
+// Plots with Chart.js: lines named at their end, colours of the theme, a cursor that follows the time.
+import {play} from './motion.js';
+import {lastTime, tracks} from './runs.js';
+import {colorOf, dashes, nameOf, on, settings} from './state.js';
+
+/* global Chart */
+const MOST_POINTS = 800;
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const charts = [];
+
+/** Writes the name of each line at its last point. */
+const labels = {
+  id: 'labels',
+  afterDatasetsDraw(chart) {
+    const {ctx, chartArea} = chart;
+    const taken = [];
+    ctx.save();
+    ctx.font = '12px system-ui, sans-serif';
+    chart.data.datasets.forEach((dataset, index) => {
+      const points = chart.getDatasetMeta(index).data.filter((point) => Number.isFinite(point.y));
+      const last = points.at(-1);
+      if (!last || !dataset.label || dataset.unlabelled) return;
+      const width = ctx.measureText(dataset.label).width;
+      const x = Math.max(chartArea.left + 2, Math.min(last.x - width, chartArea.right - width - 4));
+      let y = Math.min(Math.max(last.y - 6, chartArea.top + 12), chartArea.bottom - 4);
+      while (taken.some((other) => Math.abs(other - y) < 13) && y < chartArea.bottom - 13) y += 13;
+      taken.push(y);
+      ctx.fillStyle = css('--panel');
+      ctx.globalAlpha = 0.75;
+      ctx.fillRect(x - 2, y - 10, width + 4, 13);
+      ctx.globalAlpha = 1;
+      ctx.fillStyle = dataset.borderColor;
+      ctx.fillText(dataset.label, x, y);
+    });
+    ctx.restore();
+  },
+};
+
+function axis(title, type) {
+  return {
+    type, title: {display: true, text: title, color: css('--text')},
+    ticks: {color: css('--faint'), maxTicksLimit: 8,
+            callback: (value) => (type === 'logarithmic' && Math.abs(Math.log10(value) % 1) > 1e-9 ?
+              '' : Number(value.toPrecision(3)).toString())},
+    grid: {color: css('--grid')},
+  };
+}
+
+/** Makes a chart whose points are {x, y}. */
+export function makeChart(id, {title, x, y, xType = 'linear', yType = 'linear', extra = [], options = {}}) {
+  const chart = new Chart(document.getElementById(id), {
+    type: 'scatter',
+    data: {datasets: []},
+    options: {
+      animation: false, responsive: true, maintainAspectRatio: false, normalized: true, parsing: false,
+      showLine: true, elements: {point: {radius: 0}, line: {borderWidth: 2}},
+      scales: {x: axis(x, xType), y: axis(y, yType)},
+      plugins: {legend: {display: false}, title: {display: true, text: title, color: css('--text')}},
+      ...options,
+    },
+    plugins: [labels, ...extra],
+  });
+  chart.canvas.setAttribute('aria-label', title);
+  charts.push({chart, x, y, xType, yType});
+  return chart;
+}
+
+export function setLines(chart, lines) {
+  chart.data.datasets = lines;
+  chart.update('none');
+}
+
+/** A line of one run. */
+export const lineOf = (index, data, label = nameOf(settings.runs[index])) => ({
+  data, label, borderColor: colorOf(index), backgroundColor: colorOf(index), borderDash: dashes[index],
+  showLine: true,
+});
+
+function thinned(track, column, keep = () => true) {
+  const {frame} = track.columns;
+  const all = [];
+  for (let i = 0; i < frame.length; ++i) if (frame[i] >= 0) all.push(i);
+  const stride = Math.max(1, Math.ceil(all.length / MOST_POINTS));
+  return all.filter((_, n) => n % stride === 0 || n === all.length - 1)
+      .map((i) => ({x: track.times[i], y: column(track.columns, i)})).filter(({y}) => keep(y));
+}
+
+const totals = ({kinetic, gravity, spring}, i) => kinetic[i] + gravity[i] + spring[i];
+let error, balance, energy;
+
+export function start() {
+  error = makeChart('plot-error', {title: 'Position error', x: 't in s', y: 'm', yType: 'logarithmic'});
+  balance = makeChart('plot-balance',
+    {title: 'Energy error (share of the energy scale)', x: 't in s', y: '1', yType: 'logarithmic'});
+  energy = makeChart('plot-energy', {title: 'Energy', x: 't in s', y: 'J'});
+  for (const chart of [error, balance, energy]) addCursor(chart);
+  document.getElementById('energy').addEventListener('change', update);
+  for (const event of ['run', 'scene', 'theme', 'tab']) on(event, update);
+  on('samples', updateSoon);
+  on('time', moveCursors);
+}
+
+let waiting = 0;
+function updateSoon() {
+  waiting ||= setTimeout(update, 200);
+}
+
+export function update() {
+  clearTimeout(waiting);
+  waiting = 0;
+  if (settings.tab !== 'plots' || !error) return;
+  const kind = document.getElementById('energy').value;
+  const lines = (column, keep) => tracks.map((track, i) => (settings.runs[i] ?
+    lineOf(i, thinned(track, column, keep)) : null)).filter(Boolean);
+  const positive = (y) => y > 0 && y < Infinity;
+  setLines(error, lines((c, i) => c.error[i], positive));
+  setLines(balance, lines((c, i) => Math.abs(c.relativeResidual[i]), positive));
+  setLines(energy, lines((c, i) => (kind === 'total' ? totals(c, i) : c[kind][i]), Number.isFinite));
+  moveCursors();
+}
+
+function addCursor(chart) {
+  const cursor = document.createElement('div');
+  cursor.className = 'cursor';
+  chart.canvas.parentElement.append(cursor);
+  chart.cursor = cursor;
+}
+
+function moveCursors() {
+  if (settings.tab !== 'plots') return;
+  for (const {chart} of charts) {
+    if (!chart.cursor || !chart.chartArea) continue;
+    const {top, height} = chart.chartArea;
+    const x = chart.scales.x.getPixelForValue(Math.min(play.time, lastTime()));
+    chart.cursor.style.cssText = `top:${top}px;height:${height}px;transform:translateX(${x}px)`;
+  }
+}
+
+on('theme', () => {
+  for (const {chart, x, y, xType, yType} of charts) {
+    const {scales, plugins} = chart.options;
+    scales.x = {...scales.x, ...axis(x, xType)};
+    scales.y = {...scales.y, ...axis(y, yType)};
+    plugins.title.color = css('--text');
+    chart.update('none');
+  }
+});
+
+/** The plotted points of the three plots over time. */
+export const values = () => Object.fromEntries(Object.entries({error, balance, energy}).map(
+  ([name, chart]) => [name, chart ? chart.data.datasets.map(({label, data}) => ({label, data})) : []]));

@@ -1,0 +1,178 @@
+// The table of runs, and what happened in three sentences.
+import {cancelRuns, running, scene, tracks} from './runs.js';
+import {MOST_RUNS, colorOf, dashes, described, methodOf, nameOf, newRun, on, settings, tell} from './state.js';
+
+const body = document.querySelector('#runs tbody');
+const list = document.getElementById('sentences');
+const cancel = document.getElementById('cancel');
+const addRun = document.getElementById('add-run');
+export const short = (value, digits = 2) =>
+  (Number.isFinite(value) ? String(Number(Number(value).toPrecision(digits))) : 'not known');
+
+const cell = (row, content) => {
+  const element = row.insertCell();
+  element.append(content);
+  return element;
+};
+
+function swatch(index) {
+  const canvas = document.createElement('canvas');
+  canvas.className = 'swatch';
+  canvas.width = 56;
+  canvas.height = 24;
+  const context = canvas.getContext('2d');
+  context.strokeStyle = colorOf(index);
+  context.lineWidth = 5;
+  context.setLineDash(dashes[index].map((length) => 2 * length));
+  context.beginPath();
+  context.moveTo(0, 12);
+  context.lineTo(56, 12);
+  context.stroke();
+  return canvas;
+}
+
+function choiceOf(run) {
+  const select = document.createElement('select');
+  select.setAttribute('aria-label', 'method');
+  select.append(...described.methods.map(({name}) => new Option(name)));
+  if (!methodOf(run.method)) select.append(new Option(run.method));
+  select.value = run.method;
+  select.addEventListener('change', () => { run.method = select.value; changed(); });
+  return select;
+}
+
+function sizeOf(run) {
+  const input = document.createElement('input');
+  const key = methodOf(run.method)?.fixed ?? true ? 'time_step' : 'tolerance';
+  input.value = run[key];
+  input.inputMode = 'decimal';
+  input.setAttribute('aria-label', key === 'time_step' ? 'step size in s' : 'tolerance in m');
+  input.addEventListener('change', () => { run[key] = input.value.trim(); changed(); });
+  const label = document.createElement('span');
+  const half = document.createElement('button');
+  half.textContent = key === 'time_step' ? '½' : '⅒';
+  half.title = key === 'time_step' ? 'Halve the step' : 'A tenth of the tolerance';
+  half.addEventListener('click', () => {
+    run[key] = String(Number((Number(run[key]) / (key === 'time_step' ? 2 : 10)).toPrecision(12)));
+    changed();
+  });
+  label.append(input, key === 'time_step' ? ' s ' : ' m ', half);
+  return label;
+}
+
+function changed() {
+  showRuns();
+  tell('settings');
+}
+
+/** Builds the rows anew; `showResults` fills them. */
+export function showRuns() {
+  body.replaceChildren();
+  settings.runs.forEach((run, index) => {
+    const row = body.insertRow();
+    cell(row, swatch(index));
+    cell(row, choiceOf(run));
+    cell(row, sizeOf(run));
+    for (let i = 0; i < 4; ++i) row.insertCell();
+    const remove = document.createElement('button');
+    remove.textContent = '×';
+    remove.title = `Remove ${nameOf(run)}`;
+    remove.disabled = settings.runs.length === 1;
+    remove.addEventListener('click', () => { settings.runs.splice(index, 1); changed(); });
+    cell(row, remove);
+  });
+  addRun.disabled = settings.runs.length >= MOST_RUNS;
+  tell('runs');
+  showResults();
+}
+
+const errorText = (end) => (end.largest > 0 && end.resolved ? `${short(end.largest)} m` :
+  end.bound >= 0 ? `below ${short(end.bound)} m` : 'not checked');
+
+export function showResults() {
+  [...body.rows].forEach((row, index) => {
+    const track = tracks[index];
+    const texts = ['', '', '', ''];
+    if (track?.end) {
+      const {end} = track;
+      texts[0] = end.kind;
+      texts[1] = errorText(end);
+      texts[2] = track.columns.relativeResidual.some(Number.isFinite) ? short(end.energyError) : 'not checked';
+      texts[3] = end.evaluations.toLocaleString('en');
+      row.cells[3].title = [end.text, end.measurements, end.report, ...end.messages].join('\n');
+    } else if (track) {
+      texts[0] = track.failure || track.progress;
+    }
+    texts.forEach((text, i) => { row.cells[3 + i].textContent = text; });
+    row.cells[3].className = track?.failure || track?.end?.bad ? 'problem' : '';
+  });
+  cancel.hidden = !running();
+  list.replaceChildren(...sentences().map((text) => {
+    const item = document.createElement('li');
+    item.textContent = text;
+    return item;
+  }));
+}
+
+/** What happened, why, and what to do about it, from what the library measured. */
+export function sentences() {
+  const ended = settings.runs.map((run, i) => ({run, track: tracks[i], method: methodOf(run.method)}))
+      .filter(({track}) => track?.end);
+  if (ended.length === 0 || scene.failure) return [];
+  const diverged = ended.filter(({track}) => track.diverged);
+  const others = ended.filter(({track}) => !track.diverged);
+  const what = [
+    ...diverged.map(({run, track}) => `${nameOf(run)} diverges at t = ${short(track.end.time, 3)} s`),
+    ...others.map(({run, track}) => (track.end.bad ? `${nameOf(run)} ends with the verdict "${track.end.kind}"` :
+      track.end.bound >= 0 ? `${nameOf(run)} stays within ${short(track.end.bound)} m of the true motion` :
+        `${nameOf(run)} ends with the verdict "${track.end.kind}"`)),
+  ].join('; ');
+  return [`${what}.`, why(ended, diverged), remedy(ended)];
+}
+
+function why(ended, diverged) {
+  const grown = ended.filter(({track}) => (track.columns.relativeGain.at(-1) ?? 0) > 0.01);
+  const blamed = diverged[0] ?? grown[0];
+  if (blamed && blamed.method.imaginaryLimit === 0) {
+    return `${blamed.method.name} multiplies every undamped swing by slightly more than 1 in each step, ` +
+      'so energy enters the chain that no force has put there, and the swing grows.';
+  }
+  if (blamed) {
+    return `The step of ${blamed.method.name} is too long for the fastest vibration of this chain: ` +
+      'hλ leaves the stability region, and the vibration grows with every step.';
+  }
+  const fixed = ended.filter(({method, track}) => method.fixed && track.end.largest > 0);
+  if (fixed.length > 1) {
+    const [best, worst] = [...fixed].sort((a, b) => a.track.end.largest - b.track.end.largest)
+        .filter((_, i, all) => i === 0 || i === all.length - 1);
+    return `The largest error of ${nameOf(worst.run)} is ${short(worst.track.end.largest / best.track.end.largest)} ` +
+      `times that of ${nameOf(best.run)}: their orders are ${worst.method.order} and ${best.method.order}.`;
+  }
+  return ended.every(({method}) => !method.fixed) ?
+    'Error-controlled methods choose their steps so that the error stays near the tolerance.' :
+    'The step is inside the stability region, so errors come from the truncated Taylor series and stay small.';
+}
+
+function remedy(ended) {
+  const advice = ended.flatMap(({track}) => track.end.messages).find((line) => /largest stable step/.test(line));
+  if (advice) return `The library advises: ${advice.replace(/^warning: /, '').split('; ').slice(-2).join('; ')}.`;
+  const {run, method} = ended[0];
+  if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} only a few more evaluations: try it.`;
+  return `Half the step divides the error of ${method.name} (order ${method.order}) by about ${2 ** method.order} ` +
+    `and doubles its work: try ${short(Number(run.time_step) / 2, 6)} s.`;
+}
+
+export function start() {
+  addRun.addEventListener('click', () => {
+    settings.runs.push(newRun(described.methods.find(
+      ({name}) => !settings.runs.some((run) => run.method === name))?.name ?? 'Auto'));
+    changed();
+  });
+  cancel.addEventListener('click', cancelRuns);
+  for (const event of ['run', 'progress', 'scene', 'done']) on(event, showResults);
+  let waiting = 0;
+  on('samples', () => {
+    waiting ||= setTimeout(() => { waiting = 0; showResults(); }, 150);
+  });
+  for (const event of ['theme', 'own']) on(event, showRuns);
+}

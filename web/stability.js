@@ -1,0 +1,148 @@
+// The stability region of a method, and the eigenvalues of the scene times the step in it.
+import {play} from './motion.js';
+import {makeChart, setLines} from './plots.js';
+import {short} from './report.js';
+import {scene, tools, tracks} from './runs.js';
+import {colorOf, methodOf, nameOf, on, optionsOf, settings} from './state.js';
+
+const MOST_PARTICLES = 40;  // the eigenvalues of a longer chain take too long
+const GRID = [240, 200];
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Paints the region below the points: ln |R| at most 0. */
+const painter = {
+  id: 'region',
+  beforeDatasetsDraw(chart) {
+    if (!chart.region) return;
+    const {x, y} = chart.scales;
+    const {left, right, top, picture} = chart.region;
+    const [px, py] = [x.getPixelForValue(left), y.getPixelForValue(top)];
+    chart.ctx.save();
+    chart.ctx.imageSmoothingEnabled = true;
+    chart.ctx.drawImage(picture, px, py, x.getPixelForValue(right) - px, y.getPixelForValue(-top) - py);
+    chart.ctx.restore();
+  },
+};
+
+function pictureOf(growth, [width, height]) {
+  const picture = document.createElement('canvas');
+  picture.width = width;
+  picture.height = 2 * height - 1;
+  const context = picture.getContext('2d');
+  const image = context.createImageData(picture.width, picture.height);
+  const [red, green, blue] = theme() === 'dark' ? [92, 179, 255] : [0, 89, 179];
+  for (let row = 0; row < picture.height; ++row) {
+    const from = Math.abs(row - (height - 1));
+    for (let column = 0; column < width; ++column) {
+      const value = growth[from * width + column];
+      const at = 4 * (row * width + column);
+      image.data.set([red, green, blue, value <= 1e-12 ? 90 : 0], at);
+    }
+  }
+  context.putImageData(image, 0, 0);
+  return picture;
+}
+const theme = () => document.documentElement.dataset.theme;
+
+export function makeRegionChart(id) {
+  return makeChart(id, {
+    title: 'Stability region (shaded) and hλ', x: 'real part of hλ', y: 'imaginary part of hλ',
+    extra: [painter], options: {showLine: false},
+  });
+}
+
+/**
+ * Draws the region of a method and points hλ; both axes have the same scale.
+ * @param method a row of the method table, or a tableau {a, b}
+ */
+export async function drawRegion(chart, method, points, color) {
+  const bounded = (limit, least) => Math.max(least, Math.min(Number.isFinite(limit) ? limit : 6, 40));
+  const left = Math.min(-1.25 * bounded(method.realLimit, 2.6), ...points.map(({x}) => Math.max(1.1 * x, -60)));
+  const top = Math.max(1.35 * bounded(method.imaginaryLimit, 2.6), 0.6 * -left,
+                       ...points.map(({y}) => Math.min(1.1 * y, 60)));
+  const box = {left, right: -0.25 * left, top};
+  const growth = await tools.call('growth', {method: method.name ?? method, ...box, width: GRID[0], height: GRID[1]});
+  chart.region = {...box, picture: pictureOf(growth, GRID)};
+  Object.assign(chart.options.scales.x, {min: left, max: box.right});
+  Object.assign(chart.options.scales.y, {min: -top, max: top});
+  setLines(chart, [{data: points, showLine: false, pointRadius: 5, pointStyle: 'rectRot', borderColor: css('--text'),
+                    backgroundColor: color, label: 'hλ', unlabelled: true}]);
+}
+
+const choice = document.getElementById('stability-run');
+const note = document.getElementById('stability-note');
+const text = document.getElementById('stability-text');
+let chart;
+let busy = false;
+let again = false;
+
+/** Fills a list of the runs, and keeps the chosen one. */
+export function fillRuns(select) {
+  const chosen = Math.min(Math.max(select.selectedIndex, 0), settings.runs.length - 1);
+  select.replaceChildren(...settings.runs.map((run, i) => new Option(nameOf(run), i)));
+  select.selectedIndex = chosen;
+}
+
+/** The state of a run at the time of the page, N×4 by columns. */
+export function stateOf(index) {
+  const track = tracks[index];
+  return track?.states[track.indexAt(play.time)];
+}
+
+async function update() {
+  if (settings.tab !== 'stability') return;
+  if (busy) {
+    again = true;
+    return;
+  }
+  busy = true;
+  try {
+    await show(Number(choice.value));
+  } catch (error) {
+    text.textContent = error.message;
+  }
+  busy = false;
+  if (!again) return;
+  again = false;
+  update();
+}
+
+async function show(index) {
+  const run = settings.runs[index];
+  const method = run && methodOf(run.method);
+  const state = stateOf(index);
+  if (!method || !state) return;
+  const step = method.fixed ? Number(run.time_step) : Number(settings.interval);
+  const small = scene.x.length <= MOST_PARTICLES;
+  const finite = state.every(Number.isFinite);
+  const parts = small && finite ? await tools.call('eigenvalues', {
+    settings: optionsOf(run), masses: Array.from(scene.m), state: Array.from(state),
+  }) : [];
+  const points = [];
+  for (let i = 0; i < parts.length; i += 2) points.push({x: step * parts[i], y: step * parts[i + 1]});
+  await drawRegion(chart, method, points, colorOf(index));
+  note.textContent = method.fixed ? `h = ${run.time_step} s, t = ${play.time.toFixed(2)} s` :
+    `h = ${short(step, 3)} s, the time between frames; this method chooses shorter steps itself`;
+  text.textContent = describe(method, points, small);
+}
+
+function describe(method, points, small) {
+  if (!small) return `Eigenvalues are drawn for at most ${MOST_PARTICLES} particles.`;
+  if (points.length === 0) return 'A chain of one particle has no motion.';
+  const far = points.reduce((a, b) => (Math.hypot(a.x, a.y) > Math.hypot(b.x, b.y) ? a : b));
+  const growing = points.filter(({x}) => x > 1e-6).length;
+  const kind = method.symplectic ? ' The region of a symplectic method is that of an oscillator; damping is approximated.' :
+    method.fixed || method.a ? '' : ' This region is an estimate from the two stability limits.';
+  return `The farthest of ${points.length} points hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
+    `${short(Math.abs(far.y), 3)} i; half the step halves its distance from 0. Points inside the region decay or keep ` +
+    'their size, points outside grow with every step.' +
+    (growing ? ` ${growing} points lie right of the axis: there the motion itself, not the method, spreads apart.` : '') +
+    kind;
+}
+
+export function start() {
+  chart = makeRegionChart('plot-stability');
+  choice.addEventListener('change', update);
+  on('runs', () => fillRuns(choice));
+  for (const event of ['time', 'run', 'tab', 'theme']) on(event, update);
+}

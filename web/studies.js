@@ -1,0 +1,139 @@
+// Error against step size and run time against error, measured for this scene with all methods.
+import {Cancelled, Library} from './library.js';
+import {makeChart, setLines} from './plots.js';
+import {short} from './report.js';
+import {on, described, methodOf, optionsOf, newRun, settings, theme} from './state.js';
+
+const get = (id) => document.getElementById(id);
+const FRAME = 0.4;       // s; the largest step
+const HALVINGS = 9;
+const TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+const ENOUGH = 1e-10;    // m, errors below are those of rounding
+const styles = ['circle', 'triangle', 'rect', 'star', 'cross', 'rectRot', 'crossRot'];
+const tint = (i) => `hsl(${(i * 137.5 + 210) % 360} 75% ${theme() === 'dark' ? 68 : 36}%)`;
+let library = null;
+let order, cost;
+let rows = [];   // {method, points: [{setting, error, seconds}], limit}
+
+function jobsOf(duration) {
+  const frames = Math.max(1, Math.round(duration / FRAME)) + 1;
+  return described.methods.map((method) => ({
+    method,
+    settings: method.fixed ?
+      Array.from({length: HALVINGS + 1}, (_, n) => ({
+        time_step: String(FRAME / 2 ** n), steps_per_frame: String(2 ** n), frames: String(frames),
+      })) :
+      TOLERANCES.map((tolerance) => ({
+        tolerance: String(tolerance), frame_interval: String(FRAME), frames: String(frames),
+      })),
+  }));
+}
+
+async function measure() {
+  const duration = Number(get('study-time').value);
+  if (!(duration > 0 && duration <= 1000)) {
+    get('study-note').textContent = 'The time must be a number above 0 and at most 1000 s.';
+    return;
+  }
+  const jobs = jobsOf(duration);
+  const total = jobs.reduce((sum, job) => sum + job.settings.length, 0);
+  const progress = get('study-progress');
+  Object.assign(progress, {max: total, value: 0, hidden: false});
+  get('study').disabled = true;
+  get('study-cancel').hidden = false;
+  rows = [];
+  library = new Library();
+  try {
+    for (const {method, settings: list} of jobs) await measureMethod(method, list, progress);
+    get('study-note').textContent = 'Done.';
+  } catch (error) {
+    get('study-note').textContent = error instanceof Cancelled ? 'Cancelled.' : error.message;
+  }
+  library.cancel();
+  progress.hidden = get('study-cancel').hidden = true;
+  get('study').disabled = false;
+}
+
+async function measureMethod(method, list, progress) {
+  const row = {method, points: [], limit: NaN};
+  rows.push(row);
+  const {file} = settings;
+  for (const sizes of list) {
+    get('study-note').textContent = `${method.name} ${sizes.time_step ?? sizes.tolerance}`;
+    const options = {...optionsOf(newRun(method.name)), ...sizes};
+    try {
+      const end = await library.call('measure', {settings: options, file});
+      const error = end.resolved ? end.largest : NaN;
+      if (end.status !== 3 && error > ENOUGH) {
+        row.points.push({setting: Number(sizes.time_step ?? sizes.tolerance), error, seconds: end.seconds});
+      }
+    } catch (error) {  // a tolerance below the rounding errors, for example
+      if (error instanceof Cancelled) throw error;
+      if (row.points.length === 0 && sizes === list[0]) row.failure = error.message;
+    }
+    ++progress.value;
+    show();
+  }
+  if (!method.fixed) return;
+  row.limit = await library.call('stableStep', {settings: {...optionsOf(newRun(method.name)), ...list[5]}, file});
+  show();
+}
+
+/** Slope of log error over log step through the smallest steps that are not near rounding. */
+export function slopeOf(points) {
+  const used = points.filter(({error}) => error > 100 * ENOUGH).slice(-3);
+  if (used.length < 2) return NaN;
+  const [first, last] = [used[0], used.at(-1)];
+  return Math.log(first.error / last.error) / Math.log(first.setting / last.setting);
+}
+
+function show() {
+  const style = (i) => ({
+    borderColor: tint(i), backgroundColor: tint(i), pointStyle: styles[i % styles.length], pointRadius: 4,
+  });
+  const named = rows.map((row, i) => ({...row, i}));
+  const fixed = named.filter(({method}) => method.fixed);
+  setLines(order, [
+    ...fixed.map(({method, points, i}) => ({
+      label: method.name, ...style(i), data: points.map(({setting, error}) => ({x: setting, y: error})),
+    })),
+    ...fixed.filter(({limit, points}) => Number.isFinite(limit) && limit > 0 && points.length > 0).map(
+      ({method, limit, points, i}) => ({
+        label: `limit of ${method.name}`, unlabelled: true, borderColor: tint(i), borderDash: [2, 3], borderWidth: 1.5,
+        data: [{x: limit, y: points.at(-1).error}, {x: limit, y: points[0].error}],
+      })),
+  ]);
+  setLines(cost, named.map(({method, points, i}) => ({
+    label: method.name, ...style(i), borderDash: method.fixed ? [] : [6, 3],
+    data: points.map(({error, seconds}) => ({x: error, y: 1000 * seconds})),
+  })));
+  showOrders(fixed);
+}
+
+function showOrders(fixed) {
+  const table = get('orders');
+  table.innerHTML = '<tr><th>method</th><th>order</th><th>measured</th><th>largest stable step</th></tr>';
+  for (const {method, points, limit, failure} of fixed) {
+    const row = table.insertRow();
+    const texts = [method.name, method.order, failure ?? short(slopeOf(points), 3),
+                   Number.isFinite(limit) ? `${short(limit, 3)} s` : limit === Infinity ? 'any' : ''];
+    for (const text of texts) row.insertCell().textContent = text;
+  }
+}
+
+export const results = () => rows.map(({method, points, limit}) =>
+  ({method: method.name, points, limit, slope: slopeOf(points), order: methodOf(method.name)?.order}));
+
+export function start() {
+  order = makeChart('plot-order', {
+    title: 'Largest position error against step size (dotted: stability limits)', x: 'step size in s', y: 'm',
+    xType: 'logarithmic', yType: 'logarithmic',
+  });
+  cost = makeChart('plot-cost', {
+    title: 'Run time against error in this browser (dashed: error-controlled)', x: 'largest position error in m',
+    y: 'ms', xType: 'logarithmic', yType: 'logarithmic',
+  });
+  get('study').addEventListener('click', measure);
+  get('study-cancel').addEventListener('click', () => library?.cancel());
+  on('theme', show);
+}
