@@ -70,9 +70,9 @@ void defineMethods(py::module_& module) {
                              "Whether the method takes time_step; if not, a tolerance.")
       .def("__repr__",
            [](const Method& m) { return fmt::format("<Method {}, order {}>", m.name, m.order); })
-      .def("__reduce__", [module](const Method& m) {
-        return py::make_tuple(module.attr("find_method"), py::make_tuple(m.name));
-      });
+      .def(py::pickle(
+          [](const Method& method) { return py::make_tuple(method.name); },
+          [](const py::tuple& state) { return findMethod(state[0].cast<std::string>()); }));
   module.def(
       "methods",
       [] {

@@ -1,6 +1,7 @@
 // The Python module `spring_pendulum._core`: errors, conversions and Ctrl-C.
 #include <spring_pendulum/base/errors.hpp>
 
+#include <algorithm>
 #include <exception>
 
 #include "binding.hpp"
@@ -50,9 +51,12 @@ void Interruption::raise() const {
 
 namespace {
 
-/// Makes a Python exception from an error of the library. A file name in it may not be UTF-8.
+/// Makes a Python exception of one line. A file name in it may have line breaks, or not be UTF-8.
 void setError(const py::handle& type, const std::exception& error) {
-  const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(error.what()));
+  std::string line = error.what();
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, '?');
+  const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(line.c_str()));
   PyErr_SetObject(type.ptr(), text.ptr());
 }
 

@@ -4,7 +4,7 @@ import textwrap
 import warnings
 
 from . import _core
-from ._run import Report, Run
+from ._run import Report, Run, Verdict
 
 
 def _default(text, is_text, is_flag, is_count):
@@ -76,4 +76,5 @@ Raises:
     InputError: a wrong value, an unknown keyword or a malformed file
     FileError: a file that cannot be read
 """
-    return Report(*_core.check(particles, options))
+    text, verdict, *limits = _core.check(particles, options)
+    return Report(text, verdict and Verdict(*verdict), *limits)

@@ -14,7 +14,7 @@ SHOWN_CHAINS = 5
 
 def _matplotlib():
     try:
-        from matplotlib import pyplot
+        from matplotlib import pyplot  # type: ignore
     except ImportError as error:
         raise ImportError('pictures need matplotlib: install python3-matplotlib') from error
     return pyplot
@@ -49,7 +49,7 @@ class _Picture:
             spine.set_color(BORDER)
 
     def chain(self, frame, alpha=1.0):
-        from matplotlib.collections import LineCollection
+        from matplotlib.collections import LineCollection  # type: ignore
         places = self.positions[frame]
         segments = _segments(places)
         colors = _strain_colors(np.hypot(*np.diff(places, axis=0).T), self.rest_length)
@@ -81,7 +81,7 @@ def plot(run, axes=None):
 
 def animate(run, path=None, trail=1.5):
     pyplot = _matplotlib()
-    from matplotlib.animation import FuncAnimation, PillowWriter
+    from matplotlib.animation import FuncAnimation, PillowWriter  # type: ignore
     interval = float(run.time[1] - run.time[0]) if len(run.time) > 1 else 1.0
     stride = max(1, round(0.04 / interval))  # at most 25 pictures per second
     figure, axes = pyplot.subplots(figsize=(4.8, 4.8))

@@ -38,14 +38,14 @@ def _measure(particles: Any, method: Method, value: float, duration: float, opti
     control = 'time_step' if method.fixed_step else 'tolerance'
     steps = max(1, round(duration / value)) if method.fixed_step else 1
     time_step = duration / steps
-    settings = ({'time_step': time_step, 'steps_per_frame': steps} if method.fixed_step else
+    settings: Any = ({'time_step': time_step, 'steps_per_frame': steps} if method.fixed_step else
                 {'tolerance': value, 'frame_interval': duration})
     with warnings.catch_warnings():
         warnings.simplefilter('ignore', RuntimeWarning)  # the error tells
         run = simulate(particles, method=method.name, frames=2, reference='always', **settings, **options)
     error = float(run.position_error[-1]) if len(run.time) == 2 else float('inf')
     start = State(*run.positions[0].T, *run.velocities[0].T)
-    tolerance = {} if method.fixed_step else {'tolerance': value}
+    tolerance: Any = {} if method.fixed_step else {'tolerance': value}
     integrator = make_integrator(method.name, run.chain, threads=1, **tolerance)
     seconds = _least_time(integrator, start, time_step, steps)
     return Point(method.name, control, time_step if method.fixed_step else value, seconds, error,

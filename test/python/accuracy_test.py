@@ -1,0 +1,90 @@
+"""Positions against an independent integration of independent equations; tables that need them."""
+import unittest
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from support import DATA, SCENE
+
+import spring_pendulum as sp
+
+
+def accelerations(positions, velocities, masses, stiffness=50.0, damping=1.0, rest_length=1.0, gravity=9.81):
+    """The equations of motion, written for NumPy."""
+    separation = np.diff(positions, axis=0)
+    length = np.linalg.norm(separation, axis=1, keepdims=True)
+    direction = separation / length
+    rate = np.sum(np.diff(velocities, axis=0) * direction, axis=1, keepdims=True)
+    force = (stiffness * (length - rest_length) + damping * rate) * direction
+    total = np.zeros_like(positions)
+    total[:-1] += force
+    total[1:] -= force
+    result = total / masses[:, None] - [0, gravity]
+    result[0] = 0
+    return result
+
+
+def dop853(rows, times):
+    count = len(rows)
+
+    def slope(_, z):
+        positions, velocities = z.reshape(2, count, 2)
+        return np.concatenate([velocities, accelerations(positions, velocities, rows[:, 2])]).ravel()
+
+    start = np.concatenate([rows[:, :2], np.zeros((count, 2))]).ravel()
+    solution = solve_ivp(slope, (0, times[-1]), start, method='DOP853', rtol=1e-13, atol=1e-13, t_eval=times)
+    return solution.y.T.reshape(len(times), 2, count, 2)[:, 0]
+
+
+class Accuracy(unittest.TestCase):
+    def test_positions_are_within_ten_tolerances_of_dop853(self):
+        for scene in ('particle.txt', 'one_spring.txt', 'horizontal_11.txt'):
+            rows = np.loadtxt(DATA / scene)
+            tolerance = 1e-8
+            run = sp.simulate(rows, method='Auto', tolerance=tolerance, frame_interval=0.1, frames=31)
+            error = abs(run.positions - dop853(rows, run.time)).max()
+            self.assertLess(error, 10 * tolerance, scene)  # measured: at most 7e-10 m
+
+    def test_advance_is_the_same_motion(self):
+        rows = np.loadtxt(SCENE)
+        state = sp.State(rows[:, 0], rows[:, 1])
+        integrator = sp.make_integrator('Runge-Kutta-4', sp.Chain(rows[:, 2]), track_dissipation=True)
+        integrator.advance(state, 0.01, 990)
+        run = sp.simulate(SCENE, frames=100)
+        self.assertEqual(state.positions.tobytes(), run.positions[-1].tobytes(order='C'))
+        self.assertEqual(integrator.dissipated_energy, run.energy.dissipated[-1])
+        self.assertEqual(integrator.force_evaluations, run.force_evaluations)
+
+    def test_an_own_method_has_the_bits_of_the_built_in_one(self):
+        copied = sp.register_method('Kutta-again', a=[[], [.5], [0, .5], [0, 0, 1]], b=[1 / 6, 1 / 3, 1 / 3, 1 / 6])
+        known = sp.find_method('runge kutta 4')
+        self.assertEqual((copied.order, copied.stages, copied.fixed_step), (known.order, known.stages, True))
+        self.assertAlmostEqual(copied.real_stability_limit, known.real_stability_limit)
+        self.assertAlmostEqual(copied.imaginary_stability_limit, known.imaginary_stability_limit)
+        self.assertIn('Kutta-again', [method.name for method in sp.methods()])
+        self.assertEqual(sp.simulate(SCENE, method='kutta again').positions.tobytes(),
+                         sp.simulate(SCENE).positions.tobytes())
+
+
+class WorkPrecision(unittest.TestCase):
+    def test_shows_the_order_of_a_method(self):
+        table = sp.work_precision(SCENE, ['Runge-Kutta-4', 'Taylor-8'], duration=2.0, time_steps=[0.02, 0.01, 0.005],
+                                  tolerances=[1e-6])
+        self.assertEqual([point.method for point in table], ['Runge-Kutta-4'] * 3 + ['Taylor-8'])
+        self.assertEqual([point.force_evaluations for point in table[:3]], [400, 800, 1600])
+        errors = [point.error for point in table]
+        for coarse, fine in zip(errors[:2], errors[1:3]):
+            self.assertTrue(12 < coarse / fine < 20, errors)  # measured: 16.4 and 16.2
+        self.assertLess(errors[3], 1e-5)
+        self.assertTrue(all(point.seconds > 0 for point in table))
+        rows = np.loadtxt(SCENE)
+        error = abs(dop853(rows, np.array([0, 2.0]))[-1] - sp.simulate(
+            SCENE, time_step=0.02, steps_per_frame=100, frames=2).positions[-1])
+        self.assertAlmostEqual(np.hypot(*error.T).max() / errors[0], 1, places=5)
+
+    def test_divergence_is_an_infinite_error(self):
+        point, = sp.work_precision(SCENE, ['Euler'], time_steps=[0.2], stiffness=500.0)
+        self.assertEqual((point.error, point.control, point.value), (float('inf'), 'time_step', 0.2))
+
+
+if __name__ == '__main__':
+    unittest.main()
