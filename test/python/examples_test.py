@@ -1,0 +1,83 @@
+"""The scripts of examples/python/ make their pictures, the notebook runs, and docs/python.md is true."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+from support import DATA, SCENE
+
+import spring_pendulum as sp
+
+PROJECT = DATA.parent
+EXAMPLES = PROJECT / 'examples' / 'python'
+
+
+class Examples(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        shutil.copy(SCENE, self.folder)
+
+    def run_in_folder(self, *command):
+        result = subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        return result.stdout
+
+    def test_scripts_make_their_pictures(self):
+        scripts = sorted(EXAMPLES.glob('*.py'))
+        self.assertEqual(len(scripts), 3)
+        for script in scripts:
+            self.run_in_folder(sys.executable, str(script))
+            picture = self.folder / (script.stem + '.png')
+            self.assertGreater(picture.stat().st_size, 20000, picture)
+
+    def test_the_notebook_runs(self):
+        shutil.copy(EXAMPLES / 'chain.ipynb', self.folder)
+        text = self.run_in_folder('jupyter', 'nbconvert', '--to', 'markdown', '--execute', '--stdout',
+                                  '--ExecutePreprocessor.kernel_name=python3', 'chain.ipynb')
+        for expected in ('Euler: order 1.0', 'Runge-Kutta-4: order 4.0', '<td>Runge-Kutta-4</td>'):
+            self.assertTrue(expected in text, expected)
+
+    def test_the_document_is_true(self):
+        blocks = re.findall(r'```python\n(.*?)```', (PROJECT / 'docs' / 'python.md').read_text(), re.DOTALL)
+        self.assertGreaterEqual(len(blocks), 3)
+        (self.folder / 'document.py').write_text('\n'.join(blocks))
+        self.run_in_folder(sys.executable, 'document.py')
+
+
+class Pictures(unittest.TestCase):
+    def test_show_what_the_run_did(self):
+        run = sp.simulate(DATA / 'horizontal_11.txt', frames=9)
+        chain, energy = run.plot().axes
+        self.assertEqual((chain.get_xlabel(), energy.get_ylabel()), ('x in m', 'energy in J'))
+        self.assertEqual([line.get_label() for line in energy.lines],
+                         ['total', 'kinetic', 'gravity', 'spring', 'dissipated'])
+        self.assertEqual(energy.lines[0].get_ydata().tolist(), run.energy.total.tolist())
+        self.assertEqual(len(chain.collections), 5)
+        html = run._repr_html_()
+        self.assertIn('<td>Runge-Kutta-4</td>', html)
+        self.assertIn('data:image/png', html)
+
+    def test_animation_is_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, 'chain.gif')
+            sp.simulate(SCENE, frames=4).animate(path)
+            self.assertEqual(path.read_bytes()[:6], b'GIF89a')
+
+    def test_need_matplotlib_only_when_drawn(self):
+        run = sp.simulate(SCENE, frames=3)
+        with mock.patch.dict(sys.modules, {'matplotlib': None}):
+            with self.assertRaisesRegex(ImportError, 'install python3-matplotlib'):
+                run.plot()
+            self.assertNotIn('<img', run._repr_html_())
+        code = 'import sys, spring_pendulum as sp; print("matplotlib" in sys.modules or "scipy" in sys.modules)'
+        self.assertEqual(subprocess.run([sys.executable, '-c', code], stdout=subprocess.PIPE, text=True).stdout, 'False\n')
+
+
+if __name__ == '__main__':
+    unittest.main()
