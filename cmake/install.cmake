@@ -26,11 +26,15 @@ foreach(program Exercise3 check_frames sweep record_bag)
   endif()
   install(FILES scripts/completion.bash
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
+  set(purpose "simulates a chain of particles and springs")
+  if(program STREQUAL check_frames)
+    set(purpose "names mistakes in programs that simulate a chain of particles and springs")
+  endif()
   find_program(HELP2MAN help2man)
   if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING AND NOT SPRING_PENDULUM_SANITIZE)
     add_custom_command(OUTPUT ${program}.1
       COMMAND ${HELP2MAN} --no-info --version-string=${PROJECT_VERSION} --output=${program}.1
-        --name "simulates a chain of particles and springs" $<TARGET_FILE:${program}>
+        --name "${purpose}" $<TARGET_FILE:${program}>
       DEPENDS ${program} VERBATIM)
     add_custom_target(${program}_manual ALL DEPENDS ${program}.1)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${program}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -1,4 +1,4 @@
-# Completion in bash for Exercise3 and record_bag: options, their values, methods and files. All names
+# Completion in bash for Exercise3, check_frames and record_bag: options, their values, methods and files. All names
 # come from the program's --help. Installed where bash-completion finds it; else: source this file.
 
 _spring_pendulum() {
@@ -12,7 +12,11 @@ _spring_pendulum() {
     -*,FILE) COMPREPLY=($(compgen -f -- "$word")); return ;;
     -*,DIR) COMPREPLY=($(compgen -d -- "$word")); return ;;
     -*,*'|'*) COMPREPLY=($(compgen -W "${values//|/ }" -- "$word")); return ;;
+    -*,METHOD) ;;
     -*,?*) return ;;  # a number
+    *) if [[ $word != -* && $help = *' DIR ... [options]'* ]]; then
+         COMPREPLY=($(compgen -d -- "$word")); return
+       fi ;;
   esac
   if [[ $word = -* ]]; then
     COMPREPLY=($(compgen -W "$(sed -nE 's/^ +(-. \[ )?(--[a-z-]+).*/\2/p' <<< "$help")" -- "$word"))
@@ -20,6 +24,7 @@ _spring_pendulum() {
   fi
   methods=$(sed -n 's/^Methods: //p' <<< "$help")
   for option in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    [ "$values" = METHOD ] && break
     case ", $methods," in *", $option,"*) COMPREPLY=($(compgen -f -- "$word")); return ;; esac
   done
   reset=$(shopt -p nocasematch) || true
@@ -29,5 +34,5 @@ _spring_pendulum() {
   done
   $reset
 }
-complete -o filenames -F _spring_pendulum Exercise3 record_bag
+complete -o filenames -F _spring_pendulum Exercise3 check_frames record_bag
 complete -o filenames -o default -F _spring_pendulum sweep

@@ -73,8 +73,9 @@ int runCommandLine(int argc, const char* const* argv) {
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
-  if (switches.answer.empty()) return checkAll(scenario, options, switches);
-  printOutput(switches.answer);
+  if (switches.answer.empty() && !switches.list_mistakes)
+    return checkAll(scenario, options, switches);
+  printOutput(switches.list_mistakes ? listOfMistakes() : switches.answer);
   return kDone;
 }
 

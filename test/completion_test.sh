@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Completes command lines as bash does after the Tab key. Usage: completion_test.sh EXERCISE3 COMPLETION
+# Completes command lines as bash does after the Tab key. Usage: completion_test.sh EXERCISE3 COMPLETION CHECK_FRAMES
 set -euo pipefail
 program=$1
 cd "$(mktemp -d)"
@@ -30,3 +30,9 @@ expect 'Euler --reference ' 'auto always never'
 expect 'Euler --time-step ' ''
 expect 'Euler --check ch' 'chain.txt charts'
 expect '--par' '--particles'
+program=$3
+expect 'ch' 'charts'
+expect 'charts ch' 'charts'
+expect 'charts --method runge' 'Runge-Kutta-2 Runge-Kutta-4'
+expect 'charts --particles ch' 'chain.txt charts'
+expect 'charts --js' '--json'

@@ -16,10 +16,10 @@
 namespace spring_pendulum {
 namespace {
 
-/// Work that a comparison with one method may take, in spring forces of the library: some minutes.
-constexpr double kMostWork = 1e11;
+/// Work that a comparison with one method may take, in spring forces of the library: some 10 s.
+constexpr double kMostWork = 4e9;
 
-/// Work of a search for mistakes, counted likewise: some 10 s, and a second if nothing seems wrong.
+/// Work of a search for mistakes, and of one for mistakes that right frames do not show.
 constexpr double kMostSearchWork = 4e9;
 constexpr double kMostDoubtWork = 4e8;
 
@@ -60,9 +60,9 @@ class Checker {
   void compareWith(const Methods& methods) {
     for (const Method* method : methods) {
       if (options_.stop && options_.stop()) return;
-      double work = 0.0;
+      WorkLimit limit{kMostWork, options_.stop};
       const Agreement agreement = compare(
-          frames_, [&] { return motionOf(*method, scenario_, particles_); }, work, kMostWork);
+          frames_, [&] { return motionOf(*method, scenario_, particles_); }, limit);
       if (agreement.complete && (result_.methods.empty() || agreement.frames > agreeing_)) {
         note(agreement);
       }
@@ -101,8 +101,8 @@ class Checker {
       const bool is_wanted = std::find(wanted_.begin(), wanted_.end(), &method) != wanted_.end();
       (is_wanted ? first : exercise).push_back(&method);
     }
-    MistakeSearch search(scenario_, particles_, frames_, departing_, options_.stop,
-                         kMostSearchWork);
+    MistakeSearch search(scenario_, particles_, frames_, departing_,
+                         {kMostSearchWork, options_.stop});
     for (const Method* method : options_.method_is_given ? first : Methods{}) {
       result_.explanations = search.singleMistakes(*method);
     }
@@ -117,7 +117,7 @@ class Checker {
   /// Right frames: names mistakes that they would not show, and mistakes by which a method of the
   /// exercise becomes another one of the table.
   void doubt() {
-    MistakeSearch search(scenario_, particles_, frames_, 0, options_.stop, kMostDoubtWork);
+    MistakeSearch search(scenario_, particles_, frames_, 0, {kMostDoubtWork, options_.stop});
     const Method& best = findMethod(result_.methods.front());
     if (isExercise(best)) {
       std::vector<std::string> hidden;
@@ -125,9 +125,15 @@ class Checker {
         const std::string& name = one.mistakes.back();
         if (std::find(hidden.begin(), hidden.end(), name) == hidden.end()) hidden.push_back(name);
       }
+      constexpr std::size_t kMostNamed = 12;
       if (hidden.empty()) return;
-      result_.remarks.push_back("this scene and these digits would not show the mistakes " +
-                                fmt::format("{}", fmt::join(hidden, ", ")));
+      result_.remarks.push_back(
+          hidden.size() > kMostNamed
+              ? "these frames would show hardly any mistake; give more frames "
+                "or digits, or another scene"
+              : fmt::format("this scene and these digits would not show the "
+                            "mistakes {}",
+                            fmt::join(hidden, ", ")));
     } else if (best.hasFixedStep()) {
       for (const Method& method : methodTable()) {
         if (!isExercise(method)) continue;
@@ -180,7 +186,8 @@ std::string Checker::comparedText() const {
       all ? "all " + counted(result_.frames, "frame")
           : fmt::format("frames up to {}", result_.last_frame),
       result_.digits, counted(result_.printed_digits, "digit"),
-      all ? "" : "; later frames cannot be compared, because rounding errors grow too much");
+      all ? ""
+          : "; later frames are not compared: rounding errors grow too much, or it takes too long");
 }
 
 void Checker::describeEqual() {

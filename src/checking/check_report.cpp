@@ -4,22 +4,47 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string_view>
 #include <vector>
+
+#include "checking/mistakes.hpp"
 
 namespace spring_pendulum {
 namespace {
 
+/// Returns the length of the UTF-8 character at the begin of a text; 0 if it is none.
+std::size_t characterLength(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
 std::string inJson(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
+  while (!text.empty()) {
+    const std::size_t length = characterLength(text);
+    const char c = text.front();
     if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
+    if (length == 0) {
+      quoted += '?';
+    } else if (static_cast<unsigned char>(c) < 0x20) {
       quoted += fmt::format("\\u{:04x}", static_cast<int>(c));
     } else {
-      quoted += c;
+      quoted += text.substr(0, length);
     }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return quoted + '"';
 }
@@ -88,6 +113,16 @@ std::string jsonOf(const FrameCheck& check, const std::string& folder) {
 
 std::string jsonOfError(const std::string& message, const std::string& folder) {
   return fmt::format("{{\"folder\": {}, \"error\": {}}}\n", inJson(folder), inJson(message));
+}
+
+std::string listOfMistakes() {
+  std::string list = "The program ...\n";
+  for (const Mistake& mistake : knownMistakes())
+    list += fmt::format("  {:<22} {}\n", mistake.name, mistake.sentence);
+  list += "Fitted numbers: the program ...\n";
+  for (const Constant& constant : fittedConstants())
+    list += fmt::format("  {:<22} {}\n", constant.name, constant.sentence);
+  return list;
 }
 
 }  // namespace spring_pendulum

@@ -20,4 +20,7 @@ std::string jsonOf(const FrameCheck& check, const std::string& folder);
 /// Returns a JSON object on one line for frames that can't be read.
 std::string jsonOfError(const std::string& message, const std::string& folder);
 
+/// Returns a line for each known mistake: its name and its sentence.
+std::string listOfMistakes();
+
 }  // namespace spring_pendulum

@@ -33,8 +33,7 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
 
 }  // namespace
 
-Agreement compare(const AllFrames& frames, const MotionMaker& make, double& work,
-                  double most_work) {
+Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& limit) {
   const std::unique_ptr<Motion> motion = make();
   const std::unique_ptr<Motion> companion = make();
   std::mt19937 random(1);  // the same on every machine
@@ -42,10 +41,15 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, double& work
   Eigen::ArrayX2d positions, disturbed;
   double rounding = 0.0;  // m
   companion->disturb(random);
+  motion->advanceTo(0, limit.done);
+  companion->advanceTo(0, limit.done);
+  std::int64_t index = 0;
   for (const FrameNumbers& frame : frames.frames) {
-    if (work > most_work) return agreement;
-    motion->advanceTo(frame.index, work);
-    companion->advanceTo(frame.index, work);
+    for (; index < frame.index && !limit.isOver(); ++index) {  // missing frames, too
+      motion->advanceTo(index + 1, limit.done);
+      companion->advanceTo(index + 1, limit.done);
+    }
+    if (limit.isOver()) break;
     motion->writePositions(positions);
     companion->writePositions(disturbed);
     const double spread = (positions - disturbed).abs().maxCoeff<Eigen::PropagateNaN>();
@@ -61,7 +65,7 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, double& work
     agreement.distance = std::max(
         agreement.distance, (frame.positions - positions).matrix().rowwise().norm().maxCoeff());
   }
-  agreement.complete = agreement.frames > 0;
+  agreement.complete = agreement.frames > 0 && !(limit.stop && limit.stop());
   return agreement;
 }
 

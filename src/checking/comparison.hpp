@@ -14,19 +14,26 @@ namespace spring_pendulum {
 
 struct Agreement {
   std::size_t frames = 0;              ///< leading frames that agree
-  bool complete = false;               ///< whether all comparable frames agree
+  bool complete = false;               ///< whether all frames compared agree
   std::optional<Departure> departure;  ///< in the next frame; without its time
   std::int64_t last_frame = 0;         ///< index of the last frame that agrees
   double distance = 0.0;               ///< largest distance in these, m
   double scale = 0.0;                  ///< largest coordinate in these, m
 };
 
+/// Limits the work of comparisons and fits.
+struct WorkLimit {
+  double most;                 ///< spring forces of the library; others count more
+  std::function<bool()> stop;  ///< empty: never
+  double done = 0.0;
+
+  bool isOver() const { return done > most || (stop && stop()); }
+};
+
 using MotionMaker = std::function<std::unique_ptr<Motion>()>;
 
 /// Compares until the first frame that differs, or until rounding errors have grown to a thousandth
-/// of the size of the motion, after which nothing can be compared.
-/// \param work       spring forces computed so far, increased
-/// \param most_work  where to give up; the comparison is incomplete then
-Agreement compare(const AllFrames& frames, const MotionMaker& make, double& work, double most_work);
+/// of the size of the motion, after which nothing can be compared, or until the limit is reached.
+Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& limit);
 
 }  // namespace spring_pendulum

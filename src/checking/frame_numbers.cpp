@@ -141,9 +141,9 @@ std::string fewDigits(int digits) {
   constexpr int kFew = 5;
   if (digits > kFew) return "";
   return fmt::format(
-      "few digits: only {} printed, which hide small mistakes; print 17, for example with "
-      "std::setprecision(17)",
-      counted(digits, "digit") + (digits == 1 ? " is" : " are"));
+      "few digits: {} printed, too few to show small mistakes; print 17, for example "
+      "with std::setprecision(17)",
+      counted(digits, "digit"));
 }
 
 std::string missingFrames(const std::vector<FrameNumbers>& frames) {

@@ -50,13 +50,12 @@ struct MistakeSearch::Candidate {
 
 MistakeSearch::MistakeSearch(const Scenario& scenario, const Particles& particles,
                              const AllFrames& frames, std::size_t known_frames,
-                             const std::function<bool()>& stop, double most_work)
+                             const WorkLimit& limit)
     : scenario_(scenario),
       particles_(particles),
       frames_(frames),
       known_frames_(known_frames),
-      stop_(stop),
-      most_work_(most_work) {}
+      limit_(limit) {}
 
 std::vector<Explanation> MistakeSearch::singleMistakes(const Method& method) {
   found_.clear();
@@ -94,7 +93,7 @@ MistakeSearch::Candidate MistakeSearch::rightProgram(const Method& method) const
 }
 
 bool MistakeSearch::isOver() {
-  gave_up_ |= work_ > most_work_ || (stop_ && stop_());
+  gave_up_ |= limit_.isOver();
   return gave_up_;
 }
 
@@ -189,12 +188,16 @@ void MistakeSearch::trySinglePrecisionAndMistake(const Candidate& base) {
 
 Agreement MistakeSearch::agreementOf(const Candidate& candidate) {
   return compare(
-      frames_, [&] { return motionOf(candidate.program, particles_); }, work_, most_work_);
+      frames_, [&] { return motionOf(candidate.program, particles_); }, limit_);
+}
+
+bool MistakeSearch::isConvincing(const Agreement& agreement) {
+  return agreement.complete && agreement.frames > known_frames_ && !isOver();
 }
 
 bool MistakeSearch::explains(const Candidate& candidate) {
   const Agreement agreement = agreementOf(candidate);
-  if (!agreement.complete || agreement.frames <= known_frames_) return false;
+  if (!isConvincing(agreement)) return false;
   keep(candidate, agreement.last_frame);
   return true;
 }
@@ -212,12 +215,12 @@ bool MistakeSearch::fit(Candidate candidate, const std::vector<const Constant*>&
   while (!agreement.complete && !isOver()) {
     const std::size_t window =
         std::min(frames_.frames.size(), agreement.frames + agreement.frames / 2 + 2);
-    fitConstants(candidate.program, constants, frames_, window, particles_, work_);
+    fitConstants(candidate.program, constants, frames_, window, particles_, limit_.done);
     const std::size_t before = agreement.frames;
     agreement = agreementOf(candidate);
     if (!agreement.complete && agreement.frames <= before) return false;
   }
-  if (!agreement.complete || agreement.frames <= known_frames_) return false;
+  if (!isConvincing(agreement)) return false;
   roundConstants(candidate, constants);
   for (const Constant* constant : constants) {
     constexpr double kSmallestMistake = 1e-6;  // smaller changes are rounding errors
@@ -239,7 +242,7 @@ void MistakeSearch::roundConstants(Candidate& candidate,
       value = parseNumber(roundedText(value, digits)).value_or(value);
     }
     const Agreement agreement = agreementOf(candidate);
-    if (agreement.complete && agreement.frames > known_frames_) return;
+    if (isConvincing(agreement)) return;
     candidate.program = fitted;
   }
 }

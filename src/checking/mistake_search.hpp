@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,9 +13,8 @@ namespace spring_pendulum {
 class MistakeSearch {
  public:
   /// \param known_frames number of leading frames without a sign of a mistake
-  /// \param most_work    spring forces that may be computed, counted as those of the library
   MistakeSearch(const Scenario& scenario, const Particles& particles, const AllFrames& frames,
-                std::size_t known_frames, const std::function<bool()>& stop, double most_work);
+                std::size_t known_frames, const WorkLimit& limit);
 
   /// Returns the mistakes in a method that each explain the frames, without fits: the fast part.
   std::vector<Explanation> singleMistakes(const Method& method);
@@ -43,6 +41,8 @@ class MistakeSearch {
   void trySinglePrecisionAndMistake(const Candidate& base);
 
   bool isOver();
+  /// Whether all frames agree, also beyond those that show no mistake.
+  bool isConvincing(const Agreement& agreement);
   bool explains(const Candidate& candidate);
   Agreement agreementOf(const Candidate& candidate);
   void keep(const Candidate& candidate, std::int64_t last_frame);
@@ -55,9 +55,7 @@ class MistakeSearch {
   const Particles& particles_;
   const AllFrames& frames_;
   std::size_t known_frames_;
-  const std::function<bool()>& stop_;
-  double most_work_;
-  double work_ = 0.0;
+  WorkLimit limit_;
   bool gave_up_ = false;
   std::vector<Explanation> found_;
 };

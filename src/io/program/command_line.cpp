@@ -72,6 +72,7 @@ po::options_description describe(const OptionSet& options, const ProgramText& pr
   auto add = description.add_options();
   if (program.takesFolders()) {
     add("json", "print a line of JSON for each folder");
+    add("list-mistakes", "describe the known mistakes");
   } else {
     add("check", "try the run, report verdict, errors and the largest step sizes; write nothing");
     add("report-skips", "print what the run leaves out because the scene does not need it");
@@ -130,7 +131,9 @@ std::vector<std::string> foldersIn(const std::vector<po::option>& given,
                                    const ProgramText& program) {
   std::vector<std::string> folders;
   for (const po::option& argument : given) {
-    if (argument.string_key.empty()) folders.push_back(argument.value.front());
+    if (!argument.string_key.empty()) continue;
+    folders.push_back(argument.value.front());
+    if (folders.back().empty()) throw InputError("DIR: must be a folder, got ''");
   }
   if (!folders.empty()) return folders;
   throw InputError(fmt::format("a folder is missing; try: {} {} (--help lists the options)",
@@ -199,7 +202,8 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
     switches.answer = "spring_pendulum " SPRING_PENDULUM_VERSION "\n";
   else if (has(given, "list-methods"))
     switches.answer = listOfMethods();
-  if (!switches.answer.empty()) return switches;
+  switches.list_mistakes = has(given, "list-mistakes");
+  if (!switches.answer.empty() || switches.list_mistakes) return switches;
   switches.config = readConfig(given, options);
   if (program.takesFolders()) {
     switches.folders = foldersIn(given, program);

@@ -30,11 +30,12 @@ struct ProgramText {
 
 /// The common switches.
 struct Switches {
-  bool check = false;         ///< validate the input, print the stability advice, write nothing
-  bool report_skips = false;  ///< print the terms that the run skips
-  bool json = false;          ///< print JSON
-  std::string answer;         ///< text to print instead of a run: --help, --version, --list-methods
-  std::string config;         ///< file given with --config; empty: none
+  bool check = false;          ///< validate the input, print the stability advice, write nothing
+  bool report_skips = false;   ///< print the terms that the run skips
+  bool json = false;           ///< print JSON
+  bool list_mistakes = false;  ///< print the known mistakes, nothing else
+  std::string answer;  ///< text to print instead of a run: --help, --version, --list-methods
+  std::string config;  ///< file given with --config; empty: none
   std::vector<std::string> folders = {};  ///< of a program that takes folders
 };
 
