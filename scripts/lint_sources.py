@@ -17,7 +17,7 @@ MOST_LINES = 400
 MOST_FILES = 15  # in a folder of the library
 
 # A layer includes itself and layers of a lower rank. Inside a layer the rooms, its folders, rank too.
-LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'checking': 4, 'io': 5, 'ros': 6}
+LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'checking': 4, 'io': 5, 'mpi': 6, 'ros': 6}
 ROOMS = {
     'base': {},
     'model': {},
@@ -26,6 +26,7 @@ ROOMS = {
     'simulation': {'options': 1, 'advice': 3},
     'checking': {},
     'io': {'files': 1, 'formats': 2, 'program': 3},
+    'mpi': {},
     'ros': {'parameters': 1, 'messages': 2, 'node': 3},
 }
 # Files directly in the folder of a layer come before its rooms, in these layers after them ...

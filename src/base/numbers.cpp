@@ -93,6 +93,15 @@ char* writeNumber(double value, char* text) {
 #endif
 }
 
+char* writeLine(std::initializer_list<double> numbers, char* text) {
+  for (const double number : numbers) {
+    text = writeNumber(number, text);
+    *text++ = ' ';
+  }
+  text[-1] = '\n';
+  return text;
+}
+
 std::string numberText(double value) {
   std::array<char, kLongestNumber> text;
   return {text.data(), writeNumber(value, text.data())};

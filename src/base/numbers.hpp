@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ constexpr std::size_t kLongestNumber = 24;
 
 /// Writes the fewest digits that read back as the same double, and returns the end of the text.
 char* writeNumber(double value, char* text);
+
+/// Writes a line of numbers with blanks between them, and returns its end.
+char* writeLine(std::initializer_list<double> numbers, char* text);
 
 /// Returns the text of writeNumber(). With "{}", {fmt} before release 8 writes 2 as 2.0.
 std::string numberText(double value);

@@ -1,20 +1,32 @@
 #include "base/checks.hpp"
+#include "model/block_sums.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
 
 namespace spring_pendulum {
 
-Energy computeEnergy(const Chain& chain, const State& state) {
-  requireSize(chain.size(), state.size());
+Energy energyOfSprings(const Chain& chain, const State& state, std::ptrdiff_t first,
+                       std::ptrdiff_t last, double height) {
   Energy energy;
   const SpringLaw& spring = chain.spring();
-  for (Eigen::Index i = 1; i < chain.size(); ++i) {
+  for (Eigen::Index i = first + 1; i <= last; ++i) {
     const double mass = chain.isHeld(i) ? 0.0 : chain.masses()[i];
     const double speed_squared = state.vx()[i] * state.vx()[i] + state.vy()[i] * state.vy()[i];
     energy.kinetic += 0.5 * mass * speed_squared;
-    energy.gravity += mass * chain.gravity() * (state.y()[i] - state.y()[0]);
+    energy.gravity += mass * chain.gravity() * (state.y()[i] - height);
     const double stretch = springLength(state, i - 1) - spring.rest_length;
     energy.spring += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  return energy;
+}
+
+Energy computeEnergy(const Chain& chain, const State& state) {
+  requireSize(chain.size(), state.size());
+  Energy energy;
+  const std::ptrdiff_t springs = chain.size() - 1;
+  const std::ptrdiff_t block = sumBlockSize(springs);
+  for (std::ptrdiff_t first = 0; first < springs; first += block) {
+    energy += energyOfSprings(chain, state, first, std::min(springs, first + block), state.y()[0]);
   }
   return energy;
 }

@@ -12,39 +12,52 @@ namespace {
 /// The least energy scale is that of all springs stretched by this share of their length.
 constexpr double kLeastStretch = 1e-6;
 
+EnergyScaleSums sumsOf(const Chain& chain, const State& start) {
+  EnergyScaleSums sums;
+  sums.add(chain, start);
+  return sums;
+}
+
 }  // namespace
+
+void EnergyScaleSums::add(const Chain& chain, const State& start) {
+  const SpringLaw& spring = chain.spring();
+  for (Eigen::Index i = chain.size() - 1; i > 0; --i) {
+    weight += chain.masses()[i] * std::abs(chain.gravity());
+    depth += weight * spring.rest_length;
+    if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
+    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
+    least += 0.5 * spring.stiffness * stretch * stretch;
+  }
+}
 
 EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool track_dissipation,
                              double start_time)
-    : chain_(chain),
+    : EnergyBalance(chain, computeEnergy(chain, start), sumsOf(chain, start), track_dissipation,
+                    start_time) {
+  start_height_ = start.y()[0];
+}
+
+EnergyBalance::EnergyBalance(const Chain& piece, const Energy& start, const EnergyScaleSums& sums,
+                             bool track_dissipation, double start_time)
+    : chain_(piece),
       start_time_(start_time),
       track_dissipation_(track_dissipation),
-      start_energy_(computeEnergy(chain, start).total()),
-      start_height_(start.y()[0]) {
-  widenScale(start, start_energy_);
+      start_energy_(start.total()) {
+  widenScale(sums, start_energy_);
 }
 
 void EnergyBalance::change(const Chain& chain, const State& state, bool track_dissipation) {
   chain_ = chain;
   track_dissipation_ = track_dissipation;
   changed_ = true;
-  widenScale(state, energyOf(state).total());
+  widenScale(sumsOf(chain, state), energyOf(state).total());
 }
 
-void EnergyBalance::widenScale(const State& state, double energy) {
+void EnergyBalance::widenScale(const EnergyScaleSums& sums, double energy) {
   const SpringLaw& spring = chain_.spring();
-  double depth = 0.0;  // -E_min, J
-  double least = 0.0;
-  double weight = 0.0;
-  for (Eigen::Index i = chain_.size() - 1; i > 0; --i) {
-    weight += chain_.masses()[i] * std::abs(chain_.gravity());
-    depth += weight * spring.rest_length;
-    if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
-    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(state, i - 1));
-    least += 0.5 * spring.stiffness * stretch * stretch;
-  }
-  if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain_.gravity());
-  constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + depth, least});
+  if (spring.stiffness == 0.0) fall_ = 0.5 * sums.weight * std::abs(chain_.gravity());
+  constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + sums.depth, sums.least});
   if (!std::isfinite(energy) || !std::isfinite(constant_scale_) || !std::isfinite(fall_)) {
     throw InputError(
         "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
@@ -69,9 +82,14 @@ double EnergyBalance::scale(double time) const {
 
 EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipated,
                                  double supplied) const {
+  return entry(time, energyOf(state), dissipated, supplied);
+}
+
+EnergyEntry EnergyBalance::entry(double time, const Energy& energy, double dissipated,
+                                 double supplied) const {
   EnergyEntry entry;
   entry.time = time;
-  entry.energy = energyOf(state);
+  entry.energy = energy;
   entry.supplied = supplied;
   entry.gain = entry.energy.total() - start_energy_ - supplied;
   const double scale_now = scale(time) + std::abs(supplied);

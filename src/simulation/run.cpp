@@ -247,9 +247,7 @@ bool Run::isOver() const {
 }
 
 bool Run::isShown() const {
-  if (judge_.latest().kind != VerdictKind::kDiverged) return true;
-  return scenario_.on_divergence == OnDivergence::kContinue &&
-         std::isfinite(judge_.entry().energy.total());
+  return judge_.isShown(scenario_.on_divergence == OnDivergence::kContinue);
 }
 
 EnergyEntry Run::energyEntry() const {

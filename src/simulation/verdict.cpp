@@ -30,19 +30,22 @@ Eigen::Index mostEnergetic(const Chain& chain, const State& state) {
   return most + 2;
 }
 
-Verdict diverged(const Chain& chain, const State& state, const EnergyEntry& entry) {
-  Verdict verdict{VerdictKind::kDiverged, entry.time, firstNotFinite(state), {}};
+std::string divergedText(const EnergyEntry& entry) {
+  return fmt::format(
+      "diverged at t = {:.6g} s: energy up by {:.3g} J, {:.3g} times the energy scale", entry.time,
+      entry.gain, entry.relative_gain);
+}
+
+/// Names the particle of a divergence.
+void locate(Verdict& verdict, const Chain& chain, const State& state) {
+  verdict.particle = firstNotFinite(state);
   if (verdict.particle > 0) {
     verdict.text = fmt::format("diverged at t = {:.6g} s: particle {} is no longer a finite number",
                                verdict.time, verdict.particle);
-    return verdict;
+    return;
   }
   verdict.particle = mostEnergetic(chain, state);
-  verdict.text = fmt::format(
-      "diverged at t = {:.6g} s: energy up by {:.3g} J, {:.3g} times the energy scale, most of it "
-      "in particle {}",
-      verdict.time, entry.gain, entry.relative_gain, verdict.particle);
-  return verdict;
+  verdict.text += fmt::format(", most of it in particle {}", verdict.particle);
 }
 
 std::string gainedEnergyText(const EnergyEntry& entry) {
@@ -98,6 +101,20 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
       tolerance_(options.tolerance),
       start_time_(options.start_time) {}
 
+Judge::Judge(const Chain& piece, const EnergyBalance& balance, const JudgeOptions& options)
+    : chain_(piece),
+      balance_(balance),
+      chain_length_(std::numeric_limits<double>::quiet_NaN()),
+      symplectic_step_(options.symplectic_step),
+      tolerance_(options.tolerance),
+      start_time_(options.start_time) {}
+
+const Verdict& Judge::judge(double time, const Energy& energy, double dissipated) {
+  Verdict verdict = energyVerdict(time, energy, dissipated, 0.0);
+  if (verdict.kind == VerdictKind::kOk) verdict = positionVerdict(nullptr);
+  return remember(std::move(verdict));
+}
+
 const Verdict& Judge::judgeEnergy(double time, const State& state, double dissipated) {
   return remember(energyVerdict(time, state, dissipated, 0.0));
 }
@@ -142,14 +159,21 @@ void Judge::change(const Chain& chain, const State& state, const JudgeOptions& o
 }
 
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
-  entry_ = balance_.entry(time, state, dissipated, supplied);
+  Verdict verdict = energyVerdict(time, balance_.energyOf(state), dissipated, supplied);
+  if (verdict.kind == VerdictKind::kDiverged) locate(verdict, chain_, state);
+  return verdict;
+}
+
+Verdict Judge::energyVerdict(double time, const Energy& energy, double dissipated,
+                             double supplied) {
+  entry_ = balance_.entry(time, energy, dissipated, supplied);
   const double spread = 2.0 * kPromise * tolerance_;  // m, of the length of a spring
   const double tolerated =
       static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
   double allowance = tolerated > 0.0 ? tolerated / balance_.scale(time) : 0.0;
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
-    return diverged(chain_, state, entry_);
+    return {VerdictKind::kDiverged, time, 0, divergedText(entry_)};
   }
   double gain = entry_.relative_gain;
   double residual = entry_.relative_residual.value_or(0.0);
@@ -191,6 +215,11 @@ Verdict Judge::positionVerdict(const ReferenceRun* reference) const {
       fmt::format("inaccurate: position error {:.3g} m at t = {:.6g} s, {:.3g} % of the chain's "
                   "length",
                   error, time, 100.0 * error / chain_length_)};
+}
+
+bool Judge::isShown(bool continues_after_divergence) const {
+  return latest_.kind != VerdictKind::kDiverged ||
+         (continues_after_divergence && std::isfinite(entry_.energy.total()));
 }
 
 void Judge::restart() {

@@ -81,6 +81,8 @@ class Judge {
 
   /// \throws InputError as EnergyBalance
   Judge(const Chain& chain, const State& start, const JudgeOptions& options);
+  /// For a chain of which a machine has only a piece. Judge with `judge(time, energy, dissipated)`.
+  Judge(const Chain& piece, const EnergyBalance& balance, const JudgeOptions& options);
 
   /// Judges the state at `time` s by its energy and its positions.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
@@ -88,6 +90,9 @@ class Judge {
   /// \param supplied   `Integrator::suppliedEnergy()`, J
   const Verdict& judge(double time, const State& state, double dissipated,
                        const ReferenceRun* reference, double supplied = 0.0);
+
+  /// Judges a state of which only the energy is known.
+  const Verdict& judge(double time, const Energy& energy, double dissipated);
 
   /// Judges the state by its energy only: the verdict is never `kNotChecked`. Does not allocate unless
   /// the verdict is bad.
@@ -105,6 +110,9 @@ class Judge {
   const PositionError& positionError() const { return position_error_; }
   /// The verdict on the last judged state.
   const Verdict& latest() const { return latest_; }
+  /// Whether the last judged frame may be shown: yes unless the motion has diverged; after a divergence
+  /// only if the run continues and the energy is finite.
+  bool isShown(bool continues_after_divergence) const;
   /// The first of the most severe verdicts so far: the verdict on the run.
   const Verdict& worst() const { return worst_; }
 
@@ -118,6 +126,7 @@ class Judge {
   void measure(const State& state, const ReferenceRun* reference);
   void noteTolerance(const ReferenceRun& reference);
   Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
+  Verdict energyVerdict(double time, const Energy& energy, double dissipated, double supplied);
   /// Whether the last judged state has the energy of the reference.
   bool hasEnergyOf(const ReferenceRun* reference) const;
   Verdict positionVerdict(const ReferenceRun* reference) const;

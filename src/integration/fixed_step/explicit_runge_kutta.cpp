@@ -39,7 +39,10 @@ Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index p
 
 ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                                        const EngineOptions& options)
-    : options_(options),
+    : SpringwiseIntegrator(options.track_dissipation && chain.spring().damping != 0.0
+                               ? DissipatedEnergy(chain.size())
+                               : DissipatedEnergy()),
+      options_(options),
       constants_(chain),
       stages_(tableau.stages),
       track_dissipation_(options.track_dissipation && chain.spring().damping != 0.0),
@@ -47,7 +50,6 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
       kernel_(findAdvanceKernel(kernelsFor(options, chain.size()), tableau,
                                 {!skips().damping, !skips().gravity, track_dissipation_})) {
   assert(kernel_ != nullptr);
-  if (track_dissipation_) dissipated_ = DissipatedEnergy(chain.size());
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
   if (!one_block) largest_halo_ = largestHalo(options_.block_size, stages_);

@@ -38,7 +38,7 @@ struct EngineOptions {
 };
 
 /// `advance` sets the velocity of the first particle, which is fixed, to 0.
-class ExplicitRungeKutta final : public Integrator {
+class ExplicitRungeKutta final : public SpringwiseIntegrator {
  public:
   /// \param tableau one that has a kernel (`findAdvanceKernel`)
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
@@ -49,7 +49,6 @@ class ExplicitRungeKutta final : public Integrator {
     return kFixedStepTime.of(constants_.chain().size) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
-  double dissipatedEnergy() const override { return dissipated_.total(); }
   void restart() override { dissipated_.reset(); }
   Skips skips() const override;
 
@@ -85,7 +84,6 @@ class ExplicitRungeKutta final : public Integrator {
   bool track_dissipation_;
   const ButcherTableau& tableau_;
   AdvanceKernel kernel_;
-  DissipatedEnergy dissipated_;
   Eigen::Index largest_halo_ = 0;  ///< 0: the whole chain is one block
   StepWeights weights_;
   Pass pass_;

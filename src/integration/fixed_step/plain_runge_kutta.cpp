@@ -7,12 +7,12 @@ namespace spring_pendulum {
 
 PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                                  bool track_dissipation, const ChainKernels& kernels)
-    : tableau_(tableau),
+    : SpringwiseIntegrator(DissipatedEnergy(chain.size())),
+      tableau_(tableau),
       track_dissipation_(track_dissipation),
       damping_(chain.spring().damping),
       constants_(chain),
       kernels_(kernels),
-      dissipated_(chain.size()),
       held_work_(chain),
       state_(chain.size()),
       stage_(chain.size()) {

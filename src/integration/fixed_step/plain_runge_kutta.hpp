@@ -18,7 +18,7 @@
 namespace spring_pendulum {
 
 /// `advance` sets the velocity of the first particle, which is fixed, to 0.
-class PlainRungeKutta : public Integrator {
+class PlainRungeKutta : public SpringwiseIntegrator {
  public:
   PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau, bool track_dissipation,
                   const ChainKernels& kernels = fastestChainKernels());
@@ -28,7 +28,6 @@ class PlainRungeKutta : public Integrator {
     return kFixedStepTime.of(constants_.chain().size) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const override { return force_evaluations_; }
-  double dissipatedEnergy() const override { return dissipated_.total(); }
   double suppliedEnergy() const override { return held_work_.total(); }
   void restart() override {
     dissipated_.reset();
@@ -43,7 +42,6 @@ class PlainRungeKutta : public Integrator {
   double damping_;  ///< N·s/m
   KernelConstants constants_;
   const ChainKernels& kernels_;
-  DissipatedEnergy dissipated_;
   HeldWork held_work_;
   StateBuffer state_;
   StateBuffer stage_;                ///< z_n + h sum a_ij k_j

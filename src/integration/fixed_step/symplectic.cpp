@@ -7,12 +7,12 @@
 namespace spring_pendulum {
 
 SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
-    : chain_(chain),
+    : SpringwiseIntegrator(DissipatedEnergy(chain.size())),
+      chain_(chain),
       track_dissipation_(track_dissipation),
       constants_(chain_),
       kernels_(fastestChainKernels()),
       current_(chain.size()),
-      dissipated_(chain.size()),
       held_work_(chain) {}
 
 void SymplecticMethod::restart() {

@@ -35,14 +35,13 @@ namespace spring_pendulum {
 
 /// Base class with workspace, counters, and the dissipated and supplied energies, which are integrated
 /// with the trapezoidal rule over each step.
-class SymplecticMethod : public Integrator {
+class SymplecticMethod : public SpringwiseIntegrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
   double work() const final {
     return kFixedStepTime.of(chain_.size()) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
-  double dissipatedEnergy() const final { return dissipated_.total(); }
   double suppliedEnergy() const final { return held_work_.total(); }
   void restart() final;
 
@@ -72,7 +71,6 @@ class SymplecticMethod : public Integrator {
   KernelConstants constants_;
   const ChainKernels& kernels_;
   StateBuffer current_;
-  DissipatedEnergy dissipated_;
   HeldWork held_work_;
   std::int64_t force_evaluations_ = 0;
 };

@@ -3,10 +3,13 @@
 #pragma once
 
 #include "integration/kernels/state_buffer.hpp"
+#include "model/block_sums.hpp"
+#include <spring_pendulum/integration/integrator.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace spring_pendulum {
 
@@ -20,19 +23,42 @@ class DissipatedEnergy {
   double* data() { return numbers_.data(); }
   void reset() { std::fill_n(numbers_.data(), springs_, 0.0); }
 
-  /// Sum over all springs, J, always in the same order.
-  double total() const {
+  /// Sum over the springs first <= i < last, J.
+  double sum(Eigen::Index first, Eigen::Index last) const {
     std::array<double, 8> sums{};
-    for (Eigen::Index i = 0; i < springs_; ++i) {
-      sums[static_cast<std::size_t>(i % 8)] += numbers_.data()[i];
+    for (Eigen::Index i = first; i < last; ++i) {
+      sums[static_cast<std::size_t>((i - first) % 8)] += numbers_.data()[i];
     }
     return ((sums[0] + sums[4]) + (sums[1] + sums[5])) +
            ((sums[2] + sums[6]) + (sums[3] + sums[7]));
   }
 
+  /// Sum over all springs, J, always in the same order.
+  double total() const {
+    double total = 0.0;
+    const Eigen::Index block = sumBlockSize(springs_);
+    for (Eigen::Index first = 0; first < springs_; first += block) {
+      total += sum(first, std::min(springs_, first + block));
+    }
+    return total;
+  }
+
  private:
   Eigen::Index springs_ = 0;
   AlignedNumbers numbers_;
+};
+
+/// An integrator that knows the dissipated energy of each spring: one with a fixed step.
+class SpringwiseIntegrator : public Integrator {
+ public:
+  double dissipatedEnergy() const final { return dissipated_.total(); }
+  /// Empty if the energy is not tracked.
+  DissipatedEnergy& dissipated() { return dissipated_; }
+
+ protected:
+  explicit SpringwiseIntegrator(DissipatedEnergy dissipated) : dissipated_(std::move(dissipated)) {}
+
+  DissipatedEnergy dissipated_;  // NOLINT(*-non-private-member-variables-in-classes)
 };
 
 }  // namespace spring_pendulum

@@ -196,6 +196,11 @@ void FrameFolder::endFrame() {
   if (!file_.appearAs(frame_name_)) refuseForErrno(frame_name_);
 }
 
+void FrameFolder::endFrame(std::int64_t length) {
+  file_.setLength(length);
+  endFrame();
+}
+
 void FrameFolder::removeHidden() {
   if (!descriptor_.isOpen()) return;
   file_.remove();

@@ -41,6 +41,10 @@ class FrameFolder {
   void beginFrame(std::int64_t index);
   void write(const char* data, std::size_t size);
   void endFrame();
+  /// Ends a frame of `length` bytes that other processes have written to `unfinishedPath`.
+  void endFrame(std::int64_t length);
+  /// Absolute path of the frame that was begun.
+  std::string unfinishedPath() const { return path_ + "/" + file_.name(); }
 
   /// Removes the remaining files of an earlier run and unlocks the folder. No frame after this.
   /// \throws FileError if the path no longer leads to the folder

@@ -14,8 +14,6 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
   throw FileError(fmt::format("{}: could not be read: {}", fullPath(path), reason));
 }
@@ -26,17 +24,23 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
-std::string readTextFile(const std::string& path) {
+FileDescriptor openTextFile(const std::string& path, std::int64_t& size) {
   // Without O_NONBLOCK, opening a pipe without a writer would block.
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!file.isOpen()) refuseForErrno(path);
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) refuseForErrno(path);
   if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder; give a file");
   if (!S_ISREG(status.st_mode)) refuse(path, "it is a pipe or a device; give a regular file");
+  size = status.st_size;
+  return file;
+}
 
+std::string readTextFile(const std::string& path) {
+  std::int64_t size = 0;
+  const FileDescriptor file = openTextFile(path, size);
   // One byte more than the size: a short read then proves the end of the file.
-  std::string text(static_cast<std::size_t>(status.st_size) + 1, '\0');
+  std::string text(static_cast<std::size_t>(size) + 1, '\0');
   std::size_t length = 0;
   for (;;) {
     const ssize_t count = ::read(file.get(), text.data() + length, text.size() - length);

@@ -36,6 +36,8 @@ class UnfinishedFile {
   bool hasItsName() const;
 
   bool write(const char* data, std::size_t size);
+  /// Tells the length of a file to which other processes have written, too.
+  void setLength(std::int64_t length) { length_ = length; }
   /// Truncates the file after the last byte written and renames it, replacing any file of that
   /// name.
   bool appearAs(const std::string& name);

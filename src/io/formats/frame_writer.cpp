@@ -57,10 +57,7 @@ void FrameWriter::write(std::int64_t index, const State& state) {
   for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
     char* end = text_.data();
     for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
-      end = writeNumber(x[i], end);
-      *end++ = ' ';
-      end = writeNumber(y[i], end);
-      *end++ = '\n';
+      end = writeLine({x[i], y[i]}, end);
     }
     folder.write(text_.data(), static_cast<std::size_t>(end - text_.data()));
   }

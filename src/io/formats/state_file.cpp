@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -86,16 +85,12 @@ void checkStateEnd(const StateHead& head, std::int64_t particles, bool has_veloc
 
 std::string stateLines(AlignedNumbers::ConstView masses, const State& state, Eigen::Index first,
                        Eigen::Index last) {
-  std::string text;
-  std::array<char, kLongestNumber> number{};
+  std::string text(static_cast<std::size_t>(last - first) * 5 * (kLongestNumber + 1), '\0');
+  char* end = text.data();
   for (Eigen::Index i = first; i < last; ++i) {
-    for (const double value :
-         {state.x()[i], state.y()[i], masses[i], state.vx()[i], state.vy()[i]}) {
-      text.append(number.data(), writeNumber(value, number.data()));
-      text += ' ';
-    }
-    text.back() = '\n';
+    end = writeLine({state.x()[i], state.y()[i], masses[i], state.vx()[i], state.vy()[i]}, end);
   }
+  text.resize(static_cast<std::size_t>(end - text.data()));
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include "io/program/command_line.hpp"
 
+#include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "io/files/paths.hpp"
 #include "io/formats/option_file.hpp"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string_view>
@@ -221,6 +223,16 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   switches.report_skips = has(given, "report-skips");
   switches.json = has(given, "json");
   return switches;
+}
+
+void refuseSeveralRanks(std::string_view cure) {
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    const char* const text = std::getenv(name);
+    if (text == nullptr || parseInteger(text).value_or(1) <= 1) continue;
+    throw InputError(
+        fmt::format("this is one of {} processes ({}), which would write the same files; {}", text,
+                    name, cure));
+  }
 }
 
 Particles readParticles(const Scenario& scenario, std::string_view argument) {

@@ -49,6 +49,11 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
 /// Returns the meaning of an option with its default in brackets, for the help text.
 std::string optionHelp(const Option& option);
 
+/// Refuses to run as one of several processes that mpirun has started: each would write the same files.
+/// \param cure what to do instead
+/// \throws InputError
+void refuseSeveralRanks(std::string_view cure);
+
 /// Reads the particle file of a scenario.
 /// \param argument how to name another file, for the error if the default file does not exist
 /// \throws InputError and FileError, see readParticleFile
