@@ -146,7 +146,8 @@ function drawChain(cell, positions, style) {
 function drawArrows(cell) {
   for (const {x, y, dx, dy, color, label} of arrows) {
     const [px, py] = toScreen(cell, x, y);
-    const length = Math.hypot(dx, dy) || 1;
+    const length = Math.hypot(dx, dy);
+    if (!(length > 0)) continue;
     const pixels = Math.min(90, 25 + 8 * length) * devicePixelRatio;
     const ex = px + (dx / length) * pixels;
     const ey = py - (dy / length) * pixels;

@@ -1,7 +1,7 @@
 // What the user has set. Everything here goes into the address, so that a link restores the page.
 
 export const MOST_RUNS = 4;
-export const presets = JSON.parse(document.getElementById('scenes').textContent);
+export const presets = Object.assign(Object.create(null), JSON.parse(document.getElementById('scenes').textContent));
 export const constants = ['stiffness', 'damping', 'rest_length', 'gravity'];
 const LONGEST_ADDRESS = 8000;  // characters of a particle file
 

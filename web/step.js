@@ -27,7 +27,7 @@ function number(value, digits = 5) {
   const [mantissa, exponent] = value.toPrecision(digits).split('e');
   return exponent ? `${mantissa}\\cdot 10^{${Number(exponent)}}` : mantissa;
 }
-const vector = (values) => `\\begin{pmatrix}${values.map((value) => number(value)).join('\\\\')}\\end{pmatrix}`;
+const vector = (values) => `(${values.map((value) => number(value)).join(',\\;')})`;
 
 /** x, y, vx, vy of one particle. */
 const pick = (flat, i) => [0, 1, 2, 3].map((column) => flat[column * flat.length / 4 + i]);
@@ -56,7 +56,7 @@ function sum(weights, open) {
 function tableauText(method, step, i) {
   const parts = [paragraph('Every slope k is F at a state: the velocity of the particle, and its acceleration.')];
   step.slopes.forEach((slope, stage) => {
-    parts.push(formula(`k_{${stage + 1}} = F\\left(${stage === 0 ? 'z' : sum(method.a[stage].slice(0, stage), 'h')}\\right)
+    parts.push(formula(`k_{${stage + 1}} = F(${stage === 0 ? 'z' : sum(method.a[stage].slice(0, stage), 'h')})
       = F${vector(pick(step.stages[stage], i))} = ${vector(pick(slope, i))}`));
   });
   parts.push(formula(`z_{\\text{new}} = ${sum(method.b, 'h')} = ${vector(pick(step.end, i))}`));
