@@ -125,6 +125,11 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
   measure(state, verdict.kind == VerdictKind::kDiverged ? nullptr : reference);
   if (verdict.kind == VerdictKind::kDrift && hasEnergyOf(reference))
     verdict.kind = VerdictKind::kOk;
+  if (verdict.kind == VerdictKind::kOk && reference == nullptr &&
+      latest_.kind == VerdictKind::kNotChecked) {
+    latest_.time = time;  // the same text again
+    return latest_;
+  }
   if (verdict.kind == VerdictKind::kOk) verdict = positionVerdict(reference);
   return remember(std::move(verdict));
 }

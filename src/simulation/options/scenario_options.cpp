@@ -20,9 +20,13 @@ bool isUnused(const Option& option, const Scenario& scenario) {
   return option.applies_to == other;
 }
 
-bool isNumber(const Option& option) {
-  return std::holds_alternative<Number>(option.value) ||
-         std::holds_alternative<Count>(option.value);
+/// Whether an option is not a number, or a number within its range.
+bool isInRange(const Option& option) {
+  if (const auto* number = std::get_if<Number>(&option.value)) {
+    return number->accepted.contains(*number->value);
+  }
+  const auto* const count = std::get_if<Count>(&option.value);
+  return count == nullptr || count->accepted.contains(static_cast<double>(*count->value));
 }
 
 }  // namespace
@@ -78,7 +82,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
 void checkScenario(const Scenario& scenario) {
   Scenario copy = scenario;
   for (const Option& option : scenarioOptions(copy)) {
-    if (isUnused(option, scenario) || !isNumber(option)) continue;
+    if (isUnused(option, scenario) || isInRange(option)) continue;
     try {
       option.assign(option.text());
     } catch (const InputError& error) {

@@ -32,10 +32,6 @@ double runTolerance(const Scenario& scenario) {
                                               : std::min(scenario.tolerance, kLooseTolerance);
 }
 
-bool isWatched(const Study& study, std::string_view name) {
-  return std::find(study.columns.begin(), study.columns.end(), name) != study.columns.end();
-}
-
 void watchStretch(const Run& run, double& largest) {
   for (Eigen::Index i = 0; i + 1 < run.chain().size(); ++i) {
     largest = std::max(largest, springLength(run.state(), i) - run.scenario().rest_length);
@@ -100,27 +96,26 @@ std::string rowStart(const Study& study, std::int64_t index) {
   return row;
 }
 
-std::optional<std::string> runCase(const Study& study, const Case& a_case,
+std::optional<std::string> runCase(const WantedColumns& columns, const Case& a_case,
                                    std::shared_ptr<SharedReference> reference,
                                    const std::function<bool()>& stop) try {
-  const bool watches_stretch = isWatched(study, "largest_stretch");
-  const bool watches_energy = isWatched(study, "energy_error");
   Scenario scenario = a_case.settings.scenario;
   scenario.threads = 1;
   Run run(scenario, a_case.particles, {false, 0.0, stop, std::move(reference)});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   Watched watched;
   while (run.advance(*integrator)) {
-    if (watches_stretch) watchStretch(run, watched.largest_stretch);
-    if (watches_energy) {
+    if (columns.watchesStretch()) watchStretch(run, watched.largest_stretch);
+    if (columns.watchesEnergy()) {
       watched.energy_error = std::max(watched.energy_error,
                                       std::abs(run.energyEntry().relative_residual.value_or(0.0)));
     }
   }
   if (run.wasStopped()) return std::nullopt;
   std::string text;
-  for (const std::string& name : study.columns) {
-    text += ',' + findColumn(name, "").text({run, *integrator, watched});
+  for (const Column* column : columns.all()) {
+    text += ',';
+    text += column->text({run, *integrator, watched});
   }
   return text;
 } catch (const std::exception& error) {

@@ -49,7 +49,7 @@ std::string rowStart(const Study& study, std::int64_t index);
 /// Runs a case.
 /// \returns the columns as comma-separated text; nothing if `stop` has stopped the run
 /// \throws std::runtime_error naming the case
-std::optional<std::string> runCase(const Study& study, const Case& a_case,
+std::optional<std::string> runCase(const WantedColumns& columns, const Case& a_case,
                                    std::shared_ptr<SharedReference> reference,
                                    const std::function<bool()>& stop);
 

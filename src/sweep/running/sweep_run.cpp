@@ -41,6 +41,7 @@ class Sweep {
  public:
   Sweep(const Study& study, const SweepOptions& options, Ranks& ranks)
       : study_(study),
+        columns_(study),
         options_(options),
         ranks_(ranks),
         threads_(threadsOf(options, ranks)),
@@ -148,7 +149,7 @@ class Sweep {
       const Case& made = maker.make(index);
       const std::int32_t scene = schedule_.scene_of[static_cast<std::size_t>(index)];
       const auto reference = scene < 0 ? nullptr : references_.take(scene, made);
-      std::optional<std::string> text = runCase(study_, made, reference, stop);
+      std::optional<std::string> text = runCase(columns_, made, reference, stop);
       if (!text) break;
       journals_.addLine(index, *text, lines);
       rows_[static_cast<std::size_t>(index)] = std::move(*text);
@@ -159,6 +160,7 @@ class Sweep {
   }
 
   const Study& study_;
+  WantedColumns columns_;
   const SweepOptions& options_;
   Ranks& ranks_;
   int threads_;

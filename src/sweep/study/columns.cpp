@@ -37,33 +37,33 @@ double divergenceTime(const Run& run) {
 
 const std::vector<Column>& allColumns() {
   static const std::vector<Column> kColumns{
-      {"verdict", "", "verdict on the run, as Exercise3 reports it", false,
+      {"verdict", "", "verdict on the run, as Exercise3 reports it",
        [](const Outcome& o) { return std::string(toString(o.run.verdict().kind)); }},
       {"position_error", "m", "largest position error at the frames, against the reference run",
-       false, [](const Outcome& o) { return numberText(o.run.positionError().largest); }},
+       [](const Outcome& o) { return numberText(o.run.positionError().largest); }},
       {"error_bound", "m", "largest sum of position error and uncertainty of the reference run",
-       false, [](const Outcome& o) { return numberText(o.run.positionError().bound); }},
-      {"measured_until", "s", "time until which the position error is known", false,
+       [](const Outcome& o) { return numberText(o.run.positionError().bound); }},
+      {"measured_until", "s", "time until which the position error is known",
        [](const Outcome& o) { return numberText(o.run.positionError().measured_until); }},
-      {"energy_error", "1", "largest residual of the energy balance, in energy scales", false,
+      {"energy_error", "1", "largest residual of the energy balance, in energy scales",
        [](const Outcome& o) {
          return numberText(o.run.energyEntry().relative_residual ? o.watched.energy_error : kNan);
        }},
-      {"largest_stretch", "m", "largest elongation of a spring at the frames", true,
+      {"largest_stretch", "m", "largest elongation of a spring at the frames",
        [](const Outcome& o) { return numberText(o.watched.largest_stretch); }},
-      {"tip_x", "m", "position of the last particle at the end", false,
+      {"tip_x", "m", "position of the last particle at the end",
        [](const Outcome& o) { return numberText(o.run.state().x()[o.run.chain().size() - 1]); }},
-      {"tip_y", "m", "position of the last particle at the end", false,
+      {"tip_y", "m", "position of the last particle at the end",
        [](const Outcome& o) { return numberText(o.run.state().y()[o.run.chain().size() - 1]); }},
-      {"diverged_at", "s", "time of the divergence", false,
+      {"diverged_at", "s", "time of the divergence",
        [](const Outcome& o) { return numberText(divergenceTime(o.run)); }},
-      {"seconds", "s", "nominal computing time of the method, counted and not measured", false,
+      {"seconds", "s", "nominal computing time of the method, counted and not measured",
        [](const Outcome& o) { return roundedText(o.integrator.work(), 6); }},
-      {"force_evaluations", "1", "evaluations of the forces on the whole chain", false,
+      {"force_evaluations", "1", "evaluations of the forces on the whole chain",
        [](const Outcome& o) { return fmt::format("{}", o.integrator.forceEvaluations()); }},
       {"largest_stable_step", "s", "largest stable step size of a fixed-step method, by trial runs",
-       false, [](const Outcome& o) { return numberText(largestStableStep(o.run)); }},
-      {"linear_step", "s", "stability limit of the linearised chain, with a margin", false,
+       [](const Outcome& o) { return numberText(largestStableStep(o.run)); }},
+      {"linear_step", "s", "stability limit of the linearised chain, with a margin",
        [](const Outcome& o) {
          return numberText(
              linearStepLimit(o.run.scenario().method, o.run.chain(), duration(o.run)));
@@ -79,6 +79,14 @@ const Column& findColumn(std::string_view name, std::string_view place) {
     known.emplace_back(column.name);
   }
   throw InputError(fmt::format("{}: {}", place, unknownName("column", name, known)));
+}
+
+WantedColumns::WantedColumns(const Study& study) {
+  for (const std::string& name : study.columns) {
+    columns_.push_back(&findColumn(name, ""));
+    watches_stretch_ = watches_stretch_ || name == "largest_stretch";
+    watches_energy_ = watches_energy_ || name == "energy_error";
+  }
 }
 
 std::string Column::title() const {

@@ -29,7 +29,6 @@ struct Column {
   std::string_view name;
   std::string_view unit;  ///< empty: none
   std::string_view meaning;
-  bool watches_stretch = false;
   std::function<std::string(const Outcome&)> text;
 
   std::string title() const;
@@ -39,5 +38,20 @@ const std::vector<Column>& allColumns();
 
 /// \throws InputError that lists the known columns
 const Column& findColumn(std::string_view name, std::string_view place);
+
+/// The columns of a study, looked up once.
+class WantedColumns {
+ public:
+  explicit WantedColumns(const Study& study);
+
+  const std::vector<const Column*>& all() const { return columns_; }
+  bool watchesStretch() const { return watches_stretch_; }
+  bool watchesEnergy() const { return watches_energy_; }
+
+ private:
+  std::vector<const Column*> columns_;
+  bool watches_stretch_ = false;
+  bool watches_energy_ = false;
+};
 
 }  // namespace spring_pendulum::sweep

@@ -104,7 +104,6 @@ const Case& CaseMaker::make(std::int64_t index) try {
     varied_[i]->assign(study_.axes[i].values[place.values[i]]);
   }
   setFrames();
-  checkScenario(case_.settings.scenario);
   setParticles();
   return case_;
 } catch (const InputError& error) {

@@ -102,7 +102,7 @@ class CaseMaker {
   CaseMaker& operator=(const CaseMaker&) = delete;
 
   /// Returns case 0 <= index < study.cases(), valid until the next call.
-  /// \throws InputError naming the case for values that do not go together
+  /// \throws InputError naming the case for a mass out of range; `Run` checks the scenario
   const Case& make(std::int64_t index);
 
  private:
