@@ -26,6 +26,9 @@ clang-format --dry-run -Werror "${sources[@]}"
 say "includes, public headers, length of files"
 scripts/lint_sources.py check
 
+say "the recipes of CONTRIBUTING.md"
+scripts/recipes.py apply
+
 case ${1:-} in
   --all) base= ;;
   '') base=$(base_commit) ;;

@@ -74,8 +74,8 @@ def apply(step, words, path, file):
 def main():
     with tempfile.TemporaryDirectory(prefix='recipes_') as folder:
         copy = pathlib.Path(folder) / 'spring_pendulum'
-        files = subprocess.run(['git', '-C', PROJECT, 'ls-files', '-z'], check=True, text=True,
-                               stdout=subprocess.PIPE).stdout.split('\0')
+        files = subprocess.run(['git', '-c', 'safe.directory=%s' % PROJECT, '-C', PROJECT, 'ls-files', '-z'],
+                               check=True, text=True, stdout=subprocess.PIPE).stdout.split('\0')
         for name in filter(None, files):
             (copy / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(PROJECT / name, copy / name)

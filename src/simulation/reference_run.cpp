@@ -195,6 +195,7 @@ void ReferenceRun::restart() {
   shared_frames_ = 0;
   allowed_work_ = free_work_;
   gave_up_ = false;
+  work_at_stop_ = 0.0;
   status_ = Status::kMeasuring;
   distance_ = 0.0;
   uncertainty_ = rounding_;
@@ -223,7 +224,7 @@ bool ReferenceRun::advance(double time_step, std::int64_t steps,
 
 double ReferenceRun::work() const {
   if (shared_) return shared_frame_ == nullptr ? 0.0 : shared_frame_->work;
-  return trajectories_ ? trajectories_->work() : 0.0;
+  return trajectories_ ? trajectories_->work() : work_at_stop_;
 }
 
 // The work at a frame does not depend on the parts of the frame, and it exceeds the allowed work if
@@ -259,6 +260,7 @@ double ReferenceRun::errorOf(const State& state) const {
 void ReferenceRun::stop(Status status) {
   status_ = status;
   uncertainty_ = std::numeric_limits<double>::quiet_NaN();
+  work_at_stop_ = work();
   trajectories_.reset();
 }
 

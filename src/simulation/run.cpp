@@ -123,7 +123,7 @@ bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
   }
   if (isOver()) return false;
   const std::int64_t steps = stepOfPart(part) - stepOfPart(part_);
-  stopped_ = !integrate(steps, integrator) || !follow(steps);
+  stopped_ = !integrate(steps, integrator) || !advanceReference(steps);
   if (stopped_) return false;
   part_ = part % parts_;
   dissipated_ = dissipated_before_ + integrator.dissipatedEnergy();
@@ -164,7 +164,7 @@ bool Run::sleeps(Integrator& integrator) {
   return false;
 }
 
-bool Run::follow(std::int64_t steps) {
+bool Run::advanceReference(std::int64_t steps) {
   if (!reference_ || !reference_->isMeasuring()) return true;
   const Stopwatch stopwatch(totals_.reference_seconds);
   return reference_->advance(frame_steps_.time_step, steps, options_.stop);

@@ -188,5 +188,19 @@ TEST(StabilityAdvice, LimitsTheWorkOfOwnErrorControlledMethods) {
   EXPECT_EQ(describeStability(scene.chain, scene.start, scenario), "Slow: takes too long to try\n");
 }
 
+TEST(TrialBench, StartsNoTrialAfterAHundredFullOnes) {
+  const Scene scene = test::randomScene(1);
+  constexpr double kWork = 1e-4;  // s
+  const TrialBench bench(scene.chain, scene.start, 1000.0, kFrameInterval, {}, kWork);
+  const Method& method = findMethod("Runge-Kutta-4");
+  int trials = 0;
+  for (; !bench.isExhausted() && trials < 1000; ++trials) {
+    EXPECT_FALSE(bench.run(method, 1e-3, ReferenceUse::kNever).finished);
+  }
+  EXPECT_GT(trials, 50);  // 74
+  EXPECT_LE(trials, 100);
+  EXPECT_EQ(bench.run(method, 1e-3, ReferenceUse::kNever).evaluations, 0);
+}
+
 }  // namespace
 }  // namespace spring_pendulum

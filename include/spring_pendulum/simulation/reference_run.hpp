@@ -114,6 +114,10 @@ class ReferenceRun {
   ///   cost as much or 0.12 s, whichever is more.
   void measure(double run_work);
 
+  /// Work since the start or the last `restart`, s, see Integrator::work. With a shared reference: the
+  /// work to get there, whoever did it.
+  double work() const;
+
   /// Returns to the start.
   void restart();
 
@@ -140,7 +144,6 @@ class ReferenceRun {
   bool isSensitive() const;
 
  private:
-  double work() const;
   void stop(Status status);
 
   Chain chain_;
@@ -152,8 +155,9 @@ class ReferenceRun {
   double allowed_work_ = 0.0;  ///< until the next frame, s
   bool gave_up_ = false;       ///< inside a frame
   Status status_ = Status::kMeasuring;
-  double distance_ = 0.0;     ///< of the companion from the reference, m
-  double uncertainty_ = 0.0;  ///< m
+  double distance_ = 0.0;      ///< of the companion from the reference, m
+  double uncertainty_ = 0.0;   ///< m
+  double work_at_stop_ = 0.0;  ///< s
   std::unique_ptr<ReferenceTrajectories> trajectories_;
   std::shared_ptr<SharedReference> shared_;
   const ReferenceFrame* shared_frame_ = nullptr;  ///< null: at the start

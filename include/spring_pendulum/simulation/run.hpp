@@ -117,6 +117,8 @@ class Run {
   bool tracksDissipation() const { return track_dissipation_; }
   /// Position error of the current state, and the largest one at the frames so far.
   PositionError positionError() const;
+  /// Work of the reference run so far, s, see Integrator::work.
+  double referenceWork() const { return reference_ ? reference_->work() : 0.0; }
   /// The state of the reference run at `time()`; null if there is none or it has stopped.
   const State* referenceState() const;
 
@@ -144,7 +146,7 @@ class Run {
   void setFrameSteps();
   bool advanceTo(std::int64_t part, Integrator& integrator);
   bool integrate(std::int64_t steps, Integrator& integrator);
-  bool follow(std::int64_t steps);
+  bool advanceReference(std::int64_t steps);
   bool sleeps(Integrator& integrator);
   void judgeFrame();
   std::int64_t stepOfPart(std::int64_t part) const;

@@ -24,7 +24,7 @@ namespace spring_pendulum {
 
 /// Step sizes in s; 0 if the smallest affordable one fails, infinite if all pass.
 struct StepLimits {
-  double stable = 0.0;    ///< largest without divergence or energy gain
+  double stable = 0.0;    ///< largest without divergence or energy gain; NaN if too long to find
   double accurate = 0.0;  ///< largest without a bad verdict (isBad); NaN if a reference run, which
                           ///< this takes, would take too long
 };

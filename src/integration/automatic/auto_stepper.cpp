@@ -106,9 +106,7 @@ DenseOutputStepper& AutoStepper::startedAt(Candidate& candidate, const State& st
 
 void AutoStepper::release(Candidate& candidate) {
   if (!candidate.stepper || chain_.size() <= keeps_up_to_) return;
-  const StepStatistics statistics = candidate.stepper->statistics();
-  candidate.earlier_evaluations += statistics.force_evaluations;
-  candidate.earlier_rejected += statistics.rejected;
+  candidate.earlier = statisticsOf(candidate);
   candidate.stepper.reset();
 }
 
@@ -126,9 +124,22 @@ void AutoStepper::start(const State& state) {
 
 // The difference is taken before the product. Its rounding then does not depend on earlier work, so
 // a restarted run gives the same bits.
-double AutoStepper::workSince(const Candidate& candidate, std::int64_t evaluations) {
+double AutoStepper::workSince(const Candidate& candidate, const StepStatistics& before) const {
+  StepStatistics since = statisticsOf(candidate);
+  since.force_evaluations -= before.force_evaluations;
+  since.left_out -= before.left_out;
   return candidate.work_per_evaluation *
-         static_cast<double>(evaluationsOf(candidate) - evaluations);
+         (static_cast<double>(since.force_evaluations) - since.leftOut(chain_.size()));
+}
+
+StepStatistics AutoStepper::statisticsOf(const Candidate& candidate) {
+  StepStatistics sum = candidate.earlier;
+  if (!candidate.stepper) return sum;
+  const StepStatistics present = candidate.stepper->statistics();
+  sum.force_evaluations += present.force_evaluations;
+  sum.left_out += present.left_out;
+  sum.rejected += present.rejected;
+  return sum;
 }
 
 bool AutoStepper::isStiff() const {
@@ -154,7 +165,7 @@ double AutoStepper::step() {
     }
   }
   Candidate& candidate = candidates_[active_];
-  const std::int64_t before = evaluationsOf(candidate);
+  const StepStatistics before = statisticsOf(candidate);
   last_step_ = candidate.stepper->step();
   const double work = workSince(candidate, before);
   recent_.work += work;
@@ -172,7 +183,7 @@ AutoStepper::Pace AutoStepper::paceOf(Candidate& candidate, const State& state) 
     if (!(stepper.step() > 0.0)) return {};
   }
   Pace pace;
-  const std::int64_t before = evaluationsOf(candidate);
+  const StepStatistics before = statisticsOf(candidate);
   for (int i = 0; i < kCounted; ++i) {
     const double covered = stepper.step();
     if (!(covered > 0.0)) return {};
@@ -194,7 +205,7 @@ void AutoStepper::race() {
   raced_ = recent_;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (i == active_) continue;
-    const std::int64_t before = evaluationsOf(candidates_[i]);
+    const StepStatistics before = statisticsOf(candidates_[i]);
     const Pace pace = paceOf(candidates_[i], state_);
     work += workSince(candidates_[i], before);
     release(candidates_[i]);
@@ -221,11 +232,13 @@ void AutoStepper::change(std::size_t to) {
 StepStatistics AutoStepper::statistics() const {
   StepStatistics sum;
   for (const Candidate& candidate : candidates_) {
-    const std::int64_t evaluations = evaluationsOf(candidate);
-    sum.force_evaluations += evaluations;
-    sum.extra_work += (candidate.work_per_evaluation - 1.0) * static_cast<double>(evaluations);
-    sum.rejected += candidate.earlier_rejected;
-    if (candidate.stepper) sum.rejected += candidate.stepper->statistics().rejected;
+    const StepStatistics its = statisticsOf(candidate);
+    sum.force_evaluations += its.force_evaluations;
+    sum.extra_work +=
+        (candidate.work_per_evaluation - 1.0) * static_cast<double>(its.force_evaluations) -
+        candidate.work_per_evaluation * its.leftOut(chain_.size());
+    sum.left_out += its.left_out;
+    sum.rejected += its.rejected;
   }
   sum.accepted = steps_;
   sum.last_step = last_step_;

@@ -60,8 +60,7 @@ class AutoStepper final : public DenseOutputStepper {
     std::unique_ptr<DenseOutputStepper> (*make)(const Chain& chain, double tolerance);
     std::unique_ptr<DenseOutputStepper> stepper{};  ///< constructed when used
     double covered = 0.0;                           ///< time integrated with it, s
-    std::int64_t earlier_evaluations = 0;           ///< force evaluations of released steppers
-    std::int64_t earlier_rejected = 0;              ///< rejected steps of released steppers
+    StepStatistics earlier{};                       ///< of released steppers
   };
   /// Simulated time and the work spent on it.
   struct Pace {
@@ -71,11 +70,9 @@ class AutoStepper final : public DenseOutputStepper {
   };
 
   const Candidate& active() const { return candidates_[active_]; }
-  static std::int64_t evaluationsOf(const Candidate& candidate) {
-    return candidate.earlier_evaluations +
-           (candidate.stepper ? candidate.stepper->statistics().force_evaluations : 0);
-  }
-  static double workSince(const Candidate& candidate, std::int64_t evaluations);
+  /// Evaluations, rejected steps and what was left out, with those of released steppers.
+  static StepStatistics statisticsOf(const Candidate& candidate);
+  double workSince(const Candidate& candidate, const StepStatistics& before) const;
   Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
   /// Whether the work since the last race suffices for another. Otherwise begins a new measurement of

@@ -54,8 +54,9 @@ double RadauStepper::workPerEvaluation(Eigen::Index particles) {
 
 StepStatistics RadauStepper::statistics() const {
   StepStatistics statistics = ErrorEstimatingStepper::statistics();
-  statistics.extra_work =
-      (workPerEvaluation(chain().size()) - 1.0) * static_cast<double>(statistics.force_evaluations);
+  const double cost = workPerEvaluation(chain().size());
+  statistics.extra_work = (cost - 1.0) * static_cast<double>(statistics.force_evaluations) -
+                          cost * statistics.leftOut(chain().size());
   return statistics;
 }
 
@@ -97,6 +98,11 @@ void RadauStepper::setActive(std::size_t particles) {
   const auto size = static_cast<Eigen::Index>(active_);
   real_.solver.resize(size);
   for (System<Complex>& pair : pairs_) pair.solver.resize(size);
+}
+
+void RadauStepper::countEvaluations(std::int64_t count) {
+  counters().force_evaluations += count;
+  counters().left_out += count * static_cast<std::int64_t>(stages_.particles.size() - active_);
 }
 
 bool RadauStepper::reachesFreeEnd() const {
@@ -235,7 +241,7 @@ void RadauStepper::computeResiduals() {
     left_x = right_x;
     left_y = right_y;
   }
-  counters().force_evaluations += static_cast<std::int64_t>(kStages);
+  countEvaluations(static_cast<std::int64_t>(kStages));
 }
 
 RadauStepper::Change RadauStepper::updateStages() {
@@ -322,7 +328,7 @@ double RadauStepper::filteredError(bool corrected) {
     left = right;
   }
   real_.solve();
-  ++counters().force_evaluations;
+  countEvaluations(1);
   double largest = 0.0, finite = 0.0;
   for (std::size_t i = 1; i < active_; ++i) {
     const PlaneVector<double> part = position_part(i);

@@ -113,6 +113,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
 
   /// Computes this number of particles from now on. Those beyond fall like the last of these.
   void setActive(std::size_t particles);
+  void countEvaluations(std::int64_t count);
   /// Whether the motion has reached the end of the computed part, so that more must be computed.
   bool reachesFreeEnd() const;
   /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.

@@ -130,7 +130,7 @@ MarkerBuilder::MarkerBuilder(const Run& run, const NodeOptions& options) : optio
   if (!options.color.empty()) markers_.markers[kText].color = *parseColor(options.color);
 }
 
-void MarkerBuilder::frame(const Run& run, const State& state) {
+void MarkerBuilder::fitView(const Run& run, const State& state) {
   const bool drawable = run.isFinite() && run.isShown();
   // The other rows keep to the view of the first one.
   const bool may_widen = drawable && isFirstRow();
@@ -251,7 +251,7 @@ const visualization_msgs::MarkerArray& MarkerBuilder::build(const Run& run, cons
                                                             const std_msgs::Header& header,
                                                             const std::string& pace) {
   for (visualization_msgs::Marker& marker : markers_.markers) marker.header = header;
-  frame(run, shown.state());
+  fitView(run, shown.state());
   if (run.isFinite() && run.isShown()) place(run, shown.state());
   if (placed_) paint(run);
   drawTrail(shown);

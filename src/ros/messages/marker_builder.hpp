@@ -51,7 +51,8 @@ class MarkerBuilder {
 
   bool isFirstRow() const { return options_.text_row == 0; }
   int textLines() const;
-  void frame(const Run& run, const State& state);
+  /// Makes the view contain the state, and sets the sizes that depend on it.
+  void fitView(const Run& run, const State& state);
   void placeText();
   void placeRow(visualization_msgs::Marker& text) const;
   void drawGrid();

@@ -24,16 +24,20 @@ constexpr double kShortWork = 0.006;
 constexpr double kShareOfWanted = 0.5;
 /// Said of what cannot be judged.
 constexpr const char* kNotJudged = "unknown, as a reference run would take too long";
+constexpr const char* kNotTried = "unknown, as runs take too long to be tried";
 
 /// Whether the true positions were known to the end of a trial, or were too sensitive to be known.
 bool isJudged(const Trial& trial) {
   return trial.finished && (trial.measured || trial.verdict.kind == VerdictKind::kSensitive);
 }
 
+/// \returns NaN if the search would take too long
 double stableStep(const TrialBench& bench, const Method& method, double first) {
-  return largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
-    return bench.run(method, step, ReferenceUse::kNever, VerdictKind::kGainedEnergy).isStable();
-  });
+  const double limit =
+      largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
+        return bench.run(method, step, ReferenceUse::kNever, VerdictKind::kGainedEnergy).isStable();
+      });
+  return bench.isExhausted() ? std::numeric_limits<double>::quiet_NaN() : limit;
 }
 
 /// \returns NaN if a reference run would take too long
@@ -46,7 +50,7 @@ double accurateStep(const TrialBench& bench, const Method& method, double first)
         measurable = isJudged(trial) || !trial.isStable();
         return trial.finished && !isBad(trial.verdict.kind);
       });
-  return measurable ? step : std::numeric_limits<double>::quiet_NaN();
+  return measurable && !bench.isExhausted() ? step : std::numeric_limits<double>::quiet_NaN();
 }
 
 StepLimits stepLimits(const TrialBench& bench, const Method& method, double first) {
@@ -75,12 +79,11 @@ std::string stepText(double step) {
   return std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", roundedDown(step));
 }
 
-/// \param step 0 if no step size of at least `least` s passed, NaN if none could be judged
+/// \param step 0 if no step size of at least `least` s passed
 std::string limitText(double step, double least) {
-  if (std::isnan(step)) return kNotJudged;
   if (step > 0.0) return stepText(step);
   return std::isinf(least)
-             ? "unknown, as runs take too long to be tried"
+             ? kNotTried
              : fmt::format("below {}, where runs take too long to be tried", stepText(least));
 }
 
@@ -127,7 +130,8 @@ std::string cheapestFor(TrialBench bench, double first, double wanted) {
           trial.evaluations);
     }
   }
-  return text;
+  if (!bench.isExhausted()) return text;
+  return fmt::format("position error of at most {:.3g} m: {}\n", wanted, kNotTried);
 }
 
 }  // namespace
@@ -175,9 +179,10 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Sce
                   bench.duration(), trial.verdict.text, trial.measurements);
   if (fixed) {
     report.limits = stepLimits(bench, method, scenario.time_step);
-    report.text += fmt::format("largest stable step size: {}\nlargest accurate step size: {}\n",
-                               limitText(report.limits.stable, least),
-                               limitText(report.limits.accurate, least));
+    report.text += fmt::format(
+        "largest stable step size: {}\nlargest accurate step size: {}\n",
+        std::isnan(report.limits.stable) ? kNotTried : limitText(report.limits.stable, least),
+        std::isnan(report.limits.accurate) ? kNotJudged : limitText(report.limits.accurate, least));
   }
   if (scenario.wanted_error > 0.0) {
     const double first = fixed ? scenario.time_step : Scenario{}.time_step;

@@ -31,9 +31,11 @@ TrialBench::TrialBench(const Chain& chain, const State& start, double duration,
       duration_(std::min(duration, kLongest)),
       frame_interval_(std::clamp(frame_interval, duration_ / kMostFrames, duration_)),
       stop_(std::move(stop)),
-      most_work_(most_work) {}
+      most_work_(most_work),
+      allowed_work_(kMostTotalWork * most_work) {}
 
 Trial TrialBench::run(Scenario scenario, ReferenceUse reference, VerdictKind enough) const {
+  if (isExhausted()) return {};
   scenario.stiffness = spring_.stiffness;
   scenario.damping = spring_.damping;
   scenario.rest_length = spring_.rest_length;
@@ -60,6 +62,7 @@ Trial TrialBench::run(Scenario scenario, ReferenceUse reference, VerdictKind eno
   trial.measurements = run.measurements();
   trial.evaluations = integrator->forceEvaluations();
   trial.work = work();
+  total_work_ += trial.work + run.referenceWork();
   return trial;
 }
 

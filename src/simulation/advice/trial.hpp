@@ -28,6 +28,10 @@ class TrialBench {
   /// Work in s that `--check` allows for a trial, without its reference run.
   static constexpr double kMostWork = 0.06;
 
+  /// Work of all trials with their reference runs, in units of that of one. After this much, no
+  /// further trial starts.
+  static constexpr double kMostTotalWork = 100.0;
+
   /// \param stop ends all trials when it returns true; may be empty
   TrialBench(const Chain& chain, const State& start, double duration, double frame_interval,
              std::function<bool()> stop = {}, double most_work = kMostWork);
@@ -50,6 +54,8 @@ class TrialBench {
 
   double duration() const { return duration_; }
   double mostWork() const { return most_work_; }
+  /// Whether the work of all trials is used up: a trial is then unfinished from the beginning.
+  bool isExhausted() const { return total_work_ >= allowed_work_; }
   void limitWork(double most_work) { most_work_ = most_work; }
 
  private:
@@ -61,6 +67,8 @@ class TrialBench {
   double frame_interval_;
   std::function<bool()> stop_;
   double most_work_;
+  double allowed_work_;              ///< of all trials, s
+  mutable double total_work_ = 0.0;  ///< s, so far
 };
 
 }  // namespace spring_pendulum
