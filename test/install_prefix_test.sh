@@ -20,6 +20,15 @@ program=$(find "$prefix" -name Exercise3 -path '*/spring_pendulum/*' -o -name Ex
 cd "$folder"
 "$program" Euler "$prefix/share/spring_pendulum/data/particle.txt" --frames 3 --output frames > /dev/null
 [ -s frames/frame_0002.txt ] || die "no frames"
+module=$(find "$prefix" -name '_core.*' -path '*/spring_pendulum/*')
+if [ -n "$module" ]; then
+  folder_of_python=${module%/spring_pendulum/*}
+  [ ! -e "$prefix/setup.bash" ] || folder_of_python=$(set +u; source "$prefix/setup.bash" && echo "$PYTHONPATH")
+  PYTHONPATH=$folder_of_python /usr/bin/python3 -c 'import sys, spring_pendulum as sp
+assert sp.__file__.startswith(sys.argv[1]), sp.__file__
+print(sp.simulate(sys.argv[2]))' "$prefix" "$prefix/share/spring_pendulum/data/particle.txt" > /dev/null ||
+    die "the Python module does not work"
+fi
 [ -e "$prefix/lib/pkgconfig/spring_pendulum.pc" ] && command -v pkg-config > /dev/null || exit 0
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 pkg-config --cflags spring_pendulum | grep -qF -- "-I$prefix/include" || die "pkg-config finds no headers"

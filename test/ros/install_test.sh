@@ -32,6 +32,13 @@ check rosrun spring_pendulum Exercise3 Runge-Kutta-4 --particles "$share/data/pa
   --frames 5 --output expected > /dev/null
 check rosrun spring_pendulum record_bag Euler --particles "$share/data/particle.txt" \
   --frames 5 --bag one.bag > /dev/null
+# The Python module and the messages are one package.
+if ls "$1"/install/lib/python3*/dist-packages/spring_pendulum/_core.* > /dev/null 2>&1; then
+  check python3 -c 'import sys, spring_pendulum as sp, spring_pendulum.msg
+assert sp.__file__.startswith(sys.argv[1]), sp.__file__
+assert spring_pendulum.msg.PendulumState()
+assert sp.simulate(sys.argv[2]).verdict.kind == "ok"' "$1/install" "$share/data/particle.txt"
+fi
 rosmaster --core -p "$2" > master.log 2>&1 & master=$!
 trap 'kill $master; wait $master 2> /dev/null || true' EXIT
 until rosparam list > /dev/null 2>&1; do sleep 0.2; done
