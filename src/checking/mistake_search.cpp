@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -60,6 +61,9 @@ MistakeSearch::MistakeSearch(const Scenario& scenario, const Particles& particle
 std::vector<Explanation> MistakeSearch::singleMistakes(const Method& method) {
   found_.clear();
   tryMistakes(rightProgram(method));
+  found_.erase(std::remove_if(found_.begin(), found_.end(),
+                              [&](const Explanation& one) { return !isStrong(one); }),
+               found_.end());
   return found_;
 }
 
@@ -73,13 +77,28 @@ std::vector<Explanation> MistakeSearch::search(
                                &MistakeSearch::tryWeights,
                                &MistakeSearch::trySinglePrecisionAndMistake};
   found_.clear();
+  std::vector<Explanation> best;
   for (const Level level : kLevels) {
     for (const std::vector<const Method*>& group : methods) {
       for (const Method* method : group) (this->*level)(rightProgram(*method));
-      if (!found_.empty()) return found_;
+      if (found_.empty()) continue;
+      const auto reach = [](const Explanation& a, const Explanation& b) {
+        return a.last_frame > b.last_frame;
+      };
+      std::stable_sort(found_.begin(), found_.end(), reach);
+      // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
+      if (best.empty() || found_.front().last_frame > 2 * best.front().last_frame) best = found_;
+      found_.clear();
+      if (isStrong(best.front())) return best;
     }
   }
-  return found_;
+  return best;
+}
+
+bool MistakeSearch::isStrong(const Explanation& explanation) const {
+  constexpr std::size_t kEvidence = 20;  // frames after the departure
+  const std::size_t last = std::min(known_frames_ + kEvidence, frames_.frames.size() - 1);
+  return explanation.last_frame >= frames_.frames[last].index;
 }
 
 MistakeSearch::Candidate MistakeSearch::rightProgram(const Method& method) const {

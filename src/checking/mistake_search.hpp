@@ -41,6 +41,8 @@ class MistakeSearch {
   void trySinglePrecisionAndMistake(const Candidate& base);
 
   bool isOver();
+  /// Whether an explanation reproduces all frames, or many that show the mistake.
+  bool isStrong(const Explanation& explanation) const;
   /// Whether all frames agree, also beyond those that show no mistake.
   bool isConvincing(const Agreement& agreement);
   bool explains(const Candidate& candidate);

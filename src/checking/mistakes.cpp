@@ -34,8 +34,9 @@ void fourth(P& p, double divisor, double a, double b, double c, double d) {
 }  // namespace
 
 // clang-format off
+// NOLINTNEXTLINE(readability-function-size): data
 const std::vector<Mistake>& knownMistakes() {
-  static const std::vector<Mistake> table = {
+  static const std::vector<Mistake> kTable = {
       // The method
       {"heun", 2, "averages the slopes at both ends of the step (Heun) instead of taking the one in the middle", [](P& p) { stage(p, 2, 1); weights(p, 0.5, 0.5); }},
       {"ralston", 2, "uses Ralston's rule instead of the midpoint", [](P& p) { stage(p, 2, 2.0 / 3); weights(p, 0.25, 0.75); }},
@@ -129,11 +130,11 @@ const std::vector<Mistake>& knownMistakes() {
       {"swapped", kAny, "writes y before x", [](P& p) { p.swaps_columns = true; }},
       {"single_precision", kAny, "computes with float instead of double", [](P& p) { p.single_precision = true; }},
   };
-  return table;
+  return kTable;
 }
 
 const std::vector<Constant>& fittedConstants() {
-  static const std::vector<Constant> table = {
+  static const std::vector<Constant> kTable = {
       {"k_s", Kind::kModel, kAny, "uses the spring constant k_s = {} N/m", [](P& p) -> double& { return p.stiffness; }},
       {"k_d", Kind::kModel, kAny, "uses the damping constant k_d = {} N·s/m", [](P& p) -> double& { return p.damping; }},
       {"L_0", Kind::kModel, kAny, "uses the rest length L_0 = {} m", [](P& p) -> double& { return p.rest_length; }},
@@ -147,7 +148,7 @@ const std::vector<Constant>& fittedConstants() {
       {"weights", Kind::kWeight, 4, "weights the third slope {}", [](P& p) -> double& { return p.tableau.b[2]; }},
       {"weights", Kind::kWeight, 4, "weights the fourth slope {}", [](P& p) -> double& { return p.tableau.b[3]; }},
   };
-  return table;
+  return kTable;
 }
 // clang-format on
 
