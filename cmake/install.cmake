@@ -15,6 +15,9 @@ endif()
 
 install(TARGETS spring_pendulum EXPORT spring_pendulumTargets
   LIBRARY DESTINATION ${install_lib} ARCHIVE DESTINATION ${install_lib})
+if(TARGET Exercise3_mpi)
+  install(TARGETS Exercise3_mpi RUNTIME DESTINATION ${install_bin})
+endif()
 install(TARGETS Exercise3 check_frames sweep RUNTIME DESTINATION ${install_bin})
 install(DIRECTORY include/spring_pendulum DESTINATION include)
 install(DIRECTORY data config DESTINATION ${install_share})

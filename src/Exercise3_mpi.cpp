@@ -13,7 +13,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "mpi/chain_part.hpp"
@@ -85,15 +86,24 @@ Judge makeJudge(const Ranks& ranks, const Scenario& scenario, const ChainPart& p
   return *judge;
 }
 
+/// Reads the part of this rank. What was read is discarded before the run.
+/// \param first set to the frame of the start
+std::unique_ptr<ChainPart> makePart(const Ranks& ranks, const Scenario& scenario,
+                                    bool track_dissipation, std::int64_t& first) {
+  const Part part = readPart(ranks, scenario);
+  first = part.own.frame;
+  return std::make_unique<ChainPart>(ranks, scenario, part, track_dissipation);
+}
+
 /// The simulation loop of every rank.
 int simulate(const Ranks& ranks, const Scenario& scenario, const Switches& switches) {
   ranks.together([&] { checkSupported(scenario, switches); });
-  Part own = readPart(ranks, scenario);
-  const std::int64_t first = own.own.frame;
   const bool track_dissipation =
       scenario.damping > 0.0 &&
       (!scenario.energy.empty() || scenario.method.get().tableau != nullptr);
-  ChainPart part(ranks, scenario, std::move(own), track_dissipation);
+  std::int64_t first = 0;
+  const auto owned = makePart(ranks, scenario, track_dissipation, first);
+  ChainPart& part = *owned;
   const FrameSteps steps = frameSteps(scenario);
   Judge judge = makeJudge(ranks, scenario, part, track_dissipation, steps.timeOfFrame(first));
   catchInterruptions();

@@ -47,7 +47,7 @@ void ChainPart::Piece::advance(double time_step, std::int64_t steps) {
   integrator->advance(state, time_step, steps);
 }
 
-ChainPart::ChainPart(const Ranks& ranks, const Scenario& scenario, Part part,
+ChainPart::ChainPart(const Ranks& ranks, const Scenario& scenario, const Part& part,
                      bool track_dissipation)
     : ranks_(ranks),
       scenario_(scenario),

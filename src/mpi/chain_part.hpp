@@ -25,7 +25,7 @@ class ChainPart {
  public:
   /// All ranks call the constructor and the functions.
   /// \throws RankFailure if the method has no border, or a part is shorter than two borders
-  ChainPart(const Ranks& ranks, const Scenario& scenario, Part part, bool track_dissipation);
+  ChainPart(const Ranks& ranks, const Scenario& scenario, const Part& part, bool track_dissipation);
 
   void advance(double time_step, std::int64_t steps);
 
