@@ -87,9 +87,12 @@ std::vector<Explanation> MistakeSearch::search(
       };
       std::stable_sort(found_.begin(), found_.end(), reach);
       // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
-      if (best.empty() || found_.front().last_frame > 2 * best.front().last_frame) best = found_;
+      const Explanation& longest = found_.front();
+      const bool is_likely = isStrong(longest) || longest.mistakes.size() == 1;
+      const bool is_better = best.empty() || longest.last_frame > 2 * best.front().last_frame;
+      if (is_likely && is_better) best = found_;
       found_.clear();
-      if (isStrong(best.front())) return best;
+      if (!best.empty() && isStrong(best.front())) return best;
     }
   }
   return best;
