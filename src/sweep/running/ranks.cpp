@@ -1,5 +1,7 @@
 #include "sweep/running/ranks.hpp"
 
+#include "base/numbers.hpp"
+#include "io/program/command_line.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <algorithm>
@@ -15,18 +17,17 @@
 namespace spring_pendulum::sweep {
 namespace {
 
+#ifdef SPRING_PENDULUM_MPI
+
 /// Number of ranks that mpirun or srun has started, from their environment.
-int startedRanks() {
-  int ranks = 1;
+std::int64_t startedRanks() {
+  std::int64_t ranks = 1;
   for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
-    const char* const value =
-        std::getenv(name);  // NOLINT(concurrency-mt-unsafe): before any thread
-    if (value != nullptr) ranks = std::max(ranks, std::atoi(value));
+    const char* const text = std::getenv(name);
+    if (text != nullptr) ranks = std::max(ranks, parseInteger(text).value_or(1));
   }
   return ranks;
 }
-
-#ifdef SPRING_PENDULUM_MPI
 
 constexpr int kRequest = 1;
 constexpr int kAnswer = 2;
@@ -112,8 +113,7 @@ void Ranks::abort(int status) const {
 #else
 
 Ranks::Ranks() {
-  if (startedRanks() == 1) return;
-  throw InputError("sweep is built without MPI and cannot run as several ranks; use --shard");
+  refuseSeveralRanks("build sweep with MPI, or use --shard");
 }
 
 Ranks::~Ranks() = default;
