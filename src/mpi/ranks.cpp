@@ -50,6 +50,7 @@ std::string Ranks::shareFromFirst(std::string text) const {
 }
 
 std::vector<std::int64_t> Ranks::largest(std::vector<std::int64_t> values) const {
+  if (size_ == 1) return values;
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_MAX,
                 MPI_COMM_WORLD);
   return values;
