@@ -9,7 +9,6 @@
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
-#include <type_traits>
 #include <utility>
 
 namespace spring_pendulum {
@@ -282,7 +281,7 @@ template <Index n, Index kBlocks>
 
 /// Adds the drive to coefficient 0 of the accelerations and, as differences of neighbours, to
 /// coefficient 2 of the separations.
-inline void addDrive(const TaylorWorkspace& work) {
+[[gnu::noinline]] inline void addDrive(const TaylorWorkspace& work) {
   const double* drive_x = work.drive;
   const double* drive_y = drive_x + work.pitch;
   PlaneVector<Pack> left{};
@@ -300,16 +299,20 @@ inline void addDrive(const TaylorWorkspace& work) {
   }
 }
 
+/// Acts between order n and order n + 1. A chain of one block is not driven here.
+template <Index n, Index kBlocks>
+[[gnu::always_inline]] inline void finishOrder(const TaylorWorkspace& work) {
+  if constexpr (n == 0 && kBlocks == 0) {
+    if (work.drive != nullptr) addDrive(work);
+  }
+}
+
 template <Index kBlocks, Index... n>
 [[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work,
                                              std::integer_sequence<Index, n...> /*orders*/) {
-  const auto add = [&](auto order) {
-    addOrder<order, kBlocks>(work);
-    if constexpr (order == 0 && kBlocks == 0) {
-      if (work.drive != nullptr) addDrive(work);
-    }
-  };
-  (void)((n < work.order && (add(std::integral_constant<Index, n>()), true)) && ...);
+  (void)((n < work.order &&
+          (addOrder<n, kBlocks>(work), finishOrder<n, kBlocks>(work), true)) &&
+         ...);
 }
 
 template <Index kBlocks>
