@@ -1,3 +1,4 @@
+#include "base/checks.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
@@ -21,6 +22,7 @@ EnergyScaleSums sumsOf(const Chain& chain, const State& start) {
 }  // namespace
 
 void EnergyScaleSums::add(const Chain& chain, const State& start) {
+  requireSize(chain.size(), start.size());
   const SpringLaw& spring = chain.spring();
   for (Eigen::Index i = chain.size() - 1; i > 0; --i) {
     weight += chain.masses()[i] * std::abs(chain.gravity());
