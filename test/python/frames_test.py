@@ -84,7 +84,7 @@ class Frames(Folder):
         self.assertEqual(run.positions.shape, (10, 10**6, 2))
         self.assertIs(run.positions.base, run.velocities.base)
         self.assertEqual(frames, 320e6)
-        self.assertLess(more, 1.5 * frames)  # measured: 0.90; 2 with a copy
+        self.assertLess(more, 1.5 * frames)  # measured: 0.93
 
 
 class Measurements(Folder):

