@@ -195,6 +195,8 @@ class Plotter {
       std::map<double, double> points;  // by x
       for (const Fields* row : rows) {
         if (!p_.lines.empty() && fieldOf(*row, p_.lines) != line) continue;
+        // What a diverged run measured, it measured until then only.
+        if (place_.count("verdict") > 0 && fieldOf(*row, "verdict") == "diverged") continue;
         const double x = numberOf(*row, p_.x), y = numberOf(*row, p_.y);
         if (isDrawn(x, y)) points[x] = y;
       }
