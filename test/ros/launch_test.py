@@ -49,7 +49,7 @@ class Launch(unittest.TestCase):
         of_the_launch_file = {
             'pendulum': set(),
             'record': {'at_end', 'wait_for_subscribers'},
-            'compare': {'method', 'color', 'y_offset', 'text_row', 'text_rows', 'follow',
+            'compare': {'method', 'save_state', 'color', 'y_offset', 'text_row', 'text_rows', 'follow',
                         'wait_for_subscribers'}}
         for name, own in of_the_launch_file.items():
             arguments = {a.get('name') for a in launch_file(name).findall('arg')}
@@ -61,7 +61,7 @@ class Launch(unittest.TestCase):
     def test_a_text_that_looks_like_a_number_stays_a_text(self):
         texts = {p.get('name') for p in launch_file('pendulum').find('node').findall('param')
                  if p.get('type') == 'str'}
-        self.assertEqual(texts, {'method', 'particles', 'output', 'energy', 'on_divergence', 'reference',
+        self.assertEqual(texts, {'method', 'particles', 'output', 'energy', 'save_state', 'on_divergence', 'reference',
                                  'at_end', 'frame_id', 'follow', 'color', 'camera_frame'})
         with Folder() as folder:
             shutil.copy(SCENE, folder + '/1e3')
