@@ -12,7 +12,8 @@ for run in "$@"; do
   command -v "$compiler" > /dev/null || die "there is no $compiler: install its package"
   folder=$build-$compiler-$configuration
   say "building with $compiler $configuration into $folder"
-  configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_CXX_COMPILER="$compiler" \
+  configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON \
+    -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE="$configuration"
   compile "$folder"
   (cd "$folder" && ctest --output-on-failure -j "$(nproc)" -L 'unit|process' -E "$long_tests")

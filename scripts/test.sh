@@ -8,4 +8,5 @@ say "building into $build"
 configure "$build"
 compile "$build"
 cd "$build"
-exec ctest --output-on-failure -j "$(nproc)" "$@"
+# More tests than processors: those of the node wait most of the time.
+exec ctest --output-on-failure -j "$((2 * $(nproc)))" "$@"
