@@ -41,11 +41,15 @@ while [ $# -gt 0 ]; do
   options+=("$option")
 done
 
-"$project/scripts/setup.sh" core ros python
+"$project/scripts/setup.sh" core mpi python ros
 say "building into $build (a few minutes the first time)"
 configure "$build"
-python=$(grep -qs '^build spring_pendulum_python:' "$build/build.ninja" && echo spring_pendulum_python) || true
-compile "$build" Exercise3 $python $(have_ros && echo pendulum_node record_bag spring_pendulum_generate_messages)
+programs=(Exercise3 check_frames sweep)
+for target in Exercise3_mpi spring_pendulum_python pendulum_node record_bag \
+  spring_pendulum_generate_messages; do
+  if grep -qs "^build $target:" "$build/build.ninja"; then programs+=("$target"); fi
+done
+compile "$build" "${programs[@]}"
 
 simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "${options[@]}")
 if $answers; then exec "${simulate[@]}"; fi
