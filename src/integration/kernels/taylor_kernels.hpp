@@ -310,8 +310,7 @@ template <Index n, Index kBlocks>
 template <Index kBlocks, Index... n>
 [[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work,
                                              std::integer_sequence<Index, n...> /*orders*/) {
-  (void)((n < work.order &&
-          (addOrder<n, kBlocks>(work), finishOrder<n, kBlocks>(work), true)) &&
+  (void)((n < work.order && (addOrder<n, kBlocks>(work), finishOrder<n, kBlocks>(work), true)) &&
          ...);
 }
 
