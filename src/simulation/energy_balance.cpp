@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -40,9 +41,9 @@ EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool track_
   start_height_ = start.y()[0];
 }
 
-EnergyBalance::EnergyBalance(const Chain& piece, const Energy& start, const EnergyScaleSums& sums,
+EnergyBalance::EnergyBalance(Chain piece, const Energy& start, const EnergyScaleSums& sums,
                              bool track_dissipation, double start_time)
-    : chain_(piece),
+    : chain_(std::move(piece)),
       start_time_(start_time),
       track_dissipation_(track_dissipation),
       start_energy_(start.total()) {

@@ -167,7 +167,7 @@ class Plotter {
 
   /// Adds a block of data. \returns its name
   std::string addBlock(const std::string& lines) {
-    const std::string name = fmt::format("$data{}", ++block_count_);
+    std::string name = fmt::format("$data{}", ++block_count_);
     // gnuplot fails for a block without a point.
     blocks_ += fmt::format("{} << EOD\n{}EOD\n", name,
                            lines.empty() ? "NaN NaN NaN NaN NaN NaN NaN\n" : lines);
@@ -212,6 +212,7 @@ class Plotter {
   std::map<double, std::pair<double, double>> cells(const std::vector<const Fields*>& rows,
                                                     const std::string& key, bool is_log) const {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const Fields* row : rows) values.push_back(numberOf(*row, key));
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());

@@ -59,7 +59,7 @@ class EnergyBalance {
                 double start_time = 0.0);
   /// For a chain of which a machine has only a piece.
   /// \param start energy of the whole chain at the start
-  EnergyBalance(const Chain& piece, const Energy& start, const EnergyScaleSums& sums,
+  EnergyBalance(Chain piece, const Energy& start, const EnergyScaleSums& sums,
                 bool track_dissipation, double start_time);
 
   /// Returns the balance of a state.
