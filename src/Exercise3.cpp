@@ -23,7 +23,7 @@ int simulate(const Scenario& scenario, const Switches& switches) {
   const std::string remarks = remarksOn(run);
   RunFiles files(run, switches.config);  // last, because it removes the frames of earlier runs
   printError(remarks);
-  Progress progress(scenario.frames);
+  Progress progress(scenario.frames, "frames");
   while (run.advance(*integrator)) {
     files.write(run);
     progress.show(run.frame() + 1);

@@ -252,8 +252,9 @@ TEST(Exercise3Output, ATerminalIsToldHowFarALongRunIs) {
     if (errors < 0 || dup2(errors, STDERR_FILENO) < 0 || close(errors) != 0) _exit(1);
   };
   Process process(command);
-  EXPECT_THAT(readTerminal(terminal, " %\x1b[K"),
-              MatchesRegex(".*\r[1-9][0-9]* of 1000000000 frames, 0 %\x1b.K"));
+  EXPECT_THAT(readTerminal(terminal, " left\x1b[K"),
+              MatchesRegex(".*\r[1-9][0-9]* of 1000000000 frames, 0 %, [0-9.e+]+ per second, "
+                           "[1-9][0-9]* s left\x1b.K"));
   process.sendSignal(SIGINT);
   EXPECT_EQ(process.wait().status, 128 + SIGINT);
   EXPECT_THAT(readTerminal(terminal, ""), EndsWith("\r\x1b[K"));

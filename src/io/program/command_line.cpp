@@ -225,14 +225,21 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   return switches;
 }
 
-void refuseSeveralRanks(std::string_view cure) {
+StartedRanks startedRanks() {
   for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     const char* const text = std::getenv(name);
-    if (text == nullptr || parseInteger(text).value_or(1) <= 1) continue;
-    throw InputError(
-        fmt::format("this is one of {} processes ({}), which would write the same files; {}", text,
-                    name, cure));
+    const std::int64_t ranks = text == nullptr ? 1 : parseInteger(text).value_or(1);
+    if (ranks > 1) return {ranks, name};
   }
+  return {};
+}
+
+void refuseSeveralRanks(std::string_view cure) {
+  const StartedRanks started = startedRanks();
+  if (started.count == 1) return;
+  throw InputError(
+      fmt::format("this is one of {} processes ({}), which would write the same files; {}",
+                  started.count, started.variable, cure));
 }
 
 Particles readParticles(const Scenario& scenario, std::string_view argument) {

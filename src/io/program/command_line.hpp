@@ -6,6 +6,7 @@
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,13 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
 
 /// Returns the meaning of an option with its default in brackets, for the help text.
 std::string optionHelp(const Option& option);
+
+/// What mpirun or srun says in the environment of each process that it starts.
+struct StartedRanks {
+  std::int64_t count = 1;
+  std::string_view variable = {};  ///< that says so; empty for a single process
+};
+StartedRanks startedRanks();
 
 /// Refuses to run as one of several processes that mpirun has started: each would write the same files.
 /// \param cure what to do instead

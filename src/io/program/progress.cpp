@@ -1,34 +1,50 @@
 #include "io/program/progress.hpp"
 
+#include "base/numbers.hpp"
 #include "io/program/standard_streams.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <unistd.h>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
 
 constexpr std::chrono::seconds kFirstDelay{1};
 constexpr std::chrono::milliseconds kNextDelay{200};
+constexpr std::chrono::minutes kDelayInLog{1};
 
 }  // namespace
 
-Progress::Progress(std::int64_t frames)
-    : frames_(frames),
+Progress::Progress(std::int64_t total, std::string unit)
+    : total_(std::max<std::int64_t>(1, total)),
+      unit_(std::move(unit)),
       is_terminal_(::isatty(STDERR_FILENO) == 1),
-      next_time_(Clock::now() + kFirstDelay) {}
+      next_time_(start_) {
+  next_time_ += is_terminal_ ? Clock::duration(kFirstDelay) : Clock::duration(kDelayInLog);
+}
 
 Progress::~Progress() {
   if (is_visible_) printError("\r\x1b[K");
 }
 
-void Progress::show(std::int64_t frames_done) {
-  if (!is_terminal_ || Clock::now() < next_time_) return;
-  next_time_ = Clock::now() + kNextDelay;
-  is_visible_ = true;
-  printError(fmt::format("\r{} of {} frames, {:.0f} %\x1b[K", frames_done, frames_,
-                         100.0 * static_cast<double>(frames_done) / static_cast<double>(frames_)));
+void Progress::show(std::int64_t done) {
+  if (done_before_ < 0) done_before_ = done;
+  const Clock::time_point now = Clock::now();
+  if (now < next_time_) return;
+  next_time_ = now + (is_terminal_ ? Clock::duration(kNextDelay) : kDelayInLog);
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double rate = static_cast<double>(done - done_before_) / seconds;
+  const double left = static_cast<double>(std::max<std::int64_t>(0, total_ - done));
+  const std::string text = fmt::format(
+      "{} of {} {}, {:.0f} %{}", done, total_, unit_,
+      100.0 * static_cast<double>(done) / static_cast<double>(total_),
+      rate > 0.0 ? fmt::format(", {} per second, {:.0f} s left", roundedText(rate, 3), left / rate)
+                 : "");
+  printError(is_terminal_ ? '\r' + text + "\x1b[K" : text + '\n');
+  is_visible_ = is_terminal_;
 }
 
 }  // namespace spring_pendulum

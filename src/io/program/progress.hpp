@@ -1,27 +1,35 @@
-// The progress of a long run, as a line on the terminal.
+// The progress of a long computation on standard error:
+// "4711 of 100000 frames, 5 %, 9200 per second, 10 s left".
 #pragma once
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace spring_pendulum {
 
-/// Printed to standard error if that is a terminal and the run takes over a second.
+/// On a terminal, a line that is replaced five times per second after the first second; elsewhere, a new
+/// line per minute.
 class Progress {
  public:
-  explicit Progress(std::int64_t frames);
+  /// \param unit what is counted, in the plural
+  Progress(std::int64_t total, std::string unit);
   /// Clears the line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show(std::int64_t frames_done);
+  /// \param done of the total, including what was done before the first call
+  void show(std::int64_t done);
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::int64_t frames_;
+  std::int64_t total_;
+  std::string unit_;
   bool is_terminal_;
   bool is_visible_ = false;
+  std::int64_t done_before_ = -1;  ///< in the first call; -1: not called yet
+  Clock::time_point start_ = Clock::now();
   Clock::time_point next_time_;
 };
 

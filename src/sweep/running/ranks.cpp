@@ -1,13 +1,10 @@
 #include "sweep/running/ranks.hpp"
 
-#include "base/numbers.hpp"
 #include "io/program/command_line.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 
 #ifdef SPRING_PENDULUM_MPI
@@ -18,16 +15,6 @@ namespace spring_pendulum::sweep {
 namespace {
 
 #ifdef SPRING_PENDULUM_MPI
-
-/// Number of ranks that mpirun or srun has started, from their environment.
-std::int64_t startedRanks() {
-  std::int64_t ranks = 1;
-  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
-    const char* const text = std::getenv(name);
-    if (text != nullptr) ranks = std::max(ranks, parseInteger(text).value_or(1));
-  }
-  return ranks;
-}
 
 constexpr int kRequest = 1;
 constexpr int kAnswer = 2;
@@ -48,7 +35,7 @@ void sendRequest(std::int64_t finished, bool leaves) {
 #ifdef SPRING_PENDULUM_MPI
 
 Ranks::Ranks() {
-  if (startedRanks() == 1) return;
+  if (startedRanks().count == 1) return;
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   if (provided < MPI_THREAD_SERIALIZED) {

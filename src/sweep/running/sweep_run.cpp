@@ -4,6 +4,7 @@
 #include "io/files/output_file.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
+#include "io/program/progress.hpp"
 #include "io/program/standard_streams.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
@@ -22,7 +23,6 @@
 #include "sweep/plot.hpp"
 #include "sweep/running/case_runner.hpp"
 #include "sweep/running/journal.hpp"
-#include "sweep/running/progress.hpp"
 #include "sweep/running/schedule.hpp"
 
 namespace spring_pendulum::sweep {
@@ -62,7 +62,7 @@ class Sweep {
   /// Runs the cases of this process that are not done.
   void work() {
     if (open_ > 0) journals_.start();
-    SweepProgress progress(open_);
+    Progress progress(open_, "cases");
     working_ = threads_;
     std::vector<std::thread> workers;
     for (int i = 0; i < threads_; ++i) workers.emplace_back([this] { workOnBatches(); });
