@@ -3,12 +3,10 @@
 
 #include "simulation/options/option_set.hpp"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <string>
 #include <string_view>
-
-namespace YAML {
-class EventHandler;
-}
 
 namespace spring_pendulum {
 

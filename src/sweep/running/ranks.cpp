@@ -90,6 +90,7 @@ std::int64_t Ranks::ask(std::int64_t finished) {
 }
 
 void Ranks::leave(std::int64_t finished) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   sendRequest(finished, true);
 }
 

@@ -65,6 +65,7 @@ class Sweep {
     Progress progress(open_, "cases");
     working_ = threads_;
     std::vector<std::thread> workers;
+    workers.reserve(static_cast<std::size_t>(threads_));
     for (int i = 0; i < threads_; ++i) workers.emplace_back([this] { workOnBatches(); });
     if (ranks_.rank() == 0) {
       std::int64_t elsewhere = 0;
