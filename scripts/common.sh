@@ -50,11 +50,13 @@ show_progress() {
   if [ -t 1 ]; then printf '\r\033[K'; fi
 }
 
-# For ctest -E: measurements that repeat shorter tests on larger or on many random scenes, and products
-# of extreme options. They take half of the time of the unit tests.
-long_tests='WithinAFactorOfTwo/(feather|alternating)|NeverComesBeforeAStableRun'
-long_tests+='|RandomScenes\.KeepTheTolerance|OnLongAndLightChains|TenMillionSteps'
-long_tests+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat|RandomOptions|ExtremeValues'
+# For ctest -E: measurements that repeat shorter tests on larger or on many random scenes, and with the
+# products of extreme options all long tests. They take half of the time of the unit tests.
+long_measurements='WithinAFactorOfTwo/(feather|alternating)|NeverComesBeforeAStableRun'
+long_measurements+='|RandomScenes\.KeepTheTolerance|OnLongAndLightChains|TenMillionSteps'
+long_measurements+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat'
+long_measurements+='|StaysWithinItsUncertainty/(feather|alternating)'
+long_tests=$long_measurements'|RandomOptions|ExtremeValues|StopsForEachRunWhereItsOwnWould'
 
 have_ros() { [ -x /usr/bin/catkin_make ] && [ -x /usr/bin/roslaunch ]; }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds the core and its unit tests with sanitizers and runs them; with the thread sanitizer and ROS
-# also the node and tests of its threads, with the address sanitizer also tests of the Python module.
+# Builds tests with sanitizers and runs them. The address sanitizer: the unit tests except measurements
+# of accuracy, and tests of the Python module. The thread sanitizer: what has threads, which are some
+# unit tests, sweep, and with ROS the node.
 # Usage: scripts/sanitize.sh address,undefined | thread   [arguments of ctest]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -14,13 +15,20 @@ case $sanitizers in address*) without_python=OFF ;; esac
 "$project/scripts/setup.sh" core test $([ $without_python = ON ] || echo python)
 say "building with -fsanitize=$sanitizers into $folder"
 configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=$without_ros \
-  -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=$without_python -DCMAKE_BUILD_TYPE=Debug \
+  -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=$without_python \
+  -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRING_PENDULUM_SANITIZE="$sanitizers"
-compile "$folder"
 cd "$folder"
-# The thread sanitizer slows the kernels down, so it leaves out the long tests.
-if [ "$sanitizers" = thread ]; then set -- -E "$long_tests" "$@"; fi
-ctest --output-on-failure -j "$(nproc)" -L 'unit' "$@"
+if [ "$sanitizers" = thread ]; then
+  compile . unit_tests_with_threads process_sweep_test \
+    $([ $without_ros = ON ] || echo pendulum_node fault_injection spring_pendulum_generate_messages)
+  # The thread sanitizer slows the kernels down, so it leaves out the long tests.
+  ctest --output-on-failure -j "$(nproc)" -L unit_with_threads -E "$long_tests" "$@"
+  ctest --output-on-failure -j "$(nproc)" -R 'Sweep\.' "$@"
+else
+  compile . unit_tests $([ $without_python = ON ] || echo spring_pendulum_python)
+  ctest --output-on-failure -j "$(nproc)" -L unit -E "$long_measurements" "$@"
+fi
 if [ $without_python = OFF ]; then
   ctest --output-on-failure -j "$(nproc)" -R '^python\.(misuse|objects)$'
 fi

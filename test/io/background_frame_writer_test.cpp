@@ -25,7 +25,7 @@ State frame(Eigen::Index size, int index) {
 
 class BackgroundWriter : public testing::TestWithParam<Eigen::Index> {};
 
-// Frames are in order, complete, and equal those of FrameWriter.
+// The frames that its thread writes are in order, complete, and equal those of FrameWriter.
 TEST_P(BackgroundWriter, WritesWhatTheFrameWriterWrites) {
   const TemporaryFolder folder;
   FrameWriter plain(folder.path("plain"), kFrames);
