@@ -41,7 +41,7 @@ py::array viewOf(const double* data, const std::vector<py::ssize_t>& shape,
                  const py::object& owner) {
   std::vector<py::ssize_t> strides{static_cast<py::ssize_t>(sizeof(double))};
   if (shape.size() > 1) strides.push_back(shape.front() * strides.front());
-  return py::array(py::dtype::of<double>(), shape, strides, data, owner);
+  return {py::dtype::of<double>(), shape, strides, data, owner};
 }
 
 py::array readOnly(py::array view) {
@@ -170,7 +170,7 @@ void defineChain(py::module_& module) {
 
 template <int kFirst, int kColumns>
 py::array stateView(const py::object& self) {
-  State& state = self.cast<State&>();
+  auto& state = self.cast<State&>();
   std::vector<py::ssize_t> shape{state.size()};
   if (kColumns > 1) shape.push_back(kColumns);
   return viewOf(state.values().data() + kFirst * state.size(), shape, self);

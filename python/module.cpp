@@ -13,7 +13,7 @@ std::atomic<int> Computation::running{0};
 std::string reprOf(const py::handle& value) {
   constexpr std::size_t kLongest = 60;
   const py::str text = py::repr(value).attr("replace")("\n", " ");
-  const std::string whole = py::str(text.attr("encode")("utf-8", "replace").attr("decode")());
+  std::string whole = py::str(text.attr("encode")("utf-8", "replace").attr("decode")());
   if (py::len(text) <= kLongest) return whole;
   return py::str(py::str(whole)[py::slice(0, kLongest, 1)]).cast<std::string>() + "...";
 }
@@ -28,7 +28,8 @@ Numbers toNumbers(const py::object& argument, const std::string& name, py::ssize
     const auto kind = array.dtype().attr("kind").cast<std::string>();
     if (kind != "f" && kind != "i" && kind != "u") refuse(reprOf(argument));
     if (array.ndim() != dimensions) refuse("shape " + reprOf(array.attr("shape")));
-    return Numbers(array);
+    Numbers numbers(array);
+    return numbers;
   } catch (py::error_already_set& error) {  // NumPy cannot make an array of this
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
   }
@@ -72,6 +73,7 @@ void defineErrors(py::module_& module) {
   };
   input_error = define("InputError", "A wrong argument or a malformed file.", PyExc_ValueError);
   file_error = define("FileError", "A file that cannot be read or written.", PyExc_OSError);
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is that of pybind11
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);
