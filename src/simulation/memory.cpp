@@ -34,8 +34,8 @@ double expectedMemory(const Scenario& scenario, Eigen::Index particles) {
 }
 
 double usableMemory() {
-  const auto pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-  const double memory = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+  static const double memory =  // short runs take little longer than asking for it
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return memory;
   return std::min(memory, static_cast<double>(limit.rlim_cur));

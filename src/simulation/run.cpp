@@ -139,7 +139,8 @@ bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
 }
 
 bool Run::integrate(std::int64_t steps, Integrator& integrator) {
-  const Stopwatch stopwatch(totals_.seconds);
+  std::optional<Stopwatch> stopwatch;
+  if (options_.measure_seconds) stopwatch.emplace(totals_.seconds);
   if (scenario_.sleep > 0.0 && !chain_.isDriven() && sleeps(integrator))
     return !(options_.stop && options_.stop());
   while (steps > 0) {

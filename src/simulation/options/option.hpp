@@ -129,8 +129,8 @@ enum class AppliesTo { kAllMethods, kFixedStep, kErrorControlled };
 struct Option {
   std::string_view key;
   std::variant<Number, Count, Flag, Text, MethodName, Choice> value;
-  std::string_view unit;  ///< empty: none
-  std::string meaning;    ///< one line
+  std::string_view unit;     ///< empty: none
+  std::string_view meaning;  ///< one line
   AppliesTo applies_to = AppliesTo::kAllMethods;
 
   /// \throws InputError without a place: "must be a number above 0 s, got '-1'"

@@ -28,8 +28,8 @@ std::vector<OptionDescription> describeOptions(const Scenario& defaults) {
   std::vector<OptionDescription> descriptions;
   for (const Option& option : scenarioOptions(scenario)) {
     descriptions.push_back({std::string(option.key), option.text(), std::string(option.unit),
-                            option.range(), option.meaning, std::string(option.users()),
-                            option.isText(), option.isFlag(),
+                            option.range(), std::string(option.meaning),
+                            std::string(option.users()), option.isText(), option.isFlag(),
                             std::holds_alternative<Count>(option.value)});
   }
   return descriptions;

@@ -101,7 +101,7 @@ std::optional<std::string> runCase(const WantedColumns& columns, const Case& a_c
                                    const std::function<bool()>& stop) try {
   Scenario scenario = a_case.settings.scenario;
   scenario.threads = 1;
-  Run run(scenario, a_case.particles, {false, 0.0, stop, std::move(reference)});
+  Run run(scenario, a_case.particles, {false, 0.0, stop, std::move(reference), false});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   Watched watched;
   while (run.advance(*integrator)) {
