@@ -22,10 +22,10 @@ void checkFiles(const CommandLine& line, const Study& study) {
   checkTouchedFiles(files);
 }
 
-int runCommandLine(const CommandLine& line, Ranks& ranks) {
-  if (ranks.rank() > 0) {
+int runCommandLine(const CommandLine& line, Dispatcher& dispatcher) {
+  if (dispatcher.rank() > 0) {
     if (line.only_case >= 0) return kDone;
-    ranks.meet();  // rank 0 checks everything first, so each error is reported once
+    dispatcher.meet();  // rank 0 checks everything first, so each error is reported once
   }
   const Study study = readStudy(line.study);
   if (line.only_case >= 0) return runSingleCase(study, line.only_case, line.options.output);
@@ -33,19 +33,19 @@ int runCommandLine(const CommandLine& line, Ranks& ranks) {
   if (line.options.plot && study.plot.type == PlotOptions::Type::kNone) {
     throw InputError("--plot: the study has no entry plot");
   }
-  return runSweep(study, line.options, ranks);
+  return runSweep(study, line.options, dispatcher);
 }
 
 /// A failure of one rank ends all of them.
 int runRank(const CommandLine& line) {
-  Ranks ranks;
+  Dispatcher dispatcher;
   try {
-    return runCommandLine(line, ranks);
+    return runCommandLine(line, dispatcher);
   } catch (const std::exception& error) {
-    if (ranks.size() == 1) throw;
+    if (dispatcher.size() == 1) throw;
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");
-    ranks.abort(failure.status);
+    dispatcher.abort(failure.status);
     return failure.status;
   }
 }

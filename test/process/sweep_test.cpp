@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <memory>
 #include <random>
 #include <sstream>
 #include <string>
@@ -100,6 +101,27 @@ TEST_F(Sweep, TableDoesNotDependOnThreadsRanksAndShards) {
     std::filesystem::remove(folder_.path("ranks.csv"));
   }
 #endif
+}
+
+TEST_F(Sweep, ShardsThatFinishTogetherWriteOneTable) {
+  folder_.write("study.yaml",
+                "base: {particles: chain.txt, frames: 2}\n"
+                "axes: {stiffness: {linear: [20, 80, 8]}}\n");
+  const std::string expected = table();
+  for (int round = 0; round < 4; ++round) {
+    std::vector<std::unique_ptr<Process>> shards;
+    for (int i = 1; i <= 4; ++i) {
+      shards.push_back(std::make_unique<Process>(
+          sweep({"--threads", "1", "-o", "t.csv", "--shard", std::to_string(i) + "/4"})));
+    }
+    for (const auto& shard : shards) {
+      const Result result = shard->wait();
+      EXPECT_EQ(result.status, 0);
+      EXPECT_EQ(result.errors, "");
+    }
+    EXPECT_EQ(readFile(folder_.path("t.csv")), expected);
+    std::filesystem::remove(folder_.path("t.csv"));
+  }
 }
 
 TEST_F(Sweep, KillsDoNotChangeTheTable) {

@@ -1,20 +1,18 @@
-#include "sweep/running/ranks.hpp"
+#include "sweep/running/dispatcher.hpp"
 
 #include "io/program/command_line.hpp"
+
+#ifdef SPRING_PENDULUM_MPI
 #include <spring_pendulum/base/errors.hpp>
 
 #include <array>
 #include <chrono>
 #include <thread>
 
-#ifdef SPRING_PENDULUM_MPI
-#include <mpi.h>
-#endif
+#include "mpi/ranks.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {
-
-#ifdef SPRING_PENDULUM_MPI
 
 constexpr int kRequest = 1;
 constexpr int kAnswer = 2;
@@ -28,37 +26,29 @@ void sendRequest(std::int64_t finished, bool leaves) {
   MPI_Send(message.data(), 2, MPI_INT64_T, 0, kRequest, MPI_COMM_WORLD);
 }
 
-#endif
-
 }  // namespace
 
-#ifdef SPRING_PENDULUM_MPI
-
-Ranks::Ranks() {
-  if (startedRanks().count == 1) return;
-  int provided = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-  if (provided < MPI_THREAD_SERIALIZED) {
+Dispatcher::Dispatcher() {
+  if (startedRanks().count == 1) return;  // starting MPI takes 0.3 s
+  ranks_ = std::make_unique<Ranks>();
+  int threads = 0;
+  MPI_Query_thread(&threads);
+  if (threads < MPI_THREAD_SERIALIZED) {
     throw InputError("this MPI does not support threads (MPI_THREAD_SERIALIZED); use --shard");
   }
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-  MPI_Comm_size(MPI_COMM_WORLD, &size_);
-  MPI_Comm machine{};
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
-  MPI_Comm_size(machine, &neighbours_);
-  MPI_Comm_free(&machine);
+  rank_ = ranks_->rank();
+  size_ = ranks_->size();
+  on_this_machine_ = ranks_->onThisMachine();
 }
 
-Ranks::~Ranks() {
-  if (size_ > 1) MPI_Finalize();
+Dispatcher::~Dispatcher() = default;
+
+void Dispatcher::meet() const {
+  if (ranks_) MPI_Barrier(MPI_COMM_WORLD);
 }
 
-void Ranks::meet() const {
-  if (size_ > 1) MPI_Barrier(MPI_COMM_WORLD);
-}
-
-void Ranks::serve(const std::function<std::int64_t()>& next,
-                  const std::function<void(std::int64_t)>& note) const {
+void Dispatcher::serve(const std::function<std::int64_t()>& next,
+                       const std::function<void(std::int64_t)>& note) const {
   for (int working = size_ - 1; working > 0;) {
     int arrived = 0;
     MPI_Status status{};
@@ -81,7 +71,7 @@ void Ranks::serve(const std::function<std::int64_t()>& next,
   }
 }
 
-std::int64_t Ranks::ask(std::int64_t finished) {
+std::int64_t Dispatcher::ask(std::int64_t finished) {
   const std::lock_guard<std::mutex> lock(mutex_);
   sendRequest(finished, false);
   std::int64_t batch = -1;
@@ -89,31 +79,39 @@ std::int64_t Ranks::ask(std::int64_t finished) {
   return batch;
 }
 
-void Ranks::leave(std::int64_t finished) {
+void Dispatcher::leave(std::int64_t finished) {
   const std::lock_guard<std::mutex> lock(mutex_);
   sendRequest(finished, true);
 }
 
-void Ranks::abort(int status) const {
-  if (size_ > 1) MPI_Abort(MPI_COMM_WORLD, status);
+void Dispatcher::abort(int status) const {
+  if (size_ > 1) abortAllRanks(status);
 }
+
+}  // namespace spring_pendulum::sweep
 
 #else
 
-Ranks::Ranks() {
+namespace spring_pendulum {
+class Ranks {};
+}  // namespace spring_pendulum
+
+namespace spring_pendulum::sweep {
+
+Dispatcher::Dispatcher() {
   refuseSeveralRanks("build sweep with MPI, or use --shard");
 }
 
-Ranks::~Ranks() = default;
-void Ranks::meet() const {}
-void Ranks::serve(const std::function<std::int64_t()>&,
-                  const std::function<void(std::int64_t)>&) const {}
-std::int64_t Ranks::ask(std::int64_t) {
+Dispatcher::~Dispatcher() = default;
+void Dispatcher::meet() const {}
+void Dispatcher::serve(const std::function<std::int64_t()>&,
+                       const std::function<void(std::int64_t)>&) const {}
+std::int64_t Dispatcher::ask(std::int64_t) {
   return -1;
 }
-void Ranks::leave(std::int64_t) {}
-void Ranks::abort(int) const {}
-
-#endif
+void Dispatcher::leave(std::int64_t) {}
+void Dispatcher::abort(int) const {}
 
 }  // namespace spring_pendulum::sweep
+
+#endif

@@ -1,32 +1,35 @@
-// The processes of one sweep: the ranks of an MPI job, or one process.
+// Shares the batches of a sweep among the ranks of an MPI job.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
+
+namespace spring_pendulum {
+class Ranks;
+}
 
 namespace spring_pendulum::sweep {
 
-/// Rank 0 hands out batches; the other ranks ask for them. Only the C interface of MPI, and only
-/// messages between two ranks.
-class Ranks {
+/// Rank 0 hands out batches; the other ranks ask for them. One process without MPI is rank 0 of one.
+class Dispatcher {
  public:
   /// Starts MPI if the program was started as one of several ranks.
   /// \throws InputError if it was but is built without MPI
-  Ranks();
-  ~Ranks();
-  Ranks(const Ranks&) = delete;
-  Ranks& operator=(const Ranks&) = delete;
+  Dispatcher();
+  ~Dispatcher();
+  Dispatcher(const Dispatcher&) = delete;
+  Dispatcher& operator=(const Dispatcher&) = delete;
 
   int rank() const { return rank_; }
   int size() const { return size_; }
-  /// Number of ranks on this machine.
-  int neighbours() const { return neighbours_; }
+  int ranksOnThisMachine() const { return on_this_machine_; }
 
   /// Waits for all ranks to call this function.
   void meet() const;
 
-  /// On rank 0: answers requests until every other rank has finished.
+  /// On rank 0: answers requests until every other rank has left.
   /// \param next returns the number of the next batch; negative: none
   /// \param note gets the number of cases that another rank has finished since its last request
   void serve(const std::function<std::int64_t()>& next,
@@ -41,9 +44,10 @@ class Ranks {
   void abort(int status) const;
 
  private:
+  std::unique_ptr<Ranks> ranks_;  ///< null: one process
   int rank_ = 0;
   int size_ = 1;
-  int neighbours_ = 1;
+  int on_this_machine_ = 1;
   std::mutex mutex_;
 };
 

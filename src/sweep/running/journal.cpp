@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <optional>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -101,6 +102,13 @@ void Journals::write(std::string_view lines) {
     if (count < 0) refuse(path_);
     lines.remove_prefix(static_cast<std::size_t>(count));
   }
+}
+
+bool Journals::lock() {
+  lock_ = FileDescriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  while (lock_.isOpen() && ::flock(lock_.get(), LOCK_EX) != 0 && errno == EINTR) {
+  }
+  return !file_.isOpen() || ::access(path_.c_str(), F_OK) == 0;
 }
 
 void Journals::remove() {

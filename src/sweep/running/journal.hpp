@@ -33,6 +33,10 @@ class Journals {
   /// Appends lines. \throws FileError
   void write(std::string_view lines);
 
+  /// Waits until no other process holds the lock of the folder, and holds it until the end.
+  /// \returns false if another process has removed the journal of this one meanwhile, because it has
+  ///   written the table
+  bool lock();
   /// Removes all journals and the folder.
   void remove();
 
@@ -47,6 +51,7 @@ class Journals {
   std::string head_;
   std::string path_;
   FileDescriptor file_;
+  FileDescriptor lock_;
 };
 
 }  // namespace spring_pendulum::sweep

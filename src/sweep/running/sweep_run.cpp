@@ -31,20 +31,20 @@ namespace {
 constexpr std::chrono::milliseconds kLook{20};  // whether the workers have finished
 constexpr std::size_t kFlushedText = 1 << 16;
 
-int threadsOf(const SweepOptions& options, const Ranks& ranks) {
+int threadsOf(const SweepOptions& options, const Dispatcher& dispatcher) {
   if (options.threads > 0) return static_cast<int>(options.threads);
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  return std::max(1, cores / ranks.neighbours());
+  return std::max(1, cores / dispatcher.ranksOnThisMachine());
 }
 
 class Sweep {
  public:
-  Sweep(const Study& study, const SweepOptions& options, Ranks& ranks)
+  Sweep(const Study& study, const SweepOptions& options, Dispatcher& dispatcher)
       : study_(study),
         columns_(study),
         options_(options),
-        ranks_(ranks),
-        threads_(threadsOf(options, ranks)),
+        dispatcher_(dispatcher),
+        threads_(threadsOf(options, dispatcher)),
         schedule_(makeSchedule(study, threads_)),
         references_(static_cast<std::size_t>(threads_) + 1),
         journals_(options.output + ".journal", study.hash),
@@ -67,19 +67,19 @@ class Sweep {
     std::vector<std::thread> workers;
     workers.reserve(static_cast<std::size_t>(threads_));
     for (int i = 0; i < threads_; ++i) workers.emplace_back([this] { workOnBatches(); });
-    if (ranks_.rank() == 0) {
+    if (dispatcher_.rank() == 0) {
       std::int64_t elsewhere = 0;
-      ranks_.serve([this] { return nextOwn(); },
-                   [&](std::int64_t finished) {
-                     elsewhere += finished;
-                     progress.show(elsewhere + finished_);
-                   });
+      dispatcher_.serve([this] { return nextOwn(); },
+                        [&](std::int64_t finished) {
+                          elsewhere += finished;
+                          progress.show(elsewhere + finished_);
+                        });
       for (; working_ > 0; std::this_thread::sleep_for(kLook)) {
         progress.show(elsewhere + finished_);
       }
     }
     for (std::thread& worker : workers) worker.join();
-    if (ranks_.rank() > 0) ranks_.leave(finished_.exchange(0));
+    if (dispatcher_.rank() > 0) dispatcher_.leave(finished_.exchange(0));
     if (failure_) std::rethrow_exception(failure_);
   }
 
@@ -112,6 +112,10 @@ class Sweep {
     if (options_.plot) drawPlot(study_, plotted, picturePath(options_.output));
   }
 
+  /// Lets shards that finish at the same moment conclude one after the other.
+  /// \returns false if another one has written the table
+  bool lockJournals() { return journals_.lock(); }
+
   const std::string& journalFolder() const { return journals_.folder(); }
 
  private:
@@ -127,8 +131,8 @@ class Sweep {
     try {
       CaseMaker maker(study_);
       for (;;) {
-        const bool asks = ranks_.rank() > 0 && !failed_ && interruption() == 0;
-        const std::int64_t batch = asks ? ranks_.ask(finished_.exchange(0)) : nextOwnOnRank0();
+        const bool asks = dispatcher_.rank() > 0 && !failed_ && interruption() == 0;
+        const std::int64_t batch = asks ? dispatcher_.ask(finished_.exchange(0)) : nextOwnOnRank0();
         if (batch < 0) break;
         workOn(schedule_.batches[static_cast<std::size_t>(batch)], maker);
       }
@@ -140,7 +144,7 @@ class Sweep {
     --working_;
   }
 
-  std::int64_t nextOwnOnRank0() { return ranks_.rank() == 0 ? nextOwn() : -1; }
+  std::int64_t nextOwnOnRank0() { return dispatcher_.rank() == 0 ? nextOwn() : -1; }
 
   void workOn(const std::vector<std::int64_t>& batch, CaseMaker& maker) {
     std::string lines;
@@ -163,7 +167,7 @@ class Sweep {
   const Study& study_;
   WantedColumns columns_;
   const SweepOptions& options_;
-  Ranks& ranks_;
+  Dispatcher& dispatcher_;
   int threads_;
   Schedule schedule_;
   References references_;
@@ -180,8 +184,13 @@ class Sweep {
 };
 
 /// Writes the table, or says why it is not complete.
-int conclude(Sweep& sweep, const Study& study, const SweepOptions& options, const Ranks& ranks) {
-  if (ranks.size() > 1 || options.shards > 1) sweep.readJournals();
+int conclude(Sweep& sweep, const Study& study, const SweepOptions& options,
+             const Dispatcher& dispatcher) {
+  if (!sweep.lockJournals()) {
+    printOutput(fmt::format("another process has written {}\n", options.output));
+    return kDone;
+  }
+  if (dispatcher.size() > 1 || options.shards > 1) sweep.readJournals();
   const std::int64_t missing = sweep.missingCases();
   const std::string done =
       fmt::format("{} of {} cases are done", study.cases() - missing, study.cases());
@@ -211,12 +220,12 @@ std::string picturePath(const std::string& output) {
   return std::filesystem::path(output).replace_extension().string();
 }
 
-int runSweep(const Study& study, const SweepOptions& options, Ranks& ranks) {
-  Sweep sweep(study, options, ranks);
+int runSweep(const Study& study, const SweepOptions& options, Dispatcher& dispatcher) {
+  Sweep sweep(study, options, dispatcher);
   catchInterruptions();
-  if (ranks.rank() == 0) ranks.meet();  // study and journals are in order
+  if (dispatcher.rank() == 0) dispatcher.meet();  // study and journals are in order
   sweep.work();
-  return ranks.rank() == 0 ? conclude(sweep, study, options, ranks) : kDone;
+  return dispatcher.rank() == 0 ? conclude(sweep, study, options, dispatcher) : kDone;
 }
 
 }  // namespace spring_pendulum::sweep

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sweep/running/ranks.hpp"
+#include "sweep/running/dispatcher.hpp"
 #include "sweep/study/study.hpp"
 
 namespace spring_pendulum::sweep {
@@ -23,6 +23,6 @@ std::string picturePath(const std::string& output);
 /// Runs all cases that no journal holds and, if none is left to other shards, writes the table.
 /// Rank 0 meets the others when everything is checked; the others have met it before.
 /// \returns the exit status; 0 also if cases diverged
-int runSweep(const Study& study, const SweepOptions& options, Ranks& ranks);
+int runSweep(const Study& study, const SweepOptions& options, Dispatcher& dispatcher);
 
 }  // namespace spring_pendulum::sweep
