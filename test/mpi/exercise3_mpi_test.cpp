@@ -181,12 +181,31 @@ TEST_F(Exercise3Mpi, NamesTheLineOfBadInputLikeExercise3) {
       good + "1 2 3 4 5\n",
       good.substr(0, middle) + "1 2 -1\n" + good.substr(end),
       good.substr(0, middle) + good.substr(middle, end - middle) + good.substr(middle)};
+  int ranks = 0;  // starting a job takes longer than the run
   for (const std::string& text : texts) {
     folder_.write("particle.txt", text);
     const Result expected = serial({"Euler", "--no-frames"});
     EXPECT_EQ(expected.status, 2);
-    for (const int ranks : {1, 2, 3})
-      expectRefused(ranks, {"Euler", "--no-frames"}, 2, expected.errors);
+    expectRefused(ranks, {"Euler", "--no-frames"}, 2, expected.errors);
+    ranks = ranks == 0 ? 2 : 5 - ranks;
+  }
+}
+
+TEST_F(Exercise3Mpi, FullDiskIsOneLine) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"Euler", "-o", "full"},
+        {"Euler", "--no-frames", "--frames", "2", "--save-state", "full/state.txt"}}) {
+    Command limited = command(2, options);
+    const auto program = limited.arguments.begin() + 3;
+    limited.arguments.insert(program, {"prlimit", "--fsize=3000"});
+    const Result result = run(limited);
+    EXPECT_EQ(result.status, 1) << result.errors;
+    const std::string message = "could not be written: File too large\n";
+    EXPECT_THAT(result.errors, HasSubstr(message));
+    EXPECT_EQ(result.errors.find(message), result.errors.rfind(message)) << result.errors;
+    for (const std::string& name : listFolder(folder_.path("full"))) {
+      EXPECT_EQ(name.find("frame_"), std::string::npos) << name;
+    }
   }
 }
 
