@@ -1,5 +1,6 @@
 #include "base/numbers.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/checking/check_frames.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 
@@ -45,6 +46,13 @@ class Checker {
 
   FrameCheck check() {
     compareWith(wanted_);
+    if (result_.methods.empty() && !result_.departure && !(options_.stop && options_.stop())) {
+      throw FileError(
+          fmt::format("frame {}: is the first one, and no frame so late can be compared: rounding "
+                      "errors grow too "
+                      "much, or it takes too long",
+                      frames_.frames.front().index));
+    }
     result_.equal = !result_.methods.empty();
     if (result_.equal) {
       result_.departure.reset();

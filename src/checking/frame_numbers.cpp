@@ -146,11 +146,21 @@ std::string fewDigits(int digits) {
       counted(digits, "digit"));
 }
 
+void checkGap(const FrameNumbers& frame, std::int64_t missing) {
+  constexpr std::int64_t kMostMissing = 10'000;  // computing more takes minutes
+  if (missing <= kMostMissing) return;
+  throw FileError(fmt::format("frame {}: {} frames before it are missing, at most {} may be",
+                              frame.index, missing, kMostMissing));
+}
+
+/// \throws FileError for a large gap
 std::string missingFrames(const std::vector<FrameNumbers>& frames) {
   std::int64_t count = frames.front().index;
   std::int64_t first = count > 0 ? 0 : -1;
+  checkGap(frames.front(), count);
   for (std::size_t i = 1; i < frames.size(); ++i) {
     const std::int64_t gap = frames[i].index - frames[i - 1].index - 1;
+    checkGap(frames[i], gap);
     if (gap > 0 && first < 0) first = frames[i - 1].index + 1;
     count += gap;
   }

@@ -178,11 +178,28 @@ def try_right(lab, frames, number):
     return accused
 
 
+def late_frames_fail(lab, names):
+    """Whether frames that would take long to compute are refused in one line."""
+    scene = PROJECT / 'data' / 'particle.txt'
+    lab.count += 1
+    folder = lab.folder / f'frames_{lab.count}'
+    folder.mkdir()
+    positions = ''.join(' '.join(line.split()[:2]) + '\n' for line in scene.read_text().splitlines()
+                        if line and not line.startswith('#'))
+    for name in names:
+        (folder / name).write_text(positions)
+    done = subprocess.run([lab.check, folder, '--particles', scene], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, universal_newlines=True, check=False)
+    return (done.returncode, done.stdout, done.stderr.count('\n')) == (1, '', 1)
+
+
 def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
     with tempfile.TemporaryDirectory() as folder:
         lab = Lab(pathlib.Path(folder), (check, exercise), int(seed))
         named_rightly = try_wrong(lab, int(frames), int(number_wrong))
         accused = try_right(lab, int(frames), int(number_right))
+        assert late_frames_fail(lab, ['frame_0000.txt', 'frame_99999999999.txt'])
+        assert late_frames_fail(lab, ['frame_99999999999.txt'])
     print(f'{named_rightly} of {number_wrong} wrong programs named, {accused} of {number_right} right ones accused')
     # Measured: 40 and 0 with these defaults.
     return 0 if named_rightly >= 0.9 * int(number_wrong) and accused == 0 else 1
