@@ -46,7 +46,12 @@ void Journals::read(
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (entry->path().extension() == kExtension) readFile(entry->path().string(), take);
+    if (entry->path().extension() != kExtension) continue;
+    try {
+      readFile(entry->path().string(), take);
+    } catch (const FileError&) {
+      if (fs::exists(entry->path())) throw;  // else another process has just written the table
+    }
   }
   if (error && error != std::errc::no_such_file_or_directory) {
     throw FileError(fmt::format("{}: could not be read: {}", fullPath(folder_), error.message()));
