@@ -34,11 +34,11 @@ double expectedMemory(const Scenario& scenario, Eigen::Index particles) {
 }
 
 double usableMemory() {
-  static const double memory =  // short runs take little longer than asking for it
+  static const double kMemory =  // short runs take little longer than asking for it
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return memory;
-  return std::min(memory, static_cast<double>(limit.rlim_cur));
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kMemory;
+  return std::min(kMemory, static_cast<double>(limit.rlim_cur));
 }
 
 std::string memoryRemark(const Scenario& scenario, Eigen::Index particles) {

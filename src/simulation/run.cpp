@@ -67,7 +67,6 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
       first_frame_(particles.frame),
       state_(particles.state),
       frame_steps_(frameSteps(scenario)),
-      parts_(1),
       track_dissipation_(scenario.damping > 0.0 &&
                          (options.track_dissipation || dissipationIsCheap(scenario, chain_))),
       judge_(chain_, start_, judgeOptions()),

@@ -13,7 +13,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -35,7 +34,9 @@ class Exercise3Mpi : public testing::Test {
  protected:
   Exercise3Mpi() { folder_.write("particle.txt", irregularChain(1000)); }
 
-  Result serial(std::vector<std::string> options) const { return run(exercise3(folder_, options)); }
+  Result serial(const std::vector<std::string>& options) const {
+    return run(exercise3(folder_, options));
+  }
 
   /// \param ranks 0: one process without mpirun
   Command command(int ranks, const std::vector<std::string>& options,
@@ -50,7 +51,7 @@ class Exercise3Mpi : public testing::Test {
                            {"OMPI_MCA_mpi_yield_when_idle", "1"}};
     return command;
   }
-  Result shared(int ranks, std::vector<std::string> options) const {
+  Result shared(int ranks, const std::vector<std::string>& options) const {
     return run(command(ranks, options));
   }
 
@@ -60,7 +61,10 @@ class Exercise3Mpi : public testing::Test {
     const std::vector<std::string> frames = listFolder(folder_.path(expected));
     ASSERT_EQ(listFolder(folder_.path(actual)), frames);
     for (const std::string& frame : frames) {
-      EXPECT_TRUE(read(expected + "/" + frame) == read(actual + "/" + frame)) << frame;
+      const auto in = [&](const std::string& name) {
+        return read(fmt::format("{}/{}", name, frame));
+      };
+      EXPECT_TRUE(in(expected) == in(actual)) << frame;
     }
   }
 
@@ -172,8 +176,8 @@ TEST_F(Exercise3Mpi, RefusesWhatItCannotDo) {
 
 TEST_F(Exercise3Mpi, NamesTheLineOfBadInputLikeExercise3) {
   const std::string good = irregularChain(1000);
-  const std::size_t middle = good.find("\n", good.size() / 2) + 1;
-  const std::size_t end = good.find("\n", middle) + 1;
+  const std::size_t middle = good.find('\n', good.size() / 2) + 1;
+  const std::size_t end = good.find('\n', middle) + 1;
   const std::string texts[] = {
       "",
       "# nothing\n",

@@ -161,7 +161,7 @@ class Run {
   std::int64_t first_frame_;
   State state_;
   FrameSteps frame_steps_;  ///< with shorter steps for an error-controlled method
-  std::int64_t parts_;      ///< per frame
+  std::int64_t parts_ = 1;  ///< per frame
   bool track_dissipation_;
   Judge judge_;
   std::optional<ReferenceRun> reference_;
