@@ -68,11 +68,14 @@ function takeDrops() {
   for (const type of ['dragover', 'dragleave']) document.addEventListener(type, stop);
   document.addEventListener('drop', async (event) => {
     stop(event);
-    const {items, files} = event.dataTransfer;
-    const folder = [...items].map((item) => item.webkitGetAsEntry?.()).find((entry) => entry?.isDirectory);
+    const {items} = event.dataTransfer;
+    const files = [...event.dataTransfer.files];  // gone after the first await
+    const dropped = [...items].find((item) => item.webkitGetAsEntry?.()?.isDirectory);
+    // Chromium lets a page from disk read a folder by its handle only; Firefox has no handles.
+    const folder = await (dropped?.getAsFileSystemHandle?.() ?? dropped?.webkitGetAsEntry());
     if (folder || files.length > 1 || /\.zip$/i.test(files[0]?.name ?? '')) {
       showTab('check');
-      check.take(folder, [...files]);
+      check.take(folder, files);
     } else if (files[0]) {
       editor.openFile(files[0]);
     }

@@ -215,6 +215,100 @@ class LabTest(unittest.TestCase):
         self.element('remove').click()
         self.wait('return pendulumLab.state().scene.x.length === 3')
 
+    def touch(self, kind, *points):
+        self.browser.execute_cdp_cmd('Input.dispatchTouchEvent', {
+            'type': kind, 'touchPoints': [{'x': x, 'y': y, 'id': i} for i, (x, y) in enumerate(points)]})
+
+    def test_fingers_drag_particles_and_zoom(self):
+        self.call('await pendulumLab.set({particles: "0 0 1\\n1 0 1\\n2 0 1\\n", frames: 20,'
+                  'runs: [{method: "Runge-Kutta-4"}]}); pendulumLab.seek(0)')
+        left, top = self.browser.execute_script(
+            'const box = document.getElementById("motion").getBoundingClientRect(); return [box.left, box.top]')
+        places = [self.call('return pendulumLab.onScreen(given[0])', i) for i in range(3)]
+        x, y = places[2][0] + left, places[2][1] + top
+        self.touch('touchStart', (x, y))
+        self.touch('touchMove', (x, y + 30))
+        self.touch('touchMove', (x, y + 60))
+        self.touch('touchEnd')
+        self.wait('return pendulumLab.state().scene.y[2] < -0.1')
+        self.assertEqual(self.state()['scene']['x'][:2], [0, 1])
+        self.assertEqual(self.state()['scene']['y'][:2], [0, 0])
+        self.wait('return pendulumLab.state().runs[0]?.end?.status === 0')
+
+        def width():
+            (first, _), (second, _) = (self.call('return pendulumLab.onScreen(given[0])', i) for i in range(2))
+            return second - first
+
+        before = width()
+        x, y = places[0][0] + left, places[0][1] + top - 60  # beside the particles
+        self.touch('touchStart', (x, y))
+        for distance, kind in ((50, 'touchStart'), (75, 'touchMove'), (100, 'touchMove')):
+            self.touch(kind, (x, y), (x + distance, y))
+        self.touch('touchEnd')
+        self.assertAlmostEqual(width() / before, 2, delta=0.05)
+
+    def saved(self, folder, button, name):
+        """The content of the file that a button saves."""
+        self.element(button).click()
+        path = Path(folder) / name
+        end = time.monotonic() + HANGING
+        while not path.exists():  # Chromium renames it when it is whole
+            if time.monotonic() > end:
+                raise AssertionError(f'{name} was not saved: {self.element("share-note").text}')
+            time.sleep(0.05)
+        return path.read_bytes()
+
+    def test_saved_files_are_those_of_exercise3(self):
+        scene = '0 0 1\n0.5 -0.25 2\n1.5 0 0.7\n'
+        self.call('await pendulumLab.set(given[0])', {
+            'particles': scene, 'frames': 12, 'stiffness': 70, 'tab': 'share',
+            'runs': [{'method': 'Runge-Kutta-2', 'time_step': 0.01}]})
+        expected = self.exercise3('Runge-Kutta-2', scene, '--frames=12', '--stiffness=70')
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.execute_cdp_cmd('Browser.setDownloadBehavior', {'behavior': 'allow', 'downloadPath': folder})
+            self.saved(folder, 'save-zip', 'frames.zip')
+            with zipfile.ZipFile(Path(folder) / 'frames.zip') as archive:
+                self.assertEqual(archive.namelist(), [f'frame_{i:04}.txt' for i in range(12)])
+                self.assertEqual([archive.read(name).decode() for name in archive.namelist()], expected['frames'])
+            rows = [f'{frame},{i},{line.replace(" ", ",")}' for frame, text in enumerate(expected['frames'])
+                    for i, line in enumerate(text.splitlines(), 1)]
+            self.assertEqual(self.saved(folder, 'save-csv', 'frames.csv').decode(),
+                             '\n'.join(['frame,particle,x [m],y [m]', *rows]) + '\n')
+            self.assertEqual(self.saved(folder, 'save-energy', 'energy.csv').decode(), expected['energy'])
+            self.assertEqual(self.saved(folder, 'save-particles', 'particle.txt').decode(), scene)
+
+    def test_commands_are_copied_and_repeat_the_run(self):
+        self.call('await pendulumLab.set({particles: "particle.txt", frames: 30, damping: 0, tab: "share",'
+                  'runs: [{method: "Euler", time_step: 0.005}]})')
+        self.browser.find_element(By.CSS_SELECTOR, '#commands button').click()
+        self.wait('return document.getElementById("share-note").textContent.includes("on the clipboard")')
+        self.tab('scene')
+        area = self.element('particles')
+        area.click()
+        area.send_keys(Keys.CONTROL + 'a')
+        area.send_keys(Keys.CONTROL + 'v')
+        words = area.get_attribute('value').split()
+        self.assertEqual(words[:3], ['Exercise3', 'Euler', '--particles'])
+        self.assertEqual(words[3], 'data/particle.txt')
+        repeated = self.exercise3('Euler', (DATA / 'particle.txt').read_text(), *words[4:-2])
+        answer = self.call('return pendulumLab.run({particles: "particle.txt", frames: 30, damping: 0,'
+                           'method: "Euler", time_step: 0.005, steps_per_frame: 20})')
+        self.assertEqual(answer['frames'], repeated['frames'])
+        self.call('await pendulumLab.set({particles: "particle.txt"})')
+
+    def test_a_dropped_folder_is_checked(self):
+        self.call('await pendulumLab.set({particles: "particle.txt", frames: 100, runs: [{method: "Runge-Kutta-4"}]})')
+        self.tab('check')
+        with tempfile.TemporaryDirectory() as folder:
+            frames = self.exercise3('Runge-Kutta-4', (DATA / 'particle.txt').read_text(), '--frames=30')['frames']
+            for index, text in enumerate(frames):
+                (Path(folder) / f'frame_{index:04}.txt').write_text(text)
+            for kind in ('dragEnter', 'dragOver', 'drop'):
+                self.browser.execute_cdp_cmd('Input.dispatchDragEvent', {
+                    'type': kind, 'x': 300, 'y': 300,
+                    'data': {'items': [], 'files': [folder], 'dragOperationsMask': 1}})
+            self.wait('return document.getElementById("check-note").textContent.includes("equal to Runge-Kutta-4")')
+
     def test_a_tableau_is_judged_and_runs(self):
         self.call('await pendulumLab.set({particles: "one_spring.txt", frames: 50, runs: [{method: "Runge-Kutta-4"}]})')
         self.tab('own')

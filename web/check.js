@@ -21,8 +21,13 @@ function say(...lines) {
   note.replaceChildren(...lines.map((line) => paragraph(line)));
 }
 
-/** All files of a dropped folder. */
+/** All files of a dropped folder, given as a handle or as an entry. */
 async function filesIn(folder) {
+  if (folder.values) {
+    const handles = [];
+    for await (const handle of folder.values()) if (handle.kind === 'file') handles.push(handle);
+    return Promise.all(handles.map((handle) => handle.getFile()));
+  }
   const reader = folder.createReader();
   const files = [];
   for (;;) {

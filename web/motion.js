@@ -340,6 +340,7 @@ function pinch(event) {
   touches.set(event.pointerId, event);
   const [a, b] = [...touches.values()];
   view.scale *= Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) / Math.max(1, distance);
+  view.own = true;
   drag = null;
   redraw();
 }
