@@ -1,7 +1,7 @@
 // simulate, check and the table of options.
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/io/run_output.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/simulation/option_list.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
@@ -192,7 +192,7 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
   Run run = makeRun(scenario, start, {true, 0.0, [&] { return interruption(); }});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   Recording recording(scenario.frames - start.frame, run.chain().size());
-  RunOutput output(run);
+  RunFiles output(run);
   std::string warning;
   {
     const Computation computation;

@@ -29,7 +29,7 @@ int simulate(const Scenario& scenario, const Switches& switches) {
     progress.show(run.frame() + 1);
   }
   files.finish();
-  printClosingLine(run.closingLine(*integrator, writingText(files)));
+  printClosingLine(run.closingLine(*integrator, files.closingText()));
   return conclude(run);
 }
 

@@ -11,7 +11,7 @@
 #include <spring_pendulum/integration/tableau_method.hpp>
 #include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/io/run_output.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/drive.hpp>

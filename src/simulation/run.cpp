@@ -4,7 +4,7 @@
 #include "simulation/memory.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include "simulation/sleep.hpp"
-#include "simulation/tolerance.hpp"
+#include <spring_pendulum/integration/smallest_tolerance.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <algorithm>

@@ -93,7 +93,7 @@ int runSingleCase(const Study& study, std::int64_t index, const std::string& fol
   RunFiles files(run);
   while (run.advance(*integrator)) files.write(run);
   files.finish();
-  printClosingLine(run.closingLine(*integrator, writingText(files)));
+  printClosingLine(run.closingLine(*integrator, files.closingText()));
   return spring_pendulum::conclude(run);
 }
 

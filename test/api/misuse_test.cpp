@@ -63,7 +63,7 @@ TEST(Misuse, RunsFromStatesOfAnotherSize) {
     EXPECT_THROW(static_cast<void>(reference.errorOf(wrong)), InputError) << size;
     EXPECT_THROW(EnergyBalance(chain(), wrong, true), InputError) << size;
     EXPECT_THROW(Judge(chain(), wrong, JudgeOptions{true}), InputError) << size;
-    EXPECT_THROW(describeStability(chain(), wrong, Scenario{}), InputError) << size;
+    EXPECT_THROW(checkStability(chain(), wrong, Scenario{}), InputError) << size;
     EXPECT_THROW(findStepLimits(findMethod("Euler"), chain(), wrong, 0.01, 1.0, 0.1), InputError);
   }
 }

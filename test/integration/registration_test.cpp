@@ -87,7 +87,7 @@ TEST(OwnMethods, GetStabilityAdvice) {
   for (const Method* method : ownMethods()) {
     Scenario scenario;
     parse({method->name.c_str(), "--time-step", "0.01"}, scenario);
-    EXPECT_THAT(describeStability(scene.chain, scene.start, scenario),
+    EXPECT_THAT(checkStability(scene.chain, scene.start, scenario).text,
                 testing::HasSubstr(method->name));
   }
 }

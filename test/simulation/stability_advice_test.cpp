@@ -70,7 +70,7 @@ TEST(StabilityAdvice, CheckReportsTheVeryRun) {
   const Scene scene = test::horizontalChain("", 11, 1.0);
   Scenario scenario;
   scenario.frames = 51;
-  const std::string text = describeStability(scene.chain, scene.start, scenario);
+  const std::string text = checkStability(scene.chain, scene.start, scenario).text;
   // 5.93e-6 m is known independently for the largest coordinate.
   EXPECT_THAT(text, StartsWith("Runge-Kutta-4 with a step size of 0.01 s over 5 s: ok\nlargest "
                                "position error 6.4e-06 m at t = 4.7 s, largest energy error "));
@@ -85,7 +85,7 @@ TEST(StabilityAdvice, CheckFindsAMethodForTheWantedError) {
   scenario.frames = 51;
   scenario.wanted_error = 1e-6;
   EXPECT_THAT(
-      describeStability(scene.chain, scene.start, scenario),
+      checkStability(scene.chain, scene.start, scenario).text,
       ContainsRegex("position error of at most 1e-06 m: Taylor-[0-9]+ with a tolerance of 1e-0"));
 }
 
@@ -96,7 +96,7 @@ TEST(StabilityAdvice, TheMethodFoundKeepsTheWantedError) {
     scenario.method = findMethod("Auto");
     scenario.frames = 51;
     scenario.wanted_error = 1e-2;
-    const std::string text = describeStability(scene.chain, scene.start, scenario);
+    const std::string text = checkStability(scene.chain, scene.start, scenario).text;
     std::smatch found;
     const std::regex advice(" m: ([A-Za-z0-9-]+) with a [a-z ]+ of ([0-9.e-]+) ");
     ASSERT_TRUE(std::regex_search(text, found, advice)) << text;
@@ -113,7 +113,7 @@ TEST(StabilityAdvice, TheMethodFoundKeepsTheWantedError) {
 TEST(StabilityAdvice, CheckSaysWhatIsTooLargeToTry) {
   const Scene scene = test::horizontalChain("", 10000, 1.0);
   EXPECT_THAT(
-      describeStability(scene.chain, scene.start, Scenario{}),
+      checkStability(scene.chain, scene.start, Scenario{}).text,
       StartsWith("Runge-Kutta-4: too many particles and steps to try; linear estimate of the "
                  "largest stable step size: 0."));
 }
@@ -125,7 +125,7 @@ TEST(StabilityAdvice, CheckSaysThatAccuracyWouldTakeTooLongToJudge) {
   Scenario scenario;
   scenario.frames = 201;
   scenario.wanted_error = 1e-3;
-  EXPECT_THAT(describeStability(chain, test::straightLine(4, 1.0, 0.0), scenario),
+  EXPECT_THAT(checkStability(chain, test::straightLine(4, 1.0, 0.0), scenario).text,
               ContainsRegex("stable step size: 0.0001.* s\nlargest accurate step size: unknown, as "
                             "a reference run would take too long\nposition error of at most 0.001 "
                             "m: unknown, as a reference run would take too long\n"));
@@ -157,7 +157,7 @@ TEST(StabilityAdvice, RefusesWhatHasNoAnswer) {
                InputError);
   Scenario negative;
   negative.frames = -5;
-  EXPECT_THROW(describeStability(scene.chain, scene.start, negative), InputError);
+  EXPECT_THROW(checkStability(scene.chain, scene.start, negative), InputError);
   EXPECT_THROW(remedyForDivergence(scene.chain, scene.start, negative), InputError);
 }
 
@@ -185,7 +185,8 @@ TEST(StabilityAdvice, LimitsTheWorkOfOwnErrorControlledMethods) {
   const Scene scene = test::horizontalChain("", 3, 1.0);
   Scenario scenario;
   scenario.method = method;
-  EXPECT_EQ(describeStability(scene.chain, scene.start, scenario), "Slow: takes too long to try\n");
+  EXPECT_EQ(checkStability(scene.chain, scene.start, scenario).text,
+            "Slow: takes too long to try\n");
 }
 
 TEST(TrialBench, StartsNoTrialAfterAHundredFullOnes) {

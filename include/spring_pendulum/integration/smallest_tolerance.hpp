@@ -14,5 +14,10 @@ namespace spring_pendulum {
 /// \param start state with the size of the chain
 double smallestTolerance(const Chain& chain, const State& start);
 
+/// Checks that the tolerance of an error-controlled method is not below `smallestTolerance`. With a
+/// smaller tolerance the step size would shrink until the run makes no progress.
+/// \throws InputError naming the smallest possible tolerance
+void checkTolerance(double tolerance, const Chain& chain, const State& start);
+
 }  // namespace spring_pendulum
 #pragma GCC visibility pop

@@ -60,9 +60,6 @@ struct StabilityReport {
 StabilityReport checkStability(const Chain& chain, const State& start, const Scenario& scenario,
                                const std::function<bool()>& stop = {});
 
-/// Returns `checkStability(...).text`.
-std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario);
-
 /// One line if the time step is clearly above the stability limit of the method, whatever the
 /// positions of the particles; else empty. O(N), negligible compared with a run.
 /// \param start if not null, the first steps of the run are tried as well, for about 0.02 s

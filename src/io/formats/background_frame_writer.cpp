@@ -1,15 +1,9 @@
 #include "io/formats/background_frame_writer.hpp"
 
-#include <chrono>
 #include <system_error>
 #include <utility>
 
 namespace spring_pendulum {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-}  // namespace
 
 BackgroundFrameWriter::BackgroundFrameWriter(const std::string& folder, std::int64_t frames,
                                              std::int64_t first)
@@ -20,7 +14,6 @@ BackgroundFrameWriter::~BackgroundFrameWriter() {
 }
 
 void BackgroundFrameWriter::write(std::int64_t index, const State& state) {
-  const Clock::time_point start_time = Clock::now();
   const bool gains = state.size() >= kLargeFrame && std::thread::hardware_concurrency() > 1;
   if (gains && !thread_.joinable()) start();
   if (thread_.joinable()) {
@@ -28,7 +21,6 @@ void BackgroundFrameWriter::write(std::int64_t index, const State& state) {
   } else {
     writer_.write(index, state);
   }
-  seconds_waited_ += std::chrono::duration<double>(Clock::now() - start_time).count();
 }
 
 void BackgroundFrameWriter::start() {

@@ -41,8 +41,6 @@ class BackgroundFrameWriter {
   std::string folder() const { return writer_.folder(); }
   /// Number of removed frames of an earlier run.
   std::int64_t earlierFrames() const { return writer_.earlierFrames(); }
-  /// Wall-clock time that callers spent in `write`, s.
-  double secondsWaited() const { return seconds_waited_; }
   /// Wall-clock time spent formatting and writing in either thread, s. Valid after `finish`.
   double secondsWriting() const { return writer_.seconds(); }
 
@@ -53,7 +51,6 @@ class BackgroundFrameWriter {
   void stop();
 
   FrameWriter writer_;
-  double seconds_waited_ = 0.0;
 
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -1,10 +1,14 @@
 #include "io/formats/run_files.hpp"
 
 #include "base/numbers.hpp"
+#include "io/formats/background_frame_writer.hpp"
+#include "io/formats/energy_file.hpp"
+#include "io/formats/state_file.hpp"
+#include <spring_pendulum/io/particle_file.hpp>
 
 #include <fmt/format.h>
 
-#include <string>
+#include <optional>
 
 namespace spring_pendulum {
 namespace {
@@ -21,47 +25,67 @@ TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config) {
           writesFrames(scenario) ? scenario.output : ""};
 }
 
-RunFiles::RunFiles(const Run& run, const std::string& config) {
-  const Scenario& scenario = run.scenario();
-  checkTouchedFiles(touchedFiles(scenario, config));
-  if (!scenario.energy.empty()) energy_.emplace(scenario.energy);
-  if (!scenario.save_state.empty()) state_.emplace(scenario.save_state);
-  if (writesFrames(scenario)) frames_.emplace(scenario.output, scenario.frames, run.firstFrame());
+Particles readStart(const Scenario& scenario) {
+  return scenario.resume ? readStateFile(scenario) : readParticleFile(scenario.particles);
 }
 
+struct RunFiles::Files {
+  std::optional<EnergyFile> energy;
+  std::optional<StateFile> state;
+  std::optional<BackgroundFrameWriter> frames;
+  std::int64_t next_frame = 0;
+  bool finished = false;
+
+  /// "/home/me/frames (500 earlier frames removed)"
+  std::string frameFolder() const {
+    const std::int64_t earlier = frames->earlierFrames();
+    if (earlier == 0) return frames->folder();
+    return fmt::format("{} ({} removed)", frames->folder(), counted(earlier, "earlier frame"));
+  }
+};
+
+RunFiles::RunFiles(const Run& run, const std::string& config) : files_(new Files) {
+  const Scenario& scenario = run.scenario();
+  checkTouchedFiles(touchedFiles(scenario, config));
+  if (!scenario.energy.empty()) files_->energy.emplace(scenario.energy);
+  if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);
+  if (writesFrames(scenario)) {
+    files_->frames.emplace(scenario.output, scenario.frames, run.firstFrame());
+  }
+}
+
+RunFiles::~RunFiles() = default;
+RunFiles::RunFiles(RunFiles&&) noexcept = default;
+
 void RunFiles::write(const Run& run) {
+  Files& to = *files_;
   const std::int64_t frame = run.frame();
-  if (finished_ || frame < next_frame_ || !run.isAtFrame() || !run.isShown()) return;
-  if (frames_) frames_->write(frame, run.state());
-  if (energy_) energy_->write(frame, run.energyEntry(), run.positionError().now);
-  if (state_) state_->keep(run);
-  next_frame_ = frame + 1;
+  if (to.finished || frame < to.next_frame || !run.isAtFrame() || !run.isShown()) return;
+  if (to.frames) to.frames->write(frame, run.state());
+  if (to.energy) to.energy->write(frame, run.energyEntry(), run.positionError().now);
+  if (to.state) to.state->keep(run);
+  to.next_frame = frame + 1;
 }
 
 void RunFiles::finish() {
-  if (finished_) return;
-  finished_ = true;
-  if (energy_) energy_->finish();
-  if (state_) state_->finish();
-  if (frames_) frames_->finish();
+  if (files_->finished) return;
+  files_->finished = true;
+  if (files_->energy) files_->energy->finish();
+  if (files_->state) files_->state->finish();
+  if (files_->frames) files_->frames->finish();
 }
 
 std::string RunFiles::description() const {
-  std::string text = "no frame files";
-  if (frames_) text = "frames go to " + frameFolder();
-  if (energy_) text += ", energies go to " + energy_->path();
-  if (state_) text += ", the last state goes to " + state_->path();
+  std::string text = files_->frames ? "frames go to " + files_->frameFolder() : "no frame files";
+  if (files_->energy) text += ", energies go to " + files_->energy->path();
+  if (files_->state) text += ", the last state goes to " + files_->state->path();
   return text;
 }
 
-std::string RunFiles::destination() const {
-  return frames_ ? " to " + frameFolder() : "";
-}
-
-std::string RunFiles::frameFolder() const {
-  const std::int64_t earlier = frames_->earlierFrames();
-  if (earlier == 0) return frames_->folder();
-  return fmt::format("{} ({} removed)", frames_->folder(), counted(earlier, "earlier frame"));
+std::string RunFiles::closingText() const {
+  if (!files_->frames) return "";
+  return fmt::format(", {} writing to {}", durationText(files_->frames->secondsWriting()),
+                     files_->frameFolder());
 }
 
 }  // namespace spring_pendulum

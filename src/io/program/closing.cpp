@@ -48,12 +48,6 @@ std::string skippedWork(const Run& run, const Integrator& integrator) {
 
 }  // namespace
 
-std::string writingText(const RunFiles& files) {
-  const std::string destination = files.destination();
-  if (destination.empty()) return "";
-  return fmt::format(", {} writing{}", durationText(files.secondsWriting()), destination);
-}
-
 void printClosingLine(const std::string& text) {
   printOutput(onOneLine(text) + "\n");
   flushOutput();
@@ -63,7 +57,7 @@ void printAnswers(const Run& run, const Integrator& integrator, const Switches& 
   if (switches.report_skips) printOutput(skippedWork(run, integrator));
   if (!switches.check) return;
   printError(memoryLine(run));
-  printOutput(describeStability(run.chain(), run.start(), run.scenario()));
+  printOutput(checkStability(run.chain(), run.start(), run.scenario()).text);
 }
 
 std::string remarksOn(const Run& run) {

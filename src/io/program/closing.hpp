@@ -1,7 +1,6 @@
 // What a program prints before and after a run.
 #pragma once
 
-#include "io/formats/run_files.hpp"
 #include "io/program/command_line.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/simulation/run.hpp>
@@ -9,9 +8,6 @@
 #include <string>
 
 namespace spring_pendulum {
-
-/// Returns ", 3.07 ms writing to /home/me/frames"; empty if the run writes no frames.
-std::string writingText(const RunFiles& files);
 
 /// Prints one line to standard output, before anything that is printed to standard error later.
 /// \throws FileError if it can't be written

@@ -8,7 +8,7 @@
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/run_output.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/value_semantic.hpp>

@@ -81,7 +81,7 @@ void logStart(const Run& run, const NodeOptions& options, const RunFiles& files)
 
 std::string RunLog::closingLine() const {
   return run_.closingLine(
-      integrator_, fmt::format("{}, {} marker and {} state messages built", writingText(files_),
+      integrator_, fmt::format("{}, {} marker and {} state messages built", files_.closingText(),
                                publisher_.markersBuilt(), publisher_.statesBuilt()));
 }
 

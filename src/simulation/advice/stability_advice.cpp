@@ -191,10 +191,6 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Sce
   return report;
 }
 
-std::string describeStability(const Chain& chain, const State& start, const Scenario& scenario) {
-  return checkStability(chain, start, scenario).text;
-}
-
 std::string stabilityWarning(const Chain& chain, const Scenario& scenario, const State* start) {
   checkScenario(scenario);
   const Method& method = scenario.method;

@@ -1,27 +1,12 @@
-#include "base/spelling.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/option_list.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <variant>
 
 namespace spring_pendulum {
-namespace {
-
-const Option& findOption(const OptionSet& options, const std::string& key) {
-  const std::vector<Option>& rows = options.options();
-  const auto row = std::find_if(rows.begin(), rows.end(),
-                                [&](const Option& option) { return option.key == key; });
-  if (row != rows.end()) return *row;
-  std::vector<std::string> known;
-  for (const Option& option : rows) known.emplace_back(option.key);
-  throw InputError(unknownName("option", key, known));
-}
-
-}  // namespace
 
 std::vector<OptionDescription> describeOptions(const Scenario& defaults) {
   Scenario scenario = defaults;
@@ -38,7 +23,7 @@ std::vector<OptionDescription> describeOptions(const Scenario& defaults) {
 Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& options,
                       Scenario scenario) {
   OptionSet set(scenarioOptions(scenario));
-  for (const auto& [key, text] : options) set.set(findOption(set, key), text, key);
+  for (const auto& [key, text] : options) set.set(set.find(key, "", "option"), text, key);
   const std::vector<std::string_view> unused = unusedKeys(scenario, set);
   if (!unused.empty()) {
     throw InputError(fmt::format(

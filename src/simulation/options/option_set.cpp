@@ -14,13 +14,15 @@ void OptionSet::add(std::vector<Option> options) {
   std::move(options.begin(), options.end(), std::back_inserter(options_));
 }
 
-const Option& OptionSet::find(std::string_view key, std::string_view place) const {
+const Option& OptionSet::find(std::string_view key, std::string_view place,
+                              std::string_view kind) const {
   std::vector<std::string> known;
   for (const Option& option : options_) {
     if (option.key == key) return option;
     known.emplace_back(option.key);
   }
-  throw InputError(fmt::format("{}: {}", place, unknownName("parameter", key, known)));
+  const std::string_view separator = place.empty() ? "" : ": ";
+  throw InputError(fmt::format("{}{}{}", place, separator, unknownName(kind, key, known)));
 }
 
 void OptionSet::set(const Option& option, std::string_view text, const std::string& place) {

@@ -18,9 +18,11 @@ class OptionSet {
   void add(std::vector<Option> options);
   const std::vector<Option>& options() const { return options_; }
 
-  /// \param place prefix of error messages: "pendulum.yaml:3"
+  /// \param place prefix of error messages: "pendulum.yaml:3"; empty: none
+  /// \param kind  what the user calls an option
   /// \throws InputError that lists the known keys if there is no such option
-  const Option& find(std::string_view key, std::string_view place) const;
+  const Option& find(std::string_view key, std::string_view place,
+                     std::string_view kind = "parameter") const;
 
   /// Sets one option from text.
   /// \param place prefix of error messages: "--time-step", "pendulum.yaml:3: time_step"

@@ -16,17 +16,19 @@ namespace spring_pendulum {
 /// \throws InputError with file and line for the first invalid line
 Particles readStart(const Scenario& scenario);
 
-/// Writes frames, energy balance and last state, as far as the scenario asks for them.
-class RunOutput {
+/// Writes frames, energy balance and last state, as far as the scenario asks for them: no frames with
+/// `no_frames` or an empty `output`. Writes every frame once, because a run that is reset repeats its
+/// frames bit for bit.
+class RunFiles {
  public:
-  /// Checks that no name has two uses, opens the files and removes the frames of an earlier run. An empty
-  /// `Scenario::output` means no frames.
+  /// Checks that no name has two uses, opens the files and removes the frames of an earlier run.
+  /// \param config configuration file of the run, which must not be overwritten; empty: none
   /// \throws InputError, FileError naming the file
-  explicit RunOutput(const Run& run);
-  ~RunOutput();
-  RunOutput(RunOutput&& other) noexcept;
+  explicit RunFiles(const Run& run, const std::string& config = "");
+  ~RunFiles();
+  RunFiles(RunFiles&& other) noexcept;
 
-  /// Writes the current frame of a run.
+  /// Writes the current frame of a run unless it has been written before or must not be shown.
   /// \throws FileError naming the file
   void write(const Run& run);
 
@@ -34,6 +36,8 @@ class RunOutput {
   /// \throws FileError naming the file
   void finish();
 
+  /// "frames go to /home/me/frames (500 earlier frames removed), energies go to ..."
+  std::string description() const;
   /// For `Run::closingLine`, after `finish`: ", 3.07 ms writing to /home/me/frames"; empty without frames.
   std::string closingText() const;
 
