@@ -37,8 +37,8 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   /// Advances `state` in place by `steps` >= 0 steps of `time_step` s. Taking a + b steps in one
-  /// call or in two gives the same bits. The first particle does not move
-  /// unless the chain is driven.
+  /// call or in two gives the same bits.
+  /// The first particle does not move unless the chain is driven.
   /// A diverging motion does not throw: the state then has elements that are very large or not
   /// finite.
   /// \throws InputError if the size of the state is not that of the chain, `time_step` is not
@@ -76,9 +76,9 @@ class Integrator {
   /// methods.
   virtual std::string report() const { return {}; }
 
-  /// Discards what the method keeps between calls and sets the dissipated and the
-  /// supplied energy to 0. Call it
-  /// before passing `advance` a state other than the one that the last `advance` returned.
+  /// Discards what the method keeps between calls and sets the dissipated and the supplied energy to
+  /// 0. Call it before passing `advance` a state that is not the one that the last call of `advance`
+  /// returned.
   virtual void restart() {}
 
  protected:
