@@ -1,5 +1,5 @@
-// Sums over the springs of a chain have a fixed order: over blocks of springs from left to right, and then
-// over the blocks. So machines that share a chain at the borders of blocks get the bits of one machine.
+// Sums over the springs of a chain have a fixed order: over blocks of springs from left to right, and
+// then over the blocks. Machines that share a chain at the borders of blocks get the bits of one.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>

@@ -28,9 +28,9 @@ constexpr double kSafety = 3.0;
 /// (70,000 evaluations). With this value one in 640 measurements of chaotic motions exceeded its
 /// uncertainty, by a factor of 1.6; without a moved start 50, by up to 55.
 constexpr double kRounding = 3e-14;
-/// Error of the companion, in its tolerances, above which a motion counts as sensitive. Measured on
-/// random scenes with tolerances above 1e-10 m: at most 0.34 while perturbations had grown up to 100 times; at least 0.3 in 99 % of
-/// 1031 runs that were over ten tolerances off after they had grown more.
+/// Error of the companion, in its tolerances, above which a motion counts as sensitive. Measured on random
+/// scenes with tolerances above 1e-10 m: at most 0.34 while perturbations had grown up to 100 times; at
+/// least 0.3 in 99 % of 1031 runs that were over ten tolerances off after they had grown more.
 constexpr double kSensitiveError = 0.3;
 /// Growth of rounding errors above which the motion and not the rounding is to blame.
 constexpr double kSensitiveGrowth = 100.0;

@@ -12,8 +12,8 @@ namespace spring_pendulum {
 /// follows from the order conditions, up to 10, its stability limits from the stability function: up to
 /// there, no mode grows by more than 1e-12 per step.
 /// \param tableau must outlive the row
-/// \throws InputError if the tableau is not one of an explicit method, or the method is not consistent: its
-///   weights do not add up to 1
+/// \throws InputError if the tableau is not one of an explicit method, or the method is not consistent:
+///   its weights do not add up to 1
 Method methodOfTableau(const std::string& name, const ButcherTableau& tableau);
 
 }  // namespace spring_pendulum

@@ -38,7 +38,7 @@ class RunFiles {
 
   /// "frames go to /home/me/frames (500 earlier frames removed), energies go to ..."
   std::string description() const;
-  /// For `Run::closingLine`, after `finish`: ", 3.07 ms writing to /home/me/frames"; empty without frames.
+  /// For `Run::closingLine`, after `finish`: ", 3 ms writing to /home/me/frames"; empty without frames.
   std::string closingText() const;
 
  private:

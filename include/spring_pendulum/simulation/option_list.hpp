@@ -30,8 +30,8 @@ std::vector<OptionDescription> describeOptions(const Scenario& defaults = {});
 /// Makes a scenario from pairs of key and value.
 /// \param options later pairs override earlier ones
 /// \param scenario values of the options that are not given
-/// \throws InputError naming the option and its range for a wrong value, an unknown key (with the nearest
-///   known one), an option that the method does not use, or options that contradict each other
+/// \throws InputError naming the option and its range for a wrong value, an unknown key (with the
+///   nearest known one), an option that the method does not use, or options that contradict each other
 Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& options,
                       Scenario scenario = {});
 

@@ -48,8 +48,8 @@ struct StabilityReport {
   bool tried = false;            ///< whether the run was tried; if not, the next two are unset
   Verdict verdict;               ///< on the trial
   PositionError position_error;  ///< of the trial
-  /// Of a fixed-step method. If the run takes too long to be tried, `stable` is `linearStepLimit`. NaN if
-  /// not known, and for error-controlled methods.
+  /// Of a fixed-step method. If the run takes too long to be tried, `stable` is `linearStepLimit`. NaN
+  /// if not known, and for error-controlled methods.
   StepLimits limits = {std::numeric_limits<double>::quiet_NaN(),
                        std::numeric_limits<double>::quiet_NaN()};
 };

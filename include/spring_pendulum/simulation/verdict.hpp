@@ -1,10 +1,10 @@
 // The verdict on a run: can its result be trusted?
 //
 // Energy and positions are judged after every frame, before it is written. Beyond the energy that its
-// drive supplies, a chain never gains energy, whatever its damping. So an energy above that of the start proves an
-// unstable or inaccurate integration, even if every number is finite. A reference run, if there is
-// one, gives the position error. If the energy balance is off, it also shows whether the energy or
-// only the dissipated energy is wrong.
+// drive supplies, a chain never gains energy, whatever its damping. So an energy above that of the
+// start proves an unstable or inaccurate integration, even if every number is finite. A reference run,
+// if there is one, gives the position error. If the energy balance is off, it also shows whether the
+// energy or only the dissipated energy is wrong.
 #pragma once
 
 #include <spring_pendulum/simulation/energy_balance.hpp>

@@ -9,18 +9,16 @@
 namespace spring_pendulum {
 namespace {
 
-Eigen::Index roundedUp(Eigen::Index count) {
-  return StateBuffer::paddedSize(count);
-}
-
 /// Halo results are discarded; this limit keeps halos below a sixteenth of the work.
 Eigen::Index largestHalo(Eigen::Index block_size, std::size_t stages) {
-  return std::max(roundedUp(static_cast<Eigen::Index>(stages)), block_size / 32 / 8 * 8);
+  return std::max(StateBuffer::paddedSize(static_cast<Eigen::Index>(stages)),
+                  block_size / 32 / 8 * 8);
 }
 
 /// Blocks are at least half as long as this size, and a halo is no longer than a block.
 Eigen::Index usableBlockSize(Eigen::Index wanted, std::size_t stages) {
-  return std::max(roundedUp(wanted), 2 * roundedUp(static_cast<Eigen::Index>(stages)));
+  return std::max(StateBuffer::paddedSize(wanted),
+                  2 * StateBuffer::paddedSize(static_cast<Eigen::Index>(stages)));
 }
 
 const ChainKernels& kernelsFor(const EngineOptions& options, Eigen::Index particles) {
@@ -93,7 +91,7 @@ void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t st
   for (; steps > 0; steps -= pass_.steps) {
     pass_.state = &state;
     pass_.steps = std::min(steps, at_once);
-    pass_.halo = roundedUp(pass_.steps * stages);
+    pass_.halo = StateBuffer::paddedSize(pass_.steps * stages);
     divide(threads);
     workers_->run(threads);
   }
@@ -116,7 +114,7 @@ int ExplicitRungeKutta::threadsFor(std::int64_t steps) const {
 
 void ExplicitRungeKutta::divide(int threads) {
   const Eigen::Index size = constants_.chain().size;
-  const Eigen::Index share_size = roundedUp((size + threads - 1) / threads);
+  const Eigen::Index share_size = StateBuffer::paddedSize((size + threads - 1) / threads);
   for (int i = 0; i < threads; ++i) {
     Share& share = shares_[static_cast<std::size_t>(i)];
     share.begin = std::min(size, i * share_size);
@@ -132,7 +130,7 @@ void ExplicitRungeKutta::workOn(Share& share) {
   const Eigen::Index size = share.end - share.begin;
   if (size == 0) return;
   const Eigen::Index blocks = (size + options_.block_size - 1) / options_.block_size;
-  const Eigen::Index block_size = roundedUp((size + blocks - 1) / blocks);
+  const Eigen::Index block_size = StateBuffer::paddedSize((size + blocks - 1) / blocks);
   for (Eigen::Index begin = share.begin; begin < share.end; begin += block_size) {
     stepBlock(share, begin, std::min(share.end, begin + block_size));
   }

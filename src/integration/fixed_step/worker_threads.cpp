@@ -27,20 +27,17 @@ WorkerThreads::~WorkerThreads() {
 
 void WorkerThreads::run(int count) {
   assert(1 <= count && count <= size());
-  if (count > 1) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ++run_;
-      count_ = count;
-      unfinished_ = count - 1;
-    }
-    begin_.notify_all();
+  if (count == 1) return task_(0);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++run_;
+    count_ = count;
+    unfinished_ = count - 1;
   }
+  begin_.notify_all();
   task_(0);
-  if (count > 1) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    done_.wait(lock, [this] { return unfinished_ == 0; });
-  }
+  std::unique_lock<std::mutex> lock(mutex_);
+  done_.wait(lock, [this] { return unfinished_ == 0; });
 }
 
 void WorkerThreads::work(int index) {

@@ -1,6 +1,5 @@
 #include "io/files/text_file.hpp"
 
-#include "io/files/file_descriptor.hpp"
 #include "io/files/paths.hpp"
 #include <spring_pendulum/base/errors.hpp>
 

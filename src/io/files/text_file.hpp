@@ -17,8 +17,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// \throws FileError with the file and the reason
 FileDescriptor openTextFile(const std::string& path, std::int64_t& size);
 
-/// Returns the bytes of a regular file without a leading UTF-8 byte order mark. Refuses pipes and
-/// devices, so it never blocks.
+/// Returns the bytes of a file, opened in this way, without a leading UTF-8 byte order mark.
 /// \throws FileError with the file and the reason
 std::string readTextFile(const std::string& path);
 

@@ -19,7 +19,7 @@ constexpr int kMostLinks = 40;  // the limit of Linux
 
 constexpr const char* kStreamNames[] = {"standard input", "standard output", "standard error"};
 
-enum class Use { kInput, kStandardInput, kStandardOutput, kOutput, kUnfinishedOutput, kFrames };
+enum class Use { kInput, kStandardInput, kStandardOutput, kOutput, kFrames };
 
 /// A file or folder, which need not exist.
 struct Touched {
@@ -43,10 +43,6 @@ bool areSame(const Touched& a, const Touched& b) {
                                      areSame(a.path.parent_path(), b.path.parent_path()));
 }
 
-bool isOutput(const Touched& touched) {
-  return touched.use == Use::kOutput || touched.use == Use::kUnfinishedOutput;
-}
-
 /// Whether writing `a` would change or remove `b`.
 bool affects(const Touched& a, const Touched& b) {
   switch (a.use) {
@@ -56,10 +52,9 @@ bool affects(const Touched& a, const Touched& b) {
     case Use::kStandardOutput:
       return b.use == Use::kInput && areSame(a, b);
     case Use::kFrames:
-      return (isOutput(b) && areSame(a, b)) ||
+      return (b.use == Use::kOutput && areSame(a, b)) ||
              (isFrameName(b.path.filename().string()) && areSame(a.path, b.path.parent_path()));
     case Use::kOutput:
-    case Use::kUnfinishedOutput:
       break;
   }
   const std::string folder = a.path.string() + '/';
@@ -107,7 +102,6 @@ std::vector<Touched> listTouched(const TouchedFiles& files) {
     add(Use::kOutput, output, fullPath(output));
     if (output.empty()) continue;
     Touched unfinished = touched.back();
-    unfinished.use = Use::kUnfinishedOutput;
     unfinished.path += kUnfinished;
     unfinished.shown += kUnfinished;
     touched.push_back(unfinished);
