@@ -240,7 +240,7 @@ class LabTest(unittest.TestCase):
             return second - first
 
         before = width()
-        x, y = places[0][0] + left, places[0][1] + top - 60  # beside the particles
+        x, y = places[0][0] + left - 50, places[0][1] + top + 150  # beside the particles
         self.touch('touchStart', (x, y))
         for distance, kind in ((50, 'touchStart'), (75, 'touchMove'), (100, 'touchMove')):
             self.touch(kind, (x, y), (x + distance, y))
