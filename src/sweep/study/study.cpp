@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sweep/study/random_numbers.hpp"
 
@@ -56,10 +57,11 @@ std::vector<Option> caseOptions(Settings& s) {
     return std::find(std::begin(kOfOneRun), std::end(kOfOneRun), option.key) != std::end(kOfOneRun);
   };
   options.erase(std::remove_if(options.begin(), options.end(), of_one_run), options.end());
-  options.push_back({"duration", Number{&s.duration, Range::atLeast(0)}, "s",
-                     "simulated time, in frames of frame_interval; 0: given by frames"});
-  options.push_back({"mass_factor", Number{&s.mass_factor, Range::above(0)}, "",
-                     "factor for the masses of the particle file"});
+  const Option own[] = {{"duration", Number{&s.duration, Range::atLeast(0)}, "s",
+                         "simulated time, in frames of frame_interval; 0: given by frames"},
+                        {"mass_factor", Number{&s.mass_factor, Range::above(0)}, "",
+                         "factor for the masses of the particle file"}};
+  options.insert(options.end(), std::begin(own), std::end(own));
   return options;
 }
 
