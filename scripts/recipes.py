@@ -72,6 +72,8 @@ def apply(step, words, path, file):
 
 
 def main():
+    if sys.argv[1:] not in ([], ['apply']):
+        sys.exit(__doc__)
     with tempfile.TemporaryDirectory(prefix='recipes_') as folder:
         copy = pathlib.Path(folder) / 'spring_pendulum'
         files = subprocess.run(['git', '-c', 'safe.directory=%s' % PROJECT, '-C', PROJECT, 'ls-files', '-z'],
