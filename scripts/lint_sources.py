@@ -27,10 +27,10 @@ ROOMS = {
     'checking': {},
     'io': {'files': 1, 'formats': 2, 'program': 3},
     'mpi': {},
-    'ros': {'parameters': 1, 'messages': 2, 'node': 3},
+    'ros': {'parameters': 1, 'messages': 2, 'inputs': 3, 'node': 4},
 }
 # Files directly in the folder of a layer come before its rooms, in these layers after them ...
-AFTER_THE_ROOMS = {'integration': 5, 'ros': 4}
+AFTER_THE_ROOMS = {'integration': 5, 'ros': 5}
 # ... except for these, and for these, which come between two rooms.
 BETWEEN_ROOMS = {'run': 2, 'run_report': 2}
 BEFORE_THE_ROOMS = ('integrator', 'butcher_tableau', 'smallest_tolerance', 'work')

@@ -26,17 +26,18 @@ packages_of() {
     mpi) echo libopenmpi-dev openmpi-bin ;;
     ros)
       echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
-           libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev ros-visualization-msgs \
+           libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev libtf2-ros-dev \
+           libinteractive-markers-dev libnav-msgs-dev ros-visualization-msgs ros-nav-msgs \
            ros-geometry-msgs ros-std-msgs ros-std-srvs ros-message-generation ros-message-runtime \
            python3-roslaunch python3-rosbag python3-rostopic python3-rosnode python3-rosservice \
            python3-rosparam python3-rospy python3-visualization-msgs python3-std-srvs \
-           python3-geometry-msgs python3-tf2-msgs python3-roslib rosbash ;;
+           python3-geometry-msgs python3-tf2-msgs python3-nav-msgs python3-roslib rosbash ;;
     rviz) echo rviz ;;
     python)
       echo pybind11-dev python3-dev python3-numpy python3-matplotlib python3-setuptools ;;
     test) echo procps locales-all mypy python3-scipy jupyter-nbconvert python3-ipykernel ;;
     test-ros)
-      echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils libgl1-mesa-dri \
+      echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils xdotool libgl1-mesa-dri \
            imagemagick ;;
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lab)

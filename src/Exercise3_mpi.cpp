@@ -36,6 +36,7 @@ void checkSupported(const Scenario& scenario, const Switches& switches) {
   if (switches.check) refuse("--check");
   if (switches.report_skips) refuse("--report-skips");
   if (scenario.sleep > 0.0) refuse("--sleep");
+  if (scenario.start != Start::kFile) refuse("--start at_rest");
   if (scenario.reference == ReferenceUse::kAlways) refuse("--reference always");
 }
 

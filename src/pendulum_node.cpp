@@ -3,20 +3,18 @@
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
+#include "ros/node/live_run.hpp"
 #include "ros/node/master_registration.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 #include "ros/node/run_log.hpp"
 #include "ros/node/startup.hpp"
-#include "ros/parameters/parameter_watch.hpp"
 #include "ros/parameters/parameters.hpp"
-#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 
 #include <ros/ros.h>
 
-#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -30,58 +28,32 @@ constexpr double kLastMessages = 0.5;  // s, for sending the last messages
 constexpr double kLastDeletion = 0.1;  // s, for sending the deletion of the markers
 
 /// The frame loop: advances the run, writes the frame, and publishes the state.
-void play(Run& run, Integrator& integrator, Player& player, Publisher& publisher, RunFiles& files,
+void play(Run& run, LiveRun& live, Player& player, Publisher& publisher, RunFiles& files,
           RunLog& log) {
-  ParameterWatch parameters;
-  run.advance(integrator);
+  live.start();
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
     if (action == Player::Action::kShowBetween) {
       publisher.publishBetween(run, player.showing());
       continue;
     }
-    if (action == Player::Action::kReset) {
-      run.reset(integrator);
-      run.advance(integrator);
-    } else if (action == Player::Action::kAdvance && publisher.isWatched()) {
-      run.advancePart(integrator);
-    } else if (action != Player::Action::kShowAgain) {
-      run.advance(integrator);
-    }
+    live.act(action, publisher);
     if (run.wasStopped()) return;  // inside a frame, which is discarded
     files.write(run);
     if (run.isOver()) files.finish();
-    publisher.publish(run, player.showing());
+    if (const auto header = publisher.publish(run, player.showing())) live.show(*header);
     log.note();
-    parameters.look();
   }
-}
-
-/// An invalid parameter may come from an earlier run, as parameters stay on the ROS master.
-NodeConfiguration readConfiguration() {
-  try {
-    return readPrivateParameters();
-  } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}. If an earlier run has left this parameter, delete it: rosparam delete {}",
-                    error.what(), ros::this_node::getName()));
-  }
-}
-
-/// Simulated time between two shown states, s.
-double displayInterval(const NodeOptions& options) {
-  const bool smooth = options.display_rate > 0.0 && options.real_time_factor > 0.0;
-  return smooth ? options.real_time_factor / options.display_rate : 0.0;
 }
 
 int runNode() {
-  const NodeConfiguration configuration = readConfiguration();
+  const NodeConfiguration configuration = readPrivateParameters();
   const Scenario& scenario = configuration.scenario;
   const NodeOptions& options = configuration.options;
   Run run(scenario, readParticles(scenario, "_particles:=FILE"),
-          {options.track_dissipation || !scenario.energy.empty(), displayInterval(options),
+          {options.track_dissipation || !scenario.energy.empty(), options.displayInterval(),
            interruption});
-  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
+  std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   if (!configuration.unused.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name
                     << " does not use "
@@ -91,6 +63,7 @@ int runNode() {
   ros::NodeHandle node, private_node("~");
   Publisher publisher(node, run, options);
   Player player(node, private_node, run, options);
+  LiveRun live(node, private_node, run, integrator, options, player);
   const MasterRegistration registration;
   for (const std::string& rival : registration.rivals()) {
     ROS_WARN_STREAM(rival << " as well: start one of the nodes in a namespace, for example with "
@@ -101,8 +74,8 @@ int runNode() {
   ROS_INFO_STREAM("parameters: " << configuration.values);
   publisher.waitForSubscribers(options);
   catchInterruptions();  // from now on ROS continues after a signal until the files are closed
-  RunLog log(run, *integrator, files, publisher, options.at_end == AtEnd::kHold);
-  play(run, *integrator, player, publisher, files, log);
+  RunLog log(run, integrator, files, publisher, options.at_end == AtEnd::kHold);
+  play(run, live, player, publisher, files, log);
   files.finish();
   log.finish();
 

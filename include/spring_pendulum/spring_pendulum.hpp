@@ -17,6 +17,7 @@
 #include <spring_pendulum/model/drive.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
+#include <spring_pendulum/model/equilibrium.hpp>
 #include <spring_pendulum/model/particles.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 #include <spring_pendulum/model/state.hpp>

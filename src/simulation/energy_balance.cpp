@@ -50,11 +50,17 @@ EnergyBalance::EnergyBalance(Chain piece, const Energy& start, const EnergyScale
   widenScale(sums, start_energy_);
 }
 
-void EnergyBalance::change(const Chain& chain, const State& state, bool track_dissipation) {
+double EnergyBalance::change(const Chain& chain, const State& before, const State& after,
+                             bool track_dissipation, double supplied) {
+  const double energy_before = energyOf(before).total();
   chain_ = chain;
   track_dissipation_ = track_dissipation;
   changed_ = true;
-  widenScale(sumsOf(chain, state), energyOf(state).total());
+  const double energy_after = energyOf(after).total();
+  widenScale(sumsOf(chain, after), energy_after);
+  const double supplied_after = supplied + energy_after - energy_before;
+  most_supplied_ = std::max({most_supplied_, std::abs(supplied), std::abs(supplied_after)});
+  return supplied_after;
 }
 
 void EnergyBalance::widenScale(const EnergyScaleSums& sums, double energy) {
@@ -95,7 +101,8 @@ EnergyEntry EnergyBalance::entry(double time, const Energy& energy, double dissi
   entry.energy = energy;
   entry.supplied = supplied;
   entry.gain = entry.energy.total() - start_energy_ - supplied;
-  const double scale_now = scale(time) + std::abs(supplied);
+  // Energy that is taken back leaves its rounding and step errors in the chain.
+  const double scale_now = scale(time) + std::max(most_supplied_, std::abs(supplied));
   entry.relative_gain = entry.gain / scale_now;
   if (track_dissipation_) entry.dissipated = dissipated;
   if (chain_.spring().damping == 0.0 && !changed_) entry.dissipated = 0.0;

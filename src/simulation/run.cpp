@@ -5,6 +5,7 @@
 #include "simulation/options/scenario_options.hpp"
 #include "simulation/sleep.hpp"
 #include <spring_pendulum/integration/smallest_tolerance.hpp>
+#include <spring_pendulum/model/equilibrium.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <algorithm>
@@ -36,6 +37,12 @@ double toleranceOf(const Scenario& scenario) {
   return scenario.method.get().hasFixedStep() ? 0.0 : scenario.tolerance;
 }
 
+/// A resumed run goes on from its state.
+State startOf(const Scenario& scenario, const Chain& chain, const Particles& particles) {
+  const bool at_rest = scenario.start == Start::kAtRest && particles.frame == 0;
+  return at_rest ? equilibrium(chain, particles.state) : particles.state;
+}
+
 /// Number of states shown per frame.
 std::int64_t partsPerFrame(const Scenario& scenario, double display_interval) {
   // `sleep` is checked once per frame: states between the frames would not move.
@@ -63,9 +70,9 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
     : scenario_(checked(scenario, particles.frame)),
       options_(options),
       chain_(particles.masses, scenario.spring(), scenario.gravity),
-      start_(particles.state),
+      start_(startOf(scenario, chain_, particles)),
       first_frame_(particles.frame),
-      state_(particles.state),
+      state_(start_),
       frame_steps_(frameSteps(scenario)),
       track_dissipation_(scenario.damping > 0.0 &&
                          (options.track_dissipation || dissipationIsCheap(scenario, chain_))),
@@ -216,10 +223,8 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   if (!fixed_step) checkTolerance(next.tolerance, chain, state);
   const bool knows_dissipation =
       track_dissipation_ || (chain_.spring().damping == 0.0 && !changed_);
-  const double energy_before = judge_.balance().energyOf(state_).total();
   EnergyBalance balance = judge_.balance();
-  balance.change(chain, state, knows_dissipation);
-  const double jump = balance.energyOf(state).total() - energy_before;
+  const double supplied = balance.change(chain, state_, state, knows_dissipation, supplied_);
 
   const double start_of_steps = time();
   chain_ = std::move(chain);
@@ -227,7 +232,7 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   state_ = state;
   track_dissipation_ = knows_dissipation;
   changed_ = true;
-  judge_.change(chain_, state_, judgeOptions());
+  judge_.change(chain_, std::move(balance), judgeOptions());
   if (reference_) reference_->stopAtChange();
   if (other_control) {
     setFrameSteps();
@@ -235,7 +240,7 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
     frame_origin_ = frame_;
   }
   dissipated_before_ = dissipated_;
-  supplied_before_ = supplied_ = supplied_ + jump;
+  supplied_before_ = supplied_ = supplied;
   evaluations_before_ += integrator->forceEvaluations();
   work_at_start_ -= integrator->work();
   asleep_ = false;

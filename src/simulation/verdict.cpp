@@ -156,9 +156,9 @@ void Judge::noteTolerance(const ReferenceRun& reference) {
   exceeds_by_itself_ = !unknown && !reference.isSensitive();
 }
 
-void Judge::change(const Chain& chain, const State& state, const JudgeOptions& options) {
+void Judge::change(const Chain& chain, EnergyBalance balance, const JudgeOptions& options) {
   chain_ = chain;
-  balance_.change(chain, state, options.track_dissipation);
+  balance_ = std::move(balance);
   symplectic_step_ = options.symplectic_step;
   tolerance_ = options.tolerance;
 }

@@ -61,8 +61,8 @@ class Launch(unittest.TestCase):
     def test_a_text_that_looks_like_a_number_stays_a_text(self):
         texts = {p.get('name') for p in launch_file('pendulum').find('node').findall('param')
                  if p.get('type') == 'str'}
-        self.assertEqual(texts, {'method', 'particles', 'output', 'energy', 'save_state', 'on_divergence', 'reference',
-                                 'at_end', 'frame_id', 'follow', 'color', 'camera_frame'})
+        self.assertEqual(texts, {'method', 'particles', 'output', 'energy', 'save_state', 'on_divergence', 'reference', 'start',
+                                 'at_end', 'frame_id', 'follow', 'color', 'camera_frame', 'held', 'tf_particles'})
         with Folder() as folder:
             shutil.copy(SCENE, folder + '/1e3')
             launch('pendulum.launch', 'rviz:=false', 'at_end:=exit', 'frames:=2', 'output:=0042',

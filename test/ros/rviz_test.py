@@ -12,8 +12,8 @@ import unittest
 import rosgraph
 import rospy
 import rostest
-from spring_pendulum.msg import PendulumState
-from std_srvs.srv import SetBool
+from spring_pendulum.msg import PendulumState, PendulumStatus
+from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 
 from pendulum_process import (Folder, Listener, PendulumNode, program, project, standing,
@@ -177,6 +177,65 @@ class Rviz(unittest.TestCase):
             self.assertTrue(picture.near((x0 + x1) // 2, (y0 + y1) // 2, is_spring), 'a spring')
         self.assertTrue(is_background(picture.at(5, 5)))
         self.assertGreater(picture.count(is_background), 0.9 * WIDTH * HEIGHT)
+
+    def test_the_mouse_pulls_the_tip_and_opens_the_menu(self):
+        with Display() as display, \
+                Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer, \
+                PendulumNode(frames=100000, real_time_factor=1.0, wait_for_subscribers=1, at_end='hold',
+                             start='at_rest', particles=project('data/horizontal_11.txt')) as node:
+            listener = Listener('state', PendulumState, keep=2)
+            cameras = Listener('/tf_static', TFMessage)
+            camera = cameras.wait_for(1)[-1].transforms[0].transform.translation
+            rest = listener.wait_for(2)[-1].positions[-1]
+
+            def mouse(*arguments):
+                subprocess.run(['xdotool', *map(str, arguments)], env=display.environment, check=True)
+            column, row = pixel_of(rest, camera)
+            viewer.wait_for_picture('hand_before.png',
+                                    lambda p: p.near(column, row, is_yellow), 'the tip')
+
+            def grabbed():
+                """Moves the mouse to the tip and a little to the right of it."""
+                viewer.look_after()
+                mouse('mousemove', column, row)
+                rospy.sleep(1.0)
+                mouse('mousedown', 1)
+                for shift in range(0, 161, 20):
+                    mouse('mousemove', column + shift, row)
+                    rospy.sleep(0.1)
+                rospy.sleep(1.0)
+                if listener.messages[-1].positions[-1].x > rest.x + 0.5:
+                    return True
+                mouse('mouseup', 1)
+                return False
+            wait_until(grabbed, 'the tip follows the mouse', patience=120)
+            tip = listener.messages[-1].positions[-1]
+            wanted = tip.x, tip.z
+            pixel = pixel_of(tip, camera)
+            self.assertLess(abs(pixel[0] - column - 160), 25)
+            self.assertLess(abs(pixel[1] - row), 25)
+            display.picture('hand_pulls.png')
+            rospy.sleep(0.5)
+            tip = listener.messages[-1].positions[-1]
+            self.assertLess(math.hypot(tip.x - wanted[0], tip.z - wanted[1]), 1e-3)
+            mouse('mouseup', 1)
+            wait_until(lambda: listener.messages[-1].positions[-1].x < wanted[0] - 0.5, 'the tip swings back')
+            rospy.ServiceProxy('/pendulum/at_rest', Trigger)()
+            wait_until(lambda: listener.messages[-1].tip_speed < 1e-6, 'the rest')
+            rospy.sleep(1.0)
+            mouse('mousemove', column, row)
+            rospy.sleep(1.0)
+            mouse('click', 3)
+            rospy.sleep(1.5)
+            display.picture('hand_menu.png')
+            mouse('key', 'Down', 'Return')  # the first entry: pause
+            status = Listener('status', PendulumStatus)
+            status.wait_for_any(lambda m: m.code == PendulumStatus.PAUSED)
+            self.assertLess(abs(listener.messages[-1].energy_error), 1e-4)
+            for topic in (listener, cameras, status):
+                topic.close()
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
 
     def test_a_replayed_bag_of_any_namespaces(self):
         colors = {'left': (63, 182, 255), 'a/right': (255, 90, 79)}

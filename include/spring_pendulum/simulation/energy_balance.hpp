@@ -45,7 +45,7 @@ struct EnergyScaleSums {
 ///     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
 ///
 /// For a chain that starts in equilibrium, this is the energy of lifting it to the height of P_1.
-/// The supplied energy adds to the scale. Two rules keep the scale positive and finite:
+/// The largest supplied energy so far adds to the scale. Two rules keep the scale positive and finite:
 /// - it is at least the energy of all springs stretched by a millionth of their length;
 /// - without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
 ///   the mass M until time t, replaces the last term.
@@ -73,11 +73,13 @@ class EnergyBalance {
   /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
   Energy energyOf(const State& state) const;
 
-  /// Continues with another chain of as many particles. The caller adds the difference of the energies
-  /// of `state` before and after to the supplied energy.
+  /// Continues with another chain of as many particles, and from another state.
   /// \param track_dissipation whether the dissipated energy is known from the start on
+  /// \param supplied          energy supplied before the change, J
+  /// \returns the energy supplied until after the change, J: it includes the difference of the energies
   /// \throws InputError if an energy exceeds the range of double
-  void change(const Chain& chain, const State& state, bool track_dissipation);
+  double change(const Chain& chain, const State& before, const State& after, bool track_dissipation,
+                double supplied);
 
   /// Energy scale at a time in s, J; positive.
   double scale(double time) const;
@@ -93,6 +95,7 @@ class EnergyBalance {
   double start_height_ = 0.0;    ///< of P_1, m
   double constant_scale_ = 0.0;  ///< J
   double fall_ = 0.0;            ///< scale of the free fall, J/s²
+  double most_supplied_ = 0.0;   ///< largest amount at a change, J
 };
 
 }  // namespace spring_pendulum

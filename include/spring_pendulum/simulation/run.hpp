@@ -110,6 +110,10 @@ class Run {
   double time() const { return timeOfPart(part_); }
   /// Simulated time after `advancePart`, s.
   double nextTime() const { return timeOfPart(part_ + 1); }
+  /// Simulated time of the next frame, s.
+  double nextFrameTime() const { return timeOfPart(parts_); }
+  /// Whether `change` was called since the start or the last reset.
+  bool isChanged() const { return changed_; }
 
   /// The verdict on the run so far.
   const Verdict& verdict() const { return judge_.worst(); }

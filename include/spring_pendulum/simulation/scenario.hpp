@@ -14,6 +14,9 @@ namespace spring_pendulum {
 /// Action after a divergence. A run never continues with numbers that are not finite.
 enum class OnDivergence { kStop, kContinue };
 
+/// Where a run starts: as the particle file says, or in the equilibrium of the chain.
+enum class Start { kFile, kAtRest };
+
 /// Whether a reference run measures the position error: while it is cheap, to the end, or never.
 enum class ReferenceUse { kAuto, kAlways, kNever };
 
@@ -26,6 +29,7 @@ struct Scenario {
   std::string energy;                      ///< file for the energy balance; empty: none
   std::string save_state;                  ///< file for the state at the last frame; empty: none
   bool resume = false;                     ///< go on from the frame of the state file `particles`
+  Start start = Start::kFile;
   OnDivergence on_divergence = OnDivergence::kStop;
   ReferenceUse reference = ReferenceUse::kAuto;
 

@@ -101,8 +101,8 @@ class Judge {
   /// Discards all judged frames.
   void restart();
 
-  /// Continues with another chain; see EnergyBalance::change.
-  void change(const Chain& chain, const State& state, const JudgeOptions& options);
+  /// Continues with another chain and its balance, see EnergyBalance::change.
+  void change(const Chain& chain, EnergyBalance balance, const JudgeOptions& options);
 
   const EnergyBalance& balance() const { return balance_; }
   /// The energy balance of the last judged state.

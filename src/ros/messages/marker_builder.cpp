@@ -271,6 +271,8 @@ void MarkerBuilder::place(const Run& run, const State& state) {
   springs.clear();
   strains_.clear();
   placed_ = true;
+  markers_.markers[kAnchor].pose.position.x = state.x()[0];
+  markers_.markers[kAnchor].pose.position.z = state.y()[0];
   if (drawn_.size() < 2) return;
   for (std::size_t n = 0; n < drawn_.size(); ++n) {
     particles.push_back(pointOf(state, drawn_[n]));

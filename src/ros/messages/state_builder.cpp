@@ -11,6 +11,20 @@ double strainOf(double length, double rest_length) {
   return rest_length > 0.0 ? length / rest_length - 1.0 : length;
 }
 
+namespace {
+
+/// Force of spring i along its direction, N.
+double tension(const Chain& chain, const State& state, Eigen::Index i) {
+  const double length = springLength(state, i);
+  if (length == 0.0) return 0.0;
+  const PlaneVector<double> force = springForceOn(chain, state, i);
+  return (force.x * (state.x()[i + 1] - state.x()[i]) +
+          force.y * (state.y()[i + 1] - state.y()[i])) /
+         length;
+}
+
+}  // namespace
+
 double largestStretch(const Chain& chain, const State& state) {
   if (state.size() < 2) return 0.0;
   double longest = 0.0;
@@ -37,7 +51,12 @@ const PendulumState& StateBuilder::build(const Run& run, const std_msgs::Header&
   setPositionError(run, message_);
   message_.largest_stretch = largestStretch(run.chain(), run.state());
   message_.verdict = std::string(toString(run.verdict().kind));
+  message_.supplied_energy = entry.supplied;
   copyState(run.state());
+  message_.tensions.resize(message_.positions.size() - 1);
+  for (std::size_t i = 0; i < message_.tensions.size(); ++i) {
+    message_.tensions[i] = tension(run.chain(), run.state(), static_cast<Eigen::Index>(i));
+  }
   message_.tip_position = message_.positions.back();
   const geometry_msgs::Vector3& tip_velocity = message_.velocities.back();
   message_.tip_speed = std::hypot(tip_velocity.x, tip_velocity.z);

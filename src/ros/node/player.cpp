@@ -51,7 +51,7 @@ Player::Action Player::next() {
     serveUntilDue();
     if (!isWanted()) break;
     const ros::SteadyTime now = ros::SteadyTime::now();
-    if (reset_wanted_) return reset();
+    if (reset_wanted_) return goBack();
     if (isAhead()) {
       if (now < next_between_) continue;
       const ros::WallDuration interval(std::min(1.0 / options_.display_rate, kLongestInterval));
@@ -68,13 +68,18 @@ Player::Action Player::next() {
     }
     if (isAtExit()) return Action::kQuit;
     if (!run_.isOver() && !paused_) continue;
+    if (touched_) {
+      touched_ = false;
+      stands_since_ = last_shown_ = now;
+      return Action::kShowAgain;
+    }
     if (stands_since_.isZero()) {
       stands_since_ = last_shown_ = now;
       return Action::kShowAgain;
     }
     if (run_.isOver() && options_.at_end == AtEnd::kLoop &&
         (now - stands_since_).toSec() >= kLoopPause) {
-      return reset();
+      return goBack();
     }
     if ((now - last_shown_).toSec() < kShowAgainInterval) continue;
     last_shown_ = now;
@@ -83,7 +88,7 @@ Player::Action Player::next() {
   return Action::kQuit;
 }
 
-Player::Action Player::reset() {
+Player::Action Player::goBack() {
   ahead_from_ = -1.0;
   reset_wanted_ = false;
   steps_wanted_ = 0;
@@ -158,22 +163,38 @@ std::string Player::overMessage() const {
                      run_.isShown() ? "" : ", because the motion diverged");
 }
 
-bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  const bool pause = request.data != 0;
-  if (run_.isOver() && options_.at_end != AtEnd::kLoop) {
-    response.success = 0;
-    response.message = overMessage();
-    return true;
-  }
-  response.success = 1;
-  response.message =
-      fmt::format("{}{} at frame {}, t = {:.6g} s", pause == paused_ ? "already " : "",
-                  pause ? "paused" : "running", run_.frame(), run_.time());
-  if (pause == paused_) return true;
-  paused_ = pause;
+std::string Player::pause(bool paused) {
+  const std::string sentence =
+      fmt::format("{}{} at frame {}, t = {:.6g} s", paused == paused_ ? "already " : "",
+                  paused ? "paused" : "running", run_.frame(), run_.time());
+  if (paused == paused_) return sentence;
+  paused_ = paused;
   steps_wanted_ = 0;
   stands_since_ = ros::SteadyTime();
   pacer_.start(run_.time(), ros::SteadyTime::now());
+  return sentence;
+}
+
+void Player::setSpeed(double real_time_factor) {
+  options_.real_time_factor = real_time_factor;
+  pacer_ = Pacer(real_time_factor, options_.display_rate);
+  pacer_.start(run_.time(), ros::SteadyTime::now());
+}
+
+std::string Player::step() {
+  ++steps_wanted_;
+  return fmt::format("advancing to frame {}", run_.frame() + steps_wanted_);
+}
+
+std::string Player::reset() {
+  reset_wanted_ = true;
+  return fmt::format("back to frame 0 from frame {}{}", run_.frame(), paused_ ? ", paused" : "");
+}
+
+bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  const bool over = run_.isOver() && options_.at_end != AtEnd::kLoop;
+  response.success = over ? 0 : 1;
+  response.message = over ? overMessage() : pause(request.data != 0);
   return true;
 }
 
@@ -183,16 +204,13 @@ bool Player::onStep(TriggerRequest&, TriggerResponse& response) {
   } else if (!paused_) {
     answer(response, false, "the run is not paused; call ~pause first");
   } else {
-    ++steps_wanted_;
-    answer(response, true, fmt::format("advancing to frame {}", run_.frame() + steps_wanted_));
+    answer(response, true, step());
   }
   return true;
 }
 
 bool Player::onReset(TriggerRequest&, TriggerResponse& response) {
-  reset_wanted_ = true;
-  answer(response, true,
-         fmt::format("back to frame 0 from frame {}{}", run_.frame(), paused_ ? ", paused" : ""));
+  answer(response, true, reset());
   return true;
 }
 

@@ -34,6 +34,16 @@ class Player {
   /// Serves callbacks until the next action is due.
   Action next();
 
+  /// Pauses or continues, takes a step, or goes back to frame 0, as the services do.
+  std::string pause(bool paused);
+  std::string step();
+  std::string reset();
+  bool isPaused() const { return paused_; }
+  /// Sets the real-time factor from now on.
+  void setSpeed(double real_time_factor);
+  /// Shows the present state again soon, because the user has changed it.
+  void touch() { touched_ = true; }
+
   /// How to show the present state. Must be called once after every action.
   Showing showing();
 
@@ -49,7 +59,7 @@ class Player {
   std::string overMessage() const;
   std::string pace() const;
   double shownShare() const;
-  Action reset();
+  Action goBack();
   bool isDue() const;
   bool isSlow() const;
   bool isAhead() const;
@@ -61,6 +71,7 @@ class Player {
   Pacer pacer_;
   bool paused_ = false;
   bool reset_wanted_ = false;
+  bool touched_ = false;
   std::int64_t steps_wanted_ = 0;
   double ahead_from_ = -1.0;  ///< s, slow motion: time of the previous state; else < 0
   ros::SteadyTime next_between_;

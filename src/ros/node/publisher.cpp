@@ -70,11 +70,11 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
   }
 }
 
-void Publisher::publish(const Run& run, const Showing& showing) {
+std::optional<std_msgs::Header> Publisher::publish(const Run& run, const Showing& showing) {
   std::optional<PendulumStatus> status = build_.newStatus(run, showing.paused);
   const bool has_markers = markers_.getNumSubscribers() > 0;
   if (has_markers) build_.show(run, showing.share);
-  if (!showing.due && !status) return;
+  if (!showing.due && !status) return std::nullopt;
   const std_msgs::Header header = build_.header(run.time());
   if (publishes_clock_) {
     rosgraph_msgs::Clock clock;
@@ -87,9 +87,10 @@ void Publisher::publish(const Run& run, const Showing& showing) {
     state_.publish(build_.state(run, header));
     ++states_built_;
   }
-  if (!status) return;
+  if (!status) return header;
   status->header = header;
   status_.publish(*status);
+  return header;
 }
 
 void Publisher::publishBetween(const Run& run, const Showing& showing) {

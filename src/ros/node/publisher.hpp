@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace spring_pendulum {
@@ -32,7 +33,8 @@ class Publisher {
 
   /// Publishes the state on all topics with subscribers, and the status if it has changed. In slow
   /// motion, the markers are left to `publishBetween`.
-  void publish(const Run& run, const Showing& showing);
+  /// \returns the header of the messages; nothing if the state was not due
+  std::optional<std_msgs::Header> publish(const Run& run, const Showing& showing);
   /// Publishes only the markers, for a state between the last two.
   void publishBetween(const Run& run, const Showing& showing);
 

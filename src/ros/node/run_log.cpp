@@ -81,18 +81,21 @@ void logStart(const Run& run, const NodeOptions& options, const RunFiles& files)
 
 std::string RunLog::closingLine() const {
   return run_.closingLine(
-      integrator_, fmt::format("{}, {} marker and {} state messages built", files_.closingText(),
-                               publisher_.markersBuilt(), publisher_.statesBuilt()));
+      *integrator_, fmt::format("{}, {} marker and {} state messages built", files_.closingText(),
+                                publisher_.markersBuilt(), publisher_.statesBuilt()));
 }
 
 void RunLog::note() {
+  parameters_.look();
   const Verdict& verdict = run_.verdict();
   const std::string& method = run_.scenario().method.get().name;
   if (verdict.kind > said_verdict_) {
     said_verdict_ = verdict.kind;
     if (verdict.kind == VerdictKind::kDiverged) {
       const std::string remedy =
-          remedyForDivergence(run_.chain(), run_.start(), run_.scenario(), interruption);
+          run_.isChanged()
+              ? "hands, forces or changes have driven the run; call ~reset to start again"
+              : remedyForDivergence(run_.chain(), run_.start(), run_.scenario(), interruption);
       ROS_ERROR_STREAM(method << ": " << verdict.text << (remedy.empty() ? "" : "; ") << remedy);
     } else if (verdict.kind != VerdictKind::kNotChecked) {
       ROS_WARN_STREAM(method << ": " << verdict.text);
@@ -118,7 +121,7 @@ void RunLog::finish() const {
 
 void RunLog::sayChoice() {
   if (choices_said_ == kMostChoices || run_.frame() == 0) return;
-  const std::string report = integrator_.report();
+  const std::string report = integrator_->report();
   const std::string choice = switchesOf(report);
   if (choice.empty() || choice == said_choice_) return;
   said_choice_ = choice;

@@ -3,9 +3,11 @@
 
 #include "io/formats/run_files.hpp"
 #include "ros/node/publisher.hpp"
+#include "ros/parameters/parameter_watch.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace spring_pendulum {
@@ -22,12 +24,12 @@ class RunLog {
  public:
   /// All but `holds` must outlive the log.
   /// \param holds whether the node continues after the end of the run
-  RunLog(const Run& run, const Integrator& integrator, const RunFiles& files,
+  RunLog(const Run& run, const std::unique_ptr<Integrator>& integrator, const RunFiles& files,
          const Publisher& publisher, bool holds)
       : run_(run), integrator_(integrator), files_(files), publisher_(publisher), holds_(holds) {}
 
   /// Must be called after every action. Logs once each: a bad verdict, a divergence with its
-  /// remedy, the choices of Auto, the end of the run.
+  /// remedy, the choices of Auto, the end of the run, parameters that are changed without effect.
   void note();
 
   /// Logs the closing line of a run that did not reach its end, or continued after it.
@@ -38,7 +40,7 @@ class RunLog {
   void sayChoice();
 
   const Run& run_;
-  const Integrator& integrator_;
+  const std::unique_ptr<Integrator>& integrator_;
   const RunFiles& files_;
   const Publisher& publisher_;
   bool holds_;
@@ -47,6 +49,7 @@ class RunLog {
   std::string said_choice_;
   bool said_tolerance_ = false;
   int choices_said_ = 0;
+  ParameterWatch parameters_;
 };
 
 }  // namespace spring_pendulum

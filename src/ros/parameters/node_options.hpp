@@ -4,6 +4,7 @@
 #include "simulation/options/option.hpp"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,16 +22,26 @@ struct NodeOptions {
   std::int64_t wait_for_subscribers = 0;
   double wait_timeout = 30.0;  ///< s; 0: unlimited
   bool publish_clock = false;
-  std::string follow;                            ///< topic of another node's state
-  bool track_dissipation = true;                 ///< integrate the dissipated power as well
-  double trail = 2.0;                            ///< s, length of the tip's trail; 0: none
-  std::string color;                             ///< "#rrggbb"; empty: by strain and mass
-  std::int64_t display_limit = 10000;            ///< largest number of drawn particles
-  bool show_reference = false;                   ///< draw the reference run as a pale second chain
-  double y_offset = 0.0;                         ///< m, y of the plane of the motion
-  std::int64_t text_row = 0;                     ///< row of the text, counted upwards
-  std::int64_t text_rows = 1;                    ///< number of rows of text in the picture
+  std::string follow;                  ///< topic of another node's state
+  bool track_dissipation = true;       ///< integrate the dissipated power as well
+  double trail = 2.0;                  ///< s, length of the tip's trail; 0: none
+  std::string color;                   ///< "#rrggbb"; empty: by strain and mass
+  std::int64_t display_limit = 10000;  ///< largest number of drawn particles
+  bool show_reference = false;         ///< draw the reference run as a pale second chain
+  double y_offset = 0.0;               ///< m, y of the plane of the motion
+  std::int64_t text_row = 0;           ///< row of the text, counted upwards
+  std::int64_t text_rows = 1;          ///< number of rows of text in the picture
+  std::string held;                    ///< particles that robots hold: "1, last"
+  std::map<std::int64_t, std::string> held_frames;  ///< tf frames of their holders, by particle
+  std::string tf_particles;                         ///< particles with a tf frame
+  double click_impulse = 1.0;                    ///< N·s, of a click with Publish Point; 0: none
   std::string camera_frame = "pendulum_camera";  ///< empty: none
+
+  /// Simulated time between two shown states, s; 0: only frames are shown.
+  double displayInterval() const {
+    const bool smooth = display_rate > 0.0 && real_time_factor > 0.0;
+    return smooth ? real_time_factor / display_rate : 0.0;
+  }
 };
 
 /// Whether ROS accepts a topic or namespace of this name; it may be empty.

@@ -19,7 +19,7 @@ void ParameterWatch::look() {
     if (known_.hasMember(key) && known_[key] == value) continue;
     ROS_WARN(
         "parameter ~%s was changed while the node runs: this has no effect until the node is "
-        "started again",
+        "started again; the service ~set changes constants at once",
         key.c_str());
   }
   known_ = values;

@@ -10,6 +10,9 @@
 #include <ros/param.h>
 #include <ros/this_node.h>
 
+#include <cmath>
+#include <optional>
+
 namespace spring_pendulum {
 namespace {
 
@@ -23,6 +26,46 @@ void refuseGuess(XmlRpc::XmlRpcValue& value, const std::string& text, const Opti
       "type=\"str\" in a launch file, or quotes in YAML",
       place, value.getType() == XmlRpc::XmlRpcValue::TypeBoolean ? "truth value" : "number", text,
       option.key));
+}
+
+}  // namespace
+
+namespace {
+
+/// Reads `held_<i>_frame`.
+/// \returns whether the key is of this kind
+bool takeHeldFrame(const std::string& key, XmlRpc::XmlRpcValue& value, const std::string& where,
+                   NodeOptions& options) {
+  const std::string_view prefix = "held_", suffix = "_frame";
+  if (key.size() <= prefix.size() + suffix.size() || key.compare(0, prefix.size(), prefix) != 0 ||
+      key.compare(key.size() - suffix.size(), suffix.size(), suffix) != 0) {
+    return false;
+  }
+  const std::string number = key.substr(prefix.size(), key.size() - prefix.size() - suffix.size());
+  const std::optional<double> particle = parseNumber(number);
+  const std::string place = fmt::format("{}: {}", where, key);
+  if (!particle || *particle < 1.0 || *particle > 1e15 || *particle != std::floor(*particle)) {
+    throw InputError(place + ": write the number of a held particle: held_1_frame");
+  }
+  const std::string frame = parameterText(value, place);
+  if (frame.empty() || frame.front() == '/') {
+    throw InputError(place + ": must be a name without a leading '/'");
+  }
+  options.held_frames[static_cast<std::int64_t>(*particle)] = frame;
+  return true;
+}
+
+/// Joins a list of numbers and words to one text.
+void joinList(XmlRpc::XmlRpcValue& value) {
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) {
+    if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) value = parameterText(value, "");
+    return;
+  }
+  std::string text;
+  for (int i = 0; i < value.size(); ++i) {
+    text += (text.empty() ? "" : ", ") + parameterText(value[i], "a list of particles");
+  }
+  value = text;
 }
 
 }  // namespace
@@ -56,6 +99,8 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
   OptionSet options = nodeOptions(configuration);
   if (parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
     for (auto& [key, value] : parameters) {
+      if (takeHeldFrame(key, value, where, configuration.options)) continue;
+      if (key == "held" || key == "tf_particles") joinList(value);
       const std::string place = fmt::format("{}: {}", where, key);
       const Option& option = options.find(key, where);
       const std::string text = parameterText(value, place);
@@ -93,7 +138,13 @@ NodeConfiguration readPrivateParameters() {
         fmt::format("{}: the ROS master at {} did not answer when the parameters were read", node,
                     ros::master::getURI()));
   }
-  return readParameters(parameters, node);
+  try {
+    return readParameters(parameters, node);
+  } catch (const InputError& error) {  // parameters of an earlier run stay on the ROS master
+    throw InputError(
+        fmt::format("{}. If an earlier run has left this parameter, delete it: rosparam delete {}",
+                    error.what(), node));
+  }
 }
 
 }  // namespace spring_pendulum

@@ -51,6 +51,8 @@ std::vector<Option> scenarioOptions(Scenario& s) {
        "file for the state at the last frame, a particle file to resume from; its folder is "
        "created "
        "if absent"},
+      {"start", Choice(&s.start, {"file", "at_rest"}), "",
+       "start: as the particle file says, or hanging at rest from its first particle"},
       {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
        "after a divergence: stop, or continue as long as every number is finite"},
       {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",

@@ -1,0 +1,180 @@
+#include "ros/inputs/commands.hpp"
+
+#include "base/numbers.hpp"
+#include "base/spelling.hpp"
+#include "simulation/options/option_set.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/integration/smallest_tolerance.hpp>
+#include <spring_pendulum/model/equilibrium.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
+
+#include <fmt/format.h>
+
+#include <ros/console.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+const std::vector<std::string> kLive = {"method",      "tolerance", "stiffness",       "damping",
+                                        "rest_length", "gravity",   "real_time_factor"};
+
+/// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
+/// the range of double, or takes hours per frame.
+constexpr double kLargest = 1e9;
+/// Largest acceleration by a force, in lengths of the chain per s².
+constexpr double kLargestAcceleration = 1e6;
+
+std::string tooLarge(const std::string& name) {
+  return fmt::format("{}: must be at most {:g} while the chain moves", name, kLargest);
+}
+
+/// Calls a function and answers with its sentence, or with the error.
+template <typename Response, typename Function>
+bool answer(Response& response, const Function& function) {
+  try {
+    response.message = function();
+    response.success = 1;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    response.success = 0;
+  }
+  return true;
+}
+
+}  // namespace
+
+Commands::Commands(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
+                   const NodeOptions& options, Holders& holders, Frames& frames,
+                   std::function<void(double)> set_speed, std::function<void()> show)
+    : run_(run),
+      options_(options),
+      holders_(holders),
+      frames_(frames),
+      set_speed_(std::move(set_speed)),
+      show_(std::move(show)) {
+  set_service_ = private_node.advertiseService("set", &Commands::onSet, this);
+  force_ = private_node.advertiseService("apply_force", &Commands::onApplyForce, this);
+  clear_ = private_node.advertiseService("clear_forces", &Commands::onClearForces, this);
+  at_rest_ = private_node.advertiseService("at_rest", &Commands::onAtRest, this);
+  if (options.click_impulse > 0.0) {
+    click_ = node.subscribe("clicked_point", 10, &Commands::onClick, this);
+  }
+}
+
+std::string Commands::set(const std::string& name, const std::string& value) {
+  if (std::find(kLive.begin(), kLive.end(), name) == kLive.end()) {
+    throw InputError(unknownName("live constant", name, kLive));
+  }
+  if (name == "real_time_factor") {
+    NodeOptions options = options_;
+    OptionSet all(playOptions(options));
+    all.set(all.find(name, "set"), value, name);
+    if (options.real_time_factor > kLargest) throw InputError(tooLarge(name));
+    options_.real_time_factor = options.real_time_factor;
+    set_speed_(options.real_time_factor);
+    return fmt::format("real_time_factor is {}", numberText(options.real_time_factor));
+  }
+  Scenario wanted = holders_.wanted();
+  OptionSet all(scenarioOptions(wanted));
+  const Option& option = all.find(name, "set");
+  all.set(option, value, name);
+  checkScenario(wanted);
+  const double largest =
+      std::max({wanted.stiffness, wanted.damping, wanted.rest_length, std::abs(wanted.gravity)});
+  if (largest > kLargest) throw InputError(tooLarge(name));
+  if (!wanted.method.get().hasFixedStep()) {
+    checkTolerance(wanted.tolerance, run_.chain(), run_.state());
+  }
+  holders_.wanted() = wanted;
+  return fmt::format("{} is {} from the next state on", name, option.text());
+}
+
+bool Commands::onSet(Set::Request& request, Set::Response& response) {
+  return answer(response, [&] {
+    if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
+    return set(request.name, request.value);
+  });
+}
+
+std::string Commands::applyForce(const ApplyForce::Request& request) {
+  if (request.particle < 1 || request.particle > run_.chain().size()) {
+    throw InputError(fmt::format("particle {} does not exist: the chain has particles 1 to {}",
+                                 request.particle, run_.chain().size()));
+  }
+  const std::ptrdiff_t particle = request.particle - 1;
+  if (particle == 0 || holders_.isHeld(particle)) {
+    throw InputError(
+        fmt::format("particle {} is held: a force would not move it", request.particle));
+  }
+  const auto& f = request.force;
+  if (!std::isfinite(request.start_time) || !std::isfinite(request.duration)) {
+    throw InputError("start_time and duration must be finite");
+  }
+  const geometry_msgs::Vector3 force =
+      rotated(frames_.from(request.frame_id).transform.rotation, f.x, f.y, f.z);
+  const double strongest = kLargestAcceleration * run_.chain().masses()[particle] *
+                           std::max(chainLength(run_.chain(), run_.start()), 1.0);
+  if (!(std::hypot(f.x, f.y, f.z) <= strongest)) {
+    throw InputError(
+        fmt::format("force must be at most {:.3g} N on particle {}", strongest, request.particle));
+  }
+  const double begin = std::max(request.start_time, run_.time());
+  const double end =
+      request.duration < 0.0 ? std::numeric_limits<double>::infinity() : begin + request.duration;
+  holders_.push({particle, {force.x, force.z}, begin, end});
+  return fmt::format("particle {}: ({:.6g}, {:.6g}) N from t = {:.6g} s {}", request.particle,
+                     force.x, force.z, begin,
+                     std::isinf(end) ? "until clear_forces" : fmt::format("to {:.6g} s", end));
+}
+
+bool Commands::onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response) {
+  return answer(response, [&] { return applyForce(request); });
+}
+
+bool Commands::onClearForces(std_srvs::Trigger::Request& /*request*/,
+                             std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    return counted(static_cast<std::int64_t>(holders_.clearForces()), "force") + " cleared";
+  });
+}
+
+bool Commands::onAtRest(std_srvs::Trigger::Request& /*request*/,
+                        std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
+    holders_.jumpTo(equilibrium(run_.chain(), run_.state()));
+    show_();
+    return std::string("the chain hangs at rest from the next state on");
+  });
+}
+
+void Commands::onClick(const geometry_msgs::PointStamped::ConstPtr& point) {
+  geometry_msgs::Vector3 at;
+  try {
+    at = transformed(frames_.from(point->header.frame_id).transform, point->point);
+  } catch (const InputError& error) {
+    ROS_WARN_STREAM("clicked_point: " << error.what());
+    return;
+  }
+  if (!std::isfinite(at.x) || !std::isfinite(at.z) || run_.chain().size() < 2) return;
+  const State& state = run_.state();
+  Eigen::Index nearest = 1;
+  const auto dx = state.x().array() - at.x, dy = state.y().array() - at.z;
+  (dx.square() + dy.square()).tail(state.size() - 1).minCoeff(&nearest);
+  ++nearest;  // P_1 does not count
+  const double distance = std::hypot(dx[nearest], dy[nearest]);
+  const PlaneVector<double> away =
+      distance > 1e-6 ? PlaneVector<double>{dx[nearest] / distance, dy[nearest] / distance}
+                      : PlaneVector<double>{1.0, 0.0};
+  const double speed = options_.click_impulse * run_.chain().inverseMasses()[nearest];
+  holders_.kick(nearest, {speed * away.x, speed * away.y});
+  ROS_INFO_STREAM("clicked_point: an impulse of " << options_.click_impulse << " N s on particle "
+                                                  << nearest + 1);
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,242 @@
+#include "ros/inputs/handles.hpp"
+
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/simulation/reference_run.hpp>
+
+#include <fmt/format.h>
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace spring_pendulum {
+namespace {
+
+using interactive_markers::MenuHandler;
+using visualization_msgs::InteractiveMarkerFeedback;
+
+constexpr double kLongestSilence = 1.0;  // s
+/// Diameter of a handle, in lengths of the chain at the start; smaller if handles are close together.
+constexpr double kSize = 0.08;
+constexpr double kShareOfSpring = 0.7;
+
+std::string nameOf(std::ptrdiff_t particle) {
+  return fmt::format("particle_{}", particle + 1);
+}
+
+visualization_msgs::InteractiveMarkerControl movingControl() {
+  visualization_msgs::InteractiveMarkerControl control;
+  control.name = "move";
+  control.always_visible = 1;
+  control.interaction_mode = visualization_msgs::InteractiveMarkerControl::MOVE_PLANE;
+  // The plane is perpendicular to the x axis of the control: turned to the y axis of the frame.
+  control.orientation.w = control.orientation.z = std::sqrt(0.5);
+  control.orientation_mode = visualization_msgs::InteractiveMarkerControl::FIXED;
+  visualization_msgs::Marker ball;
+  ball.type = visualization_msgs::Marker::SPHERE;
+  ball.pose.orientation.w = 1.0;
+  ball.color.r = ball.color.g = ball.color.b = 1.0F;
+  ball.color.a = 0.12F;
+  control.markers.push_back(ball);
+  return control;
+}
+
+}  // namespace
+
+std::vector<std::ptrdiff_t> Handles::chosen(std::ptrdiff_t particles) {
+  const auto count = std::min<std::ptrdiff_t>(particles, kMost);
+  std::vector<std::ptrdiff_t> result;
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    result.push_back(count < 2 ? 0 : k * (particles - 1) / (count - 1));
+  }
+  return result;
+}
+
+Handles::Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& options,
+                 Holders& holders, Frames& frames, MenuActions actions)
+    : run_(run),
+      holders_(holders),
+      frames_(frames),
+      actions_(std::move(actions)),
+      frame_id_(options.frame_id),
+      y_(options.y_offset),
+      farthest_(10.0 * std::max(chainLength(run.chain(), run.start()), 1.0)),
+      server_(node.resolveName("handles")),
+      particles_(chosen(run.chain().size())),
+      updates_(node.advertise<visualization_msgs::InteractiveMarkerUpdate>("handles/update", 100)) {
+  const double length = std::max(chainLength(run.chain(), run.start()), 0.1);
+  const auto count = static_cast<double>(particles_.size());
+  makeMenu();
+  for (const std::ptrdiff_t particle : particles_) {
+    insert(particle, std::min(kSize * length, kShareOfSpring * length / count));
+  }
+  checkMenu();
+  show();
+  server_.applyChanges();
+}
+
+void Handles::insert(std::ptrdiff_t particle, double size) {
+  visualization_msgs::InteractiveMarker marker;
+  marker.header.frame_id = frame_id_;
+  marker.name = nameOf(particle);
+  marker.scale = static_cast<float>(size);
+  marker.pose = poseOf(particle);
+  marker.controls.push_back(movingControl());
+  auto& scale = marker.controls.back().markers.back().scale;
+  scale.x = scale.y = scale.z = size;
+  server_.insert(marker, [this, particle](const Feedback& f) { onFeedback(particle, f); });
+  menu_.apply(server_, marker.name);
+}
+
+void Handles::addEntry(const std::string& title, std::function<void(std::ptrdiff_t)> action) {
+  menu_.insert(title, [this, action = std::move(action)](const Feedback& feedback) {
+    for (const std::ptrdiff_t particle : particles_) {
+      if (feedback->marker_name == nameOf(particle)) action(particle);
+    }
+    actions_.show();
+    checkMenu();
+  });
+}
+
+void Handles::makeMenu() {
+  addEntry("Pause or go on", [this](std::ptrdiff_t) { actions_.toggle_pause(); });
+  addEntry("Step", [this](std::ptrdiff_t) { actions_.step(); });
+  addEntry("Reset", [this](std::ptrdiff_t) { actions_.reset(); });
+  addEntry("Hold here", [this](std::ptrdiff_t i) {
+    holders_.hold(i, {{run_.state().x()[i], run_.state().y()[i]}, {}});
+  });
+  addEntry("Release", [this](std::ptrdiff_t i) { holders_.release(i); });
+  const Scenario& launched = run_.scenario();
+  addSwitch("Damping", &Scenario::damping,
+            launched.damping > 0.0 ? launched.damping : Scenario{}.damping);
+  addSwitch("Gravity", &Scenario::gravity,
+            launched.gravity != 0.0 ? launched.gravity : Scenario{}.gravity);
+  addMethods();
+}
+
+void Handles::addSwitch(const std::string& title, double Scenario::*constant, double on) {
+  const Entry entry = menu_.insert(title, [this, constant, on](const Feedback&) {
+    double& value = holders_.wanted().*constant;
+    value = value == 0.0 ? on : 0.0;
+    checkMenu();
+  });
+  checks_[entry] = [this, constant] { return holders_.wanted().*constant != 0.0; };
+}
+
+void Handles::addMethods() {
+  const Entry parent = menu_.insert("Method");
+  for (const Method& method : methodTable()) {
+    const Entry entry = menu_.insert(parent, method.name, [this, &method](const Feedback&) {
+      holders_.wanted().method = method;
+      checkMenu();
+    });
+    checks_[entry] = [this, &method] { return &holders_.wanted().method.get() == &method; };
+  }
+}
+
+void Handles::checkMenu() {
+  if (!hands_.empty()) return;
+  bool changed = false;
+  for (const auto& [entry, is_on] : checks_) {
+    const bool on = is_on();
+    const auto known = checked_.find(entry);
+    if (known != checked_.end() && known->second == on) continue;
+    checked_[entry] = on;
+    menu_.setCheckState(entry, on ? MenuHandler::CHECKED : MenuHandler::UNCHECKED);
+    changed = true;
+  }
+  if (!changed) return;
+  menu_.reApply(server_);
+  server_.applyChanges();
+}
+
+std::optional<PlaneVector<double>> Handles::planePosition(const Feedback& feedback) {
+  try {
+    const auto transform = frames_.from(feedback->header.frame_id).transform;
+    const auto point = transformed(transform, feedback->pose.position);
+    return PlaneVector<double>{point.x, point.z};
+  } catch (const InputError& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "handle " << feedback->marker_name << ": " << error.what());
+    return std::nullopt;
+  }
+}
+
+void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
+  // The server has taken over the pose of the mouse, which may not be a number.
+  if (run_.isFinite()) server_.setPose(nameOf(particle), poseOf(particle));
+  switch (feedback->event_type) {
+    case InteractiveMarkerFeedback::MOUSE_DOWN:
+    case InteractiveMarkerFeedback::KEEP_ALIVE:
+    case InteractiveMarkerFeedback::POSE_UPDATE: {
+      const bool is_new = hands_.count(particle) == 0;
+      if (is_new && feedback->event_type == InteractiveMarkerFeedback::KEEP_ALIVE) return;
+      if (is_new) was_held_[particle] = holders_.isHeld(particle) || particle == 0;
+      const PlaneVector<double> here{run_.state().x()[particle], run_.state().y()[particle]};
+      if (feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) {
+        const auto position = planePosition(feedback);
+        if (!position) return;
+        // Also true for a position that is not finite.
+        if (!(std::hypot(position->x - here.x, position->y - here.y) <= farthest_)) {
+          ROS_WARN_STREAM_THROTTLE(5.0, "handle " << feedback->marker_name
+                                                  << ": the hand is too far away to be followed");
+          hands_[particle] = ros::SteadyTime::now();
+          return;
+        }
+        holders_.hold(particle, {*position, {}});
+      } else if (is_new) {
+        holders_.hold(particle, {here, {}});
+      }
+      hands_[particle] = ros::SteadyTime::now();
+      actions_.show();
+      return;
+    }
+    case InteractiveMarkerFeedback::MOUSE_UP:
+      if (hands_.erase(particle) == 0) return;
+      if (!was_held_[particle]) holders_.release(particle);
+      actions_.show();
+      return;
+    default:
+      return;
+  }
+}
+
+void Handles::watch() {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  for (auto hand = hands_.begin(); hand != hands_.end();) {
+    if ((now - hand->second).toSec() < kLongestSilence) {
+      ++hand;
+      continue;
+    }
+    ROS_WARN_STREAM("no word from the hand at particle " << hand->first + 1
+                                                         << " for a second: released");
+    if (!was_held_[hand->first]) holders_.release(hand->first);
+    hand = hands_.erase(hand);
+  }
+}
+
+geometry_msgs::Pose Handles::poseOf(std::ptrdiff_t particle) const {
+  geometry_msgs::Pose pose;
+  pose.orientation.w = 1.0;
+  pose.position.x = run_.state().x()[particle];
+  pose.position.y = y_;
+  pose.position.z = run_.state().y()[particle];
+  return pose;
+}
+
+void Handles::show() {
+  if (updates_.getNumSubscribers() == 0) return;
+  for (const std::ptrdiff_t particle : particles_) {
+    server_.setPose(nameOf(particle), poseOf(particle));
+  }
+  checkMenu();
+  server_.applyChanges();
+}
+
+void Handles::reset() {
+  hands_.clear();
+  was_held_.clear();
+}
+
+}  // namespace spring_pendulum

@@ -1,0 +1,90 @@
+// Particles that robots hold: input from topics or tf, output of the force on each holder.
+#pragma once
+
+#include "ros/inputs/frames.hpp"
+#include "ros/inputs/holders.hpp"
+#include "ros/parameters/node_options.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/node_handle.h>
+
+#include <cstddef>
+#include <memory>
+#include <nav_msgs/Odometry.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Parses a list of particles "1, 5, last".
+/// \returns their numbers, counted from 0
+/// \throws InputError for a word that is no particle of the chain, or one given twice
+std::vector<std::ptrdiff_t> parseParticleList(const std::string& text, std::ptrdiff_t particles,
+                                              const std::string& key);
+
+/// Checks the positions of one holder and says once per episode what is wrong with them.
+class HolderCheck {
+ public:
+  /// \param name    of the input, for messages
+  /// \param longest largest believable jump, m
+  HolderCheck(std::string name, double longest) : name_(std::move(name)), longest_(longest) {}
+
+  /// Returns whether the particle may follow.
+  /// \param stamp of the input, s; not compared with a clock
+  bool accepts(const PlaneVector<double>& position, const PlaneVector<double>& velocity,
+               double stamp, double now);
+  /// Whether the last input came less than half a second ago.
+  bool isAlive(double now);
+  /// What is wrong, said once; empty if nothing new.
+  std::string takeMessage() { return std::exchange(message_, {}); }
+  /// Accepts the next input wherever and whenever it is.
+  void restart() { last_.reset(); }
+
+ private:
+  bool refuse(const std::string& why);
+
+  std::string name_;
+  double longest_;
+  std::optional<PlaneVector<double>> last_;
+  double last_stamp_ = 0.0;
+  double last_time_ = 0.0;  ///< s, wall clock
+  bool said_ = false;
+  bool silent_ = false;
+  std::string message_;
+};
+
+/// All particles held by robots (`~held`).
+class HeldInputs {
+ public:
+  /// \throws InputError for a list of particles that the chain does not have
+  HeldInputs(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Holders& holders,
+             Frames& frames);
+  ~HeldInputs();
+
+  /// Reads tf and stops particles whose input is silent. Must be called before every state.
+  void watch();
+  /// Publishes the forces on the holders and the transforms of `~tf_particles`.
+  void show(const std_msgs::Header& header);
+  /// Holds the particles where they are, after a reset.
+  void reset();
+
+ private:
+  struct Held;
+
+  void take(Held& held, const std_msgs::Header& header, const geometry_msgs::Vector3& position,
+            const geometry_msgs::Vector3& velocity);
+  void lookUp(Held& held, double now);
+  void say(Held& held);
+
+  const Run& run_;
+  Holders& holders_;
+  Frames& frames_;
+  double y_;
+  std::vector<std::unique_ptr<Held>> held_;
+  std::vector<std::ptrdiff_t> tf_particles_;
+  ros::Publisher tf_;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,77 @@
+// Who holds which particle, and the accelerations that bring held particles to their targets.
+#pragma once
+
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Where a held particle shall be.
+struct Target {
+  PlaneVector<double> position{};  ///< m
+  PlaneVector<double> velocity{};  ///< m/s
+};
+
+/// A force that acts for a while.
+struct TimedForce {
+  std::ptrdiff_t particle = 0;  ///< counted from 0
+  PlaneVector<double> force{};  ///< N
+  double begin = 0.0;           ///< s of simulated time
+  double end = 0.0;             ///< s of simulated time
+};
+
+/// Collects what acts on a run, and changes the run between two of its states. Particles are counted
+/// from 0. In each interval between two states a held particle has the constant acceleration that
+/// brings it to rest relative to its target within two intervals.
+class Holders {
+ public:
+  explicit Holders(const Run& run);
+
+  /// Holds a particle, or sets a new target for a held one.
+  void hold(std::ptrdiff_t particle, const Target& target) { targets_[particle] = target; }
+  /// Lets go of a particle, which keeps its velocity; P_1 stops where it is.
+  void release(std::ptrdiff_t particle);
+  bool isHeld(std::ptrdiff_t particle) const { return targets_.count(particle) > 0; }
+
+  void push(const TimedForce& force) { forces_.push_back(force); }
+  /// Returns the number of forces that acted or were to act.
+  std::size_t clearForces();
+  /// Adds a velocity to a particle between the next two states, m/s.
+  void kick(std::ptrdiff_t particle, const PlaneVector<double>& velocity);
+
+  /// The scenario whose method and constants hold from the next state on.
+  Scenario& wanted() { return wanted_; }
+  /// Continues from another state.
+  void jumpTo(const State& state) { jump_ = std::make_unique<State>(state); }
+
+  /// Changes the run for the interval until `next_time` s, if anything has changed.
+  /// \param paused places held particles at their targets instead, at rest
+  /// \throws InputError as Run::change; forgets what the run cannot do
+  void apply(Run& run, std::unique_ptr<Integrator>& integrator, double next_time, bool paused);
+
+  /// Lets go of everything and returns the run to its start.
+  void reset(Run& run, std::unique_ptr<Integrator>& integrator);
+
+  /// Number of changes of the run so far.
+  std::int64_t changes() const { return changes_; }
+
+ private:
+  Drive driveUntil(double next_time, State& state);
+  /// What is wanted, with the method of the run if the methods can change at a frame only.
+  Scenario possible() const;
+
+  const Run& run_;
+  double fastest_;  ///< m/s, of a particle on the way to its target
+  Scenario wanted_;
+  std::map<std::ptrdiff_t, Target> targets_;
+  std::vector<TimedForce> forces_;
+  std::map<std::ptrdiff_t, PlaneVector<double>> kicks_;
+  std::unique_ptr<State> jump_;
+  std::int64_t changes_ = 0;
+};
+
+}  // namespace spring_pendulum

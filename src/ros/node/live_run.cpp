@@ -1,0 +1,67 @@
+#include "ros/node/live_run.hpp"
+
+#include <spring_pendulum/base/errors.hpp>
+
+#include <ros/console.h>
+
+namespace spring_pendulum {
+
+LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
+                 std::unique_ptr<Integrator>& integrator, const NodeOptions& options,
+                 Player& player)
+    : run_(run),
+      integrator_(integrator),
+      player_(player),
+      holders_(run),
+      frames_(options.frame_id),
+      handles_(node, run, options, holders_, frames_, menuActions()),
+      held_inputs_(node, run, options, holders_, frames_),
+      commands_(
+          node, private_node, run, options, holders_, frames_,
+          [this](double factor) { player_.setSpeed(factor); }, [this] { player_.touch(); }) {}
+
+MenuActions LiveRun::menuActions() {
+  return {[this] { player_.pause(!player_.isPaused()); },
+          [this] {
+            player_.pause(true);
+            player_.step();
+          },
+          [this] { player_.reset(); }, [this] { player_.touch(); }};
+}
+
+void LiveRun::change(double next_time, bool paused) {
+  handles_.watch();
+  held_inputs_.watch();
+  try {
+    holders_.apply(run_, integrator_, next_time, paused);
+  } catch (const InputError& error) {
+    ROS_ERROR_STREAM_THROTTLE(5.0, "refused: " << error.what());
+  }
+}
+
+void LiveRun::act(Player::Action action, const Publisher& publisher) {
+  if (action == Player::Action::kReset) {
+    handles_.reset();
+    holders_.reset(run_, integrator_);
+    held_inputs_.reset();
+    run_.advance(*integrator_);
+  } else if (action == Player::Action::kShowAgain) {
+    if (player_.isPaused()) change(run_.nextTime(), true);
+  } else if (action == Player::Action::kAdvance && publisher.isWatched()) {
+    change(run_.nextTime(), false);
+    run_.advancePart(*integrator_);
+    // Inside a frame nobody would call this a divergence.
+    if (!run_.isFinite()) run_.advance(*integrator_);
+  } else {
+    change(run_.nextFrameTime(), false);
+    run_.advance(*integrator_);
+  }
+}
+
+void LiveRun::show(const std_msgs::Header& header) {
+  if (!run_.isFinite()) return;
+  handles_.show();
+  held_inputs_.show(header);
+}
+
+}  // namespace spring_pendulum

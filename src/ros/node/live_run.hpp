@@ -1,0 +1,41 @@
+// A run with its integrator, and all that acts on it while it runs.
+#pragma once
+
+#include "ros/inputs/commands.hpp"
+#include "ros/inputs/handles.hpp"
+#include "ros/inputs/held_inputs.hpp"
+#include "ros/inputs/holders.hpp"
+#include "ros/node/player.hpp"
+#include "ros/node/publisher.hpp"
+
+#include <memory>
+
+namespace spring_pendulum {
+
+class LiveRun {
+ public:
+  /// All arguments must outlive this object.
+  LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
+          std::unique_ptr<Integrator>& integrator, const NodeOptions& options, Player& player);
+
+  void start() { run_.advance(*integrator_); }
+  /// Takes one action of the player, with the changes that are wanted before it.
+  void act(Player::Action action, const Publisher& publisher);
+  /// Moves the handles to the particles and publishes the forces on holders.
+  void show(const std_msgs::Header& header);
+
+ private:
+  MenuActions menuActions();
+  void change(double next_time, bool paused);
+
+  Run& run_;
+  std::unique_ptr<Integrator>& integrator_;
+  Player& player_;
+  Holders holders_;
+  Frames frames_;
+  Handles handles_;
+  HeldInputs held_inputs_;
+  Commands commands_;
+};
+
+}  // namespace spring_pendulum

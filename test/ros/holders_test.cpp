@@ -1,0 +1,161 @@
+// Held particles reach their targets and stay there, and bad inputs are told from good ones.
+#include "ros/inputs/holders.hpp"
+
+#include "ros/inputs/handles.hpp"
+#include "ros/inputs/held_inputs.hpp"
+#include <spring_pendulum/base/errors.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scenes.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+struct Live {
+  explicit Live(Scenario wanted = {}) : run(scenarioOf(std::move(wanted)), particles(), options()) {
+    run.advance(*integrator);
+  }
+
+  static Scenario scenarioOf(Scenario scenario) {
+    scenario.frames = 10000;
+    return scenario;
+  }
+  static Particles particles() {
+    const test::Scene scene = test::horizontalChain("horizontal", 6, 1.0);
+    return {scene.chain.masses(), scene.start};
+  }
+  static RunOptions options() { return {true, 1.0 / 30.0, {}}; }
+
+  void go(double seconds) {
+    const double end = run.time() + seconds;
+    while (run.time() < end - 1e-9) {
+      holders.apply(run, integrator, run.nextTime(), false);
+      run.advancePart(*integrator);
+    }
+  }
+
+  Run run;
+  std::unique_ptr<Integrator> integrator = run.makeIntegrator();
+  Holders holders{run};
+};
+
+TEST(Holders, BringAParticleToRestAtItsTarget) {
+  Live live;
+  live.go(0.1);
+  live.holders.hold(5, {{4.0, -2.0}, {}});
+  live.go(0.5);  // parts of 0.03 s and 0.04 s
+  EXPECT_NEAR(live.run.state().x()[5], 4.0, 1e-3);
+  EXPECT_NEAR(live.run.state().y()[5], -2.0, 1e-3);
+  live.go(2.0);
+  const std::int64_t changes = live.holders.changes();
+  live.go(1.0);
+  EXPECT_EQ(live.holders.changes(), changes);  // a particle at rest needs no changes
+  EXPECT_NEAR(live.run.state().y()[5], -2.0, 1e-9);
+  EXPECT_FALSE(isBad(live.run.verdict().kind)) << live.run.verdict().text;
+}
+
+TEST(Holders, FollowAMovingTargetWithoutLag) {
+  Live live;
+  double time = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    time = live.run.time();
+    live.holders.hold(0, {{0.5 * time, 0.2 * time}, {0.5, 0.2}});
+    live.holders.apply(live.run, live.integrator, live.run.nextTime(), false);
+    live.run.advancePart(*live.integrator);
+  }
+  time = live.run.time();
+  EXPECT_NEAR(live.run.state().x()[0], 0.5 * time, 1e-9);
+  EXPECT_NEAR(live.run.state().y()[0], 0.2 * time, 1e-9);
+}
+
+TEST(Holders, LeaveAFreeRunAlone) {
+  Live live;
+  live.go(2.0);
+  EXPECT_EQ(live.holders.changes(), 0);
+  EXPECT_FALSE(live.run.isChanged());
+}
+
+TEST(Holders, PlaceParticlesWhilePaused) {
+  Live live;
+  live.go(0.5);
+  live.holders.hold(3, {{1.0, 1.0}, {}});
+  live.holders.apply(live.run, live.integrator, live.run.nextTime(), true);
+  EXPECT_EQ(live.run.state().x()[3], 1.0);
+  EXPECT_EQ(live.run.state().vx()[3], 0.0);
+  EXPECT_TRUE(live.run.chain().isHeld(3));
+  live.holders.release(3);
+  live.go(0.5);
+  EXPECT_FALSE(live.run.chain().isHeld(3));
+  EXPECT_FALSE(isBad(live.run.verdict().kind)) << live.run.verdict().text;
+}
+
+TEST(Holders, GiveTheImpulseOfAForce) {
+  Scenario weightless;
+  weightless.gravity = weightless.stiffness = weightless.damping = 0.0;
+  Live live(weightless);
+  live.holders.push({4, {2.0, -1.0}, 0.05, 0.61});
+  live.go(1.0);
+  EXPECT_NEAR(live.run.state().vx()[4], 2.0 * 0.56, 1e-12);
+  EXPECT_NEAR(live.run.state().vy()[4], -1.0 * 0.56, 1e-12);
+  live.holders.kick(2, {0.0, 3.0});
+  live.go(0.1);
+  EXPECT_NEAR(live.run.state().vy()[2], 3.0, 1e-12);
+}
+
+TEST(Holders, SwitchBetweenStepControlsAtAFrame) {
+  Live live;
+  live.holders.wanted().method = findMethod("Auto");
+  live.run.advancePart(*live.integrator);
+  ASSERT_FALSE(live.run.isAtFrame());
+  live.go(1.0);
+  EXPECT_EQ(live.run.scenario().method.get().name, "Auto");
+  live.holders.reset(live.run, live.integrator);
+  EXPECT_EQ(live.run.time(), 0.0);
+  EXPECT_EQ(live.run.state().values(), live.run.start().values());
+}
+
+TEST(HolderCheck, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
+  HolderCheck check("odom", 1.0);
+  EXPECT_FALSE(check.isAlive(0.0));
+  EXPECT_TRUE(check.accepts({0.0, 0.0}, {}, 1.0, 1.0));
+  EXPECT_TRUE(check.accepts({0.5, 0.0}, {}, 1.1, 1.1));
+  EXPECT_EQ(check.takeMessage(), "");
+  EXPECT_FALSE(check.accepts({5.0, 0.0}, {}, 1.2, 1.2));
+  EXPECT_EQ(check.takeMessage(), "odom jumps by more than 1 m: the particle is held where it is");
+  EXPECT_FALSE(check.accepts({0.5, std::nan("")}, {}, 1.3, 1.3));
+  EXPECT_EQ(check.takeMessage(), "");  // said once
+  EXPECT_TRUE(check.accepts({0.6, 0.0}, {}, 1.4, 1.4));
+  EXPECT_EQ(check.takeMessage(), "odom is followed again");
+  EXPECT_FALSE(check.accepts({0.6, 0.0}, {}, 1.0, 1.5));
+  EXPECT_EQ(check.takeMessage(), "odom runs backwards in time: the particle is held where it is");
+  EXPECT_TRUE(check.accepts({0.6, 0.0}, {}, 1.5, 1.6));
+  check.takeMessage();
+  EXPECT_TRUE(check.isAlive(1.7));
+  EXPECT_FALSE(check.isAlive(3.0));
+  EXPECT_EQ(check.takeMessage(), "odom has stopped: the particle is held where it is");
+}
+
+TEST(HeldInputs, ParseListsOfParticles) {
+  using List = std::vector<std::ptrdiff_t>;
+  EXPECT_EQ(parseParticleList("", 5, "held"), List{});
+  EXPECT_EQ(parseParticleList("1, last", 5, "held"), (List{0, 4}));
+  EXPECT_EQ(parseParticleList("3 2", 5, "held"), (List{2, 1}));
+  for (const char* wrong : {"0", "6", "1.5", "x", "1,1", "last 5"}) {
+    EXPECT_THROW(parseParticleList(wrong, 5, "held"), InputError) << wrong;
+  }
+}
+
+TEST(Handles, AreEvenlyChosen) {
+  EXPECT_EQ(Handles::chosen(1), (std::vector<std::ptrdiff_t>{0}));
+  EXPECT_EQ(Handles::chosen(3), (std::vector<std::ptrdiff_t>{0, 1, 2}));
+  const auto many = Handles::chosen(1000);
+  EXPECT_EQ(many.size(), Handles::kMost);
+  EXPECT_EQ(many.front(), 0);
+  EXPECT_EQ(many.back(), 999);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
