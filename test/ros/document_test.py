@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+"""docs/ros.md names what the node has, its recipe works, and nodes in two namespaces do not mix."""
+import math
+import os
+import re
+import signal
+import subprocess
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from geometry_msgs.msg import TransformStamped, Vector3, WrenchStamped
+from nav_msgs.msg import Odometry
+from spring_pendulum.msg import PendulumState
+from spring_pendulum.srv import ApplyForce, Set
+from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import InteractiveMarkerFeedback
+
+from pendulum_process import Folder, Listener, PendulumNode, project, wait_until
+
+SCENE = project('data/horizontal_11.txt')
+OF_ROS = {'/rosout', '/pendulum/get_loggers', '/pendulum/set_logger_level'}
+
+
+def document():
+    with open(project('docs/ros.md')) as file:
+        return file.read()
+
+
+def names_in_table(heading):
+    """The names in the first column of the first table after a line that starts with the heading."""
+    rows = document().split('\n' + heading, 1)[1].split('\n|', 2)[2].split('\n\n', 1)[0].split('\n')[1:]
+    names = [name for row in rows for name in re.findall('`([^`]+)`', row.split('|')[1])]
+    return {name.replace('~', '/pendulum/') if name[0] in '/~' else '/' + name for name in names}
+
+
+def is_named(name, names):
+    return re.sub(r'held_\d+/', 'held_<i>/', name) in names
+
+
+def publish_transforms(places):
+    """Publishes the frames with positions that `places` returns, 50 times per second."""
+    publisher = rospy.Publisher('/tf', TFMessage, queue_size=10)
+
+    def publish(_):
+        message = TFMessage()
+        for frame, (x, z) in places(rospy.get_time()).items():
+            transform = TransformStamped()
+            transform.header.stamp = rospy.Time.now()
+            transform.header.frame_id, transform.child_frame_id = 'world', frame
+            transform.transform.translation.x, transform.transform.translation.z = x, z
+            transform.transform.rotation.w = 1.0
+            message.transforms.append(transform)
+        publisher.publish(message)
+    return rospy.Timer(rospy.Duration(0.02), publish)
+
+
+class Document(unittest.TestCase):
+
+    def test_it_names_every_topic_and_service(self):
+        with PendulumNode(particles=SCENE, frames=100000, real_time_factor=1.0, at_end='hold', held='1, last',
+                          held_1_frame='gripper', tf_particles='5', publish_clock=True):
+            rospy.wait_for_service('/pendulum/at_rest', timeout=60)
+            rospy.sleep(1.0)
+            system = rosgraph.Master('/test').getSystemState()
+        for entries, heading in zip(system, ('**Topics**', 'The node subscribes to', '**Services**')):
+            named = names_in_table(heading)
+            found = {name for name, nodes in entries if '/pendulum' in nodes} - OF_ROS
+            self.assertEqual({name for name in found if not is_named(name, named)}, set(), heading)
+            patterns = {re.sub(r'held_\d+/', 'held_<i>/', name) for name in found}
+            self.assertEqual(named - patterns, set(), heading)
+
+    def test_the_services_set_names_its_constants(self):
+        with PendulumNode(particles=SCENE, frames=100000, real_time_factor=1.0, at_end='hold'):
+            rospy.wait_for_service('/pendulum/set', timeout=60)
+            answer = rospy.ServiceProxy('/pendulum/set', Set)('nothing', '1')
+        row = next(row for row in document().split('\n') if row.startswith('| `~set`'))
+        constants = re.findall('`(\\w+)`', row.split('|')[3])
+        self.assertGreater(len(constants), 6)
+        for constant in constants:
+            self.assertIn(constant, answer.message)
+
+    def test_the_recipe_of_a_cable_between_two_frames(self):
+        recipe = re.search('```xml\n(.*?)```', document(), re.S).group(1)
+        self.assertLessEqual(recipe.count('\n'), 10)
+        state, wrench = Listener('state', PendulumState, keep=5), Listener('held_11/wrench', WrenchStamped, keep=5)
+        timer = publish_transforms(lambda t: {'left_gripper': (0.3 * math.sin(t), 0.0), 'right_gripper': (8.0, 1.0)})
+        with Folder() as folder:
+            with open(folder + '/cable.launch', 'w') as file:
+                file.write(recipe)
+            cable = subprocess.Popen(['roslaunch', folder + '/cable.launch'], stdout=subprocess.DEVNULL,
+                                     stderr=subprocess.STDOUT, env=dict(os.environ, ROS_HOME=folder))
+            try:
+                rospy.wait_for_service('/cable/at_rest', timeout=60)
+                wait_until(lambda: state.messages and
+                           math.hypot(state.messages[-1].positions[10].x - 8.0,
+                                      state.messages[-1].positions[10].z - 1.0) < 2e-3, 'the right end arrives')
+                self.assertTrue(rospy.ServiceProxy('/cable/at_rest', Trigger)().success)
+                rospy.sleep(2.0)
+                last = state.messages[-1]
+                t = last.header.stamp.to_sec()
+                self.assertLess(abs(last.positions[0].x - 0.3 * math.sin(t)), 0.15)
+                self.assertGreater(min(last.tensions), 0.0)
+                self.assertLess(abs(last.energy_error), 1e-3)
+                force = wrench.wait_for(1)[-1].wrench.force
+                self.assertAlmostEqual(math.hypot(force.x, force.z), last.tensions[9], delta=5.0)
+                self.assertLess(force.x, 0.0)
+                self.assertFalse(any(name.startswith('frame_') for name in os.listdir(folder)))
+            finally:
+                timer.shutdown()
+                cable.send_signal(signal.SIGINT)
+                cable.wait(60)
+        state.close()
+        wrench.close()
+
+
+class Namespaces(unittest.TestCase):
+
+    def test_inputs_reach_their_own_node_only(self):
+        states = {name: Listener('/%s/state' % name, PendulumState, keep=5) for name in ('left', 'right')}
+        transforms = Listener('/tf', TFMessage)
+        parameters = dict(particles=SCENE, frames=100000, real_time_factor=1.0, at_end='hold', start='at_rest',
+                          held='last', tf_particles='5', wait_for_subscribers=1)
+        with PendulumNode('/left/pendulum', **parameters) as left, PendulumNode('/right/pendulum', **parameters):
+            for listener in states.values():
+                listener.wait_for(3)
+            rest = states['right'].messages[-1].positions
+            supplied = states['right'].messages[-1].supplied_energy
+            hand = rospy.Publisher('/left/handles/feedback', InteractiveMarkerFeedback, queue_size=10)
+            robot = rospy.Publisher('/left/held_11/odom', Odometry, queue_size=10)
+            wait_until(lambda: hand.get_num_connections() == robot.get_num_connections() == 1, 'the left node')
+            feedback, odometry = InteractiveMarkerFeedback(), Odometry()
+            feedback.header.frame_id = odometry.header.frame_id = 'world'
+            feedback.marker_name, feedback.event_type = 'particle_6', InteractiveMarkerFeedback.POSE_UPDATE
+            feedback.pose.position.x = 3.0
+            odometry.pose.pose.position.x = 1.0
+            odometry.pose.pose.position.z = rest[10].z
+            odometry.pose.pose.orientation.w = 1.0
+
+            def moved():
+                hand.publish(feedback)
+                odometry.header.stamp = rospy.Time.now()
+                robot.publish(odometry)
+                rospy.sleep(0.02)
+                p = states['left'].messages[-1].positions
+                return abs(p[5].x - 3.0) < 1e-3 and abs(p[10].x - 1.0) < 2e-3
+            wait_until(moved, 'the left chain is pulled')
+            force = rospy.ServiceProxy('/left/pendulum/apply_force', ApplyForce)
+            self.assertTrue(force(3, '', Vector3(50.0, 0.0, 0.0), 0.0, 1.0).success)
+            self.assertTrue(rospy.ServiceProxy('/left/pendulum/set', Set)('gravity', '-2').success)
+            self.assertTrue(rospy.ServiceProxy('/left/pendulum/pause', SetBool)(True).success)
+            rospy.sleep(0.5)
+            frame = states['right'].messages[-1].frame
+            states['right'].wait_for_any(lambda m: m.frame > frame)
+            for before, now in zip(rest, states['right'].messages[-1].positions):
+                self.assertLess(math.hypot(before.x - now.x, before.z - now.z), 1e-6)
+            self.assertAlmostEqual(states['right'].messages[-1].supplied_energy, supplied, places=6)
+            self.assertIsNone(left.process.poll())
+            names = {t.child_frame_id for m in transforms.messages for t in m.transforms}
+            self.assertLessEqual({'left/pendulum/particle_5', 'right/pendulum/particle_5'}, names)
+        for listener in (transforms, *states.values()):
+            listener.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('document_test')
+    rostest.rosrun('spring_pendulum', 'document', '__main__')
