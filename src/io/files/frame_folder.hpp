@@ -21,9 +21,9 @@ bool isFrameName(std::string_view name);
 /// complete or absent: it is written under a hidden name, `.frame_0042.tmp`, and then renamed.
 ///
 /// Frames of an earlier run are renamed to hidden names first. New frames overwrite these files, as
-/// some file systems need milliseconds to free the blocks of a file (measured: ext4 with online
-/// discard 3.6 ms) and microseconds to overwrite it. Files of another user or with other
-/// permissions than a new file are not reused. `finish` removes the files that are left.
+/// some file systems need milliseconds to free the blocks of a file and microseconds to overwrite it:
+/// on ext4, a second run of the exercise took 6.9 times as long without this (median of 25 pairs). Files
+/// of another user or with other permissions are not reused. `close` removes the files that are left.
 class FrameFolder {
  public:
   /// Creates the folder if needed, checks that it is writable, and hides the frames of an earlier
