@@ -98,10 +98,14 @@ def main():
             return
         subprocess.run(['scripts/generate.sh'], cwd=copy, check=True)
         subprocess.run(['cmake', '--build', 'build'], cwd=copy, check=True)
+        failed = []
         for command in commands:
             print(command, flush=True)
-            subprocess.run(command + ' --no-tests=error' * command.startswith('ctest'), cwd=copy, shell=True,
-                           check=True)
+            shown = command + ' --no-tests=error --output-on-failure' * command.startswith('ctest')
+            if subprocess.run(shown, cwd=copy, shell=True).returncode != 0:
+                failed.append(command)
+        if failed:
+            sys.exit('failed:\n' + '\n'.join(failed))
 
 
 main()
