@@ -12,7 +12,7 @@ from collections import Counter
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parent.parent
-FOLDERS = ('include', 'src', 'test', 'benchmark', 'fuzz', 'examples')
+FOLDERS = ('include', 'src', 'python', 'test', 'benchmark', 'fuzz', 'examples')
 MOST_LINES = 400
 MOST_FILES = 15  # in a folder of the library
 

@@ -1,4 +1,5 @@
 """mypy accepts the module, the stubs agree with it, and it finds wrong calls in user code."""
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -6,6 +7,7 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
 import spring_pendulum as sp
 
 PACKAGE = pathlib.Path(sp._run.__file__).parent
@@ -29,6 +31,8 @@ def run(*command):
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
+@unittest.skipUnless(importlib.util.find_spec('numpy.typing'),
+                     f'NumPy {np.__version__} has no type hints, which came with 1.20')
 class Types(unittest.TestCase):
     def test_the_module_is_well_typed(self):
         result = run('mypy', '--follow-imports=silent', '-p', 'spring_pendulum')
