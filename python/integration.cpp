@@ -130,14 +130,15 @@ class PythonIntegrator {
 void defineChain(py::module_& module) {
   constexpr SpringLaw kSpring;
   const auto make = [](const py::object& masses, double stiffness, double damping,
-                       double rest_length, double gravity) {
-    return Chain(toVector(masses, "masses"), {stiffness, damping, rest_length}, gravity);
+                       double rest_length, double gravity, double air_drag) {
+    return Chain(toVector(masses, "masses"), {stiffness, damping, rest_length}, gravity)
+        .inAir(air_drag);
   };
   py::class_<Chain>(module, "Chain",
                     "N particles joined by N - 1 equal springs; the first is fixed.")
       .def(py::init(make), "masses"_a, py::kw_only(), "stiffness"_a = kSpring.stiffness,
            "damping"_a = kSpring.damping, "rest_length"_a = kSpring.rest_length,
-           "gravity"_a = Scenario{}.gravity)
+           "gravity"_a = Scenario{}.gravity, "air_drag"_a = Scenario{}.air_drag)
       .def_property_readonly("masses",
                              [](const py::object& self) {
                                const auto& chain = self.cast<const Chain&>();
@@ -147,24 +148,27 @@ void defineChain(py::module_& module) {
       .def_property_readonly("damping", [](const Chain& c) { return c.spring().damping; })
       .def_property_readonly("rest_length", [](const Chain& c) { return c.spring().rest_length; })
       .def_property_readonly("gravity", &Chain::gravity)
+      .def_property_readonly("air_drag", &Chain::airDrag)
       .def("__len__", &Chain::size)
       .def("__copy__", [](const Chain& chain) { return chain; })
       .def("__repr__",
            [](const Chain& chain) {
              const SpringLaw& law = chain.spring();
              return fmt::format(
-                 "<Chain of {} particles: stiffness={}, damping={}, rest_length={}, gravity={}>",
-                 chain.size(), law.stiffness, law.damping, law.rest_length, chain.gravity());
+                 "<Chain of {} particles: stiffness={}, damping={}, rest_length={}, gravity={}, "
+                 "air_drag={}>",
+                 chain.size(), law.stiffness, law.damping, law.rest_length, chain.gravity(),
+                 chain.airDrag());
            })
       .def(py::pickle(
           [](const Chain& c) {
             return py::make_tuple(py::array_t<double>(c.size(), c.masses().data()),
                                   c.spring().stiffness, c.spring().damping, c.spring().rest_length,
-                                  c.gravity());
+                                  c.gravity(), c.airDrag());
           },
           [make](const py::tuple& t) {
             return make(t[0], t[1].cast<double>(), t[2].cast<double>(), t[3].cast<double>(),
-                        t[4].cast<double>());
+                        t[4].cast<double>(), t[5].cast<double>());
           }));
 }
 

@@ -220,7 +220,7 @@ py::object orNone(double number) {
 py::tuple check(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
   const Particles start = particlesOf(particles, scenario);
-  const Chain chain(start.masses, scenario.spring(), scenario.gravity);
+  const Chain chain = scenario.chainOf(start.masses);
   Interruption interruption;
   StabilityReport report;
   {

@@ -37,6 +37,7 @@ void checkSupported(const Scenario& scenario, const Switches& switches) {
   if (switches.report_skips) refuse("--report-skips");
   if (scenario.sleep > 0.0) refuse("--sleep");
   if (scenario.start != Start::kFile) refuse("--start at_rest");
+  if (scenario.air_drag > 0.0) refuse("--air-drag");
   if (scenario.reference == ReferenceUse::kAlways) refuse("--reference always");
 }
 

@@ -116,7 +116,7 @@ Chain chainOf(const Scenario& scenario, const val& masses) {
   const auto list = emscripten::convertJSArrayToNumberVector<double>(masses);
   AlignedNumbers weights(static_cast<std::ptrdiff_t>(list.size()));
   std::copy(list.begin(), list.end(), weights.data());
-  return {weights, scenario.spring(), scenario.gravity};
+  return scenario.chainOf(weights);
 }
 
 /// A run that JavaScript advances piece by piece. Between the frames it stops every

@@ -7,6 +7,12 @@
 #include <utility>
 
 namespace spring_pendulum {
+namespace {
+
+/// Distance of the particle at rest from P_1, m: its spring never becomes short.
+constexpr double kFarAway = 1e6;
+
+}  // namespace
 
 DrivenIntegrator::DrivenIntegrator(const Chain& chain, std::unique_ptr<Integrator> relative,
                                    bool fixed_step)
@@ -21,8 +27,15 @@ void DrivenIntegrator::restart() {
 }
 
 void DrivenIntegrator::begin(const State& state) {
-  start_velocity_ = {state.vx()[0], state.vy()[0]};
-  state_ = state;
+  if (size() == chain_.size()) {
+    start_velocity_ = {state.vx()[0], state.vy()[0]};
+    state_ = state;
+  } else {
+    state_ = State(chain_.size());
+    state_.values().bottomRows(size()) = state.values();
+    state_.x()[0] = state.x()[0] - kFarAway;
+    state_.y()[0] = state.y()[0];
+  }
   state_.vx().array() -= start_velocity_.x;
   state_.vy().array() -= start_velocity_.y;
   start_ = state_;
@@ -63,7 +76,7 @@ void DrivenIntegrator::advance(State& state, double time_step, std::int64_t step
 
 std::int64_t DrivenIntegrator::advanceWithin(State& state, double time_step, std::int64_t steps,
                                              double most_work) {
-  requireAdvance(chain_.size(), state.size(), time_step, steps);
+  requireAdvance(size(), state.size(), time_step, steps);
   if (!started_) begin(state);
   if (time_step != time_step_) {
     origin_ = time();
@@ -82,20 +95,22 @@ std::int64_t DrivenIntegrator::advanceWithin(State& state, double time_step, std
   }
   if (completed == 0) return 0;
   const PlaneVector<double> moved = displacement(), speed = velocity();
-  state.x().array() = state_.x().array() + moved.x;
-  state.y().array() = state_.y().array() + moved.y;
-  state.vx().array() = state_.vx().array() + speed.x;
-  state.vy().array() = state_.vy().array() + speed.y;
+  const auto from = state_.values().bottomRows(size());
+  state.x().array() = from.col(0).array() + moved.x;
+  state.y().array() = from.col(1).array() + moved.y;
+  state.vx().array() = from.col(2).array() + speed.x;
+  state.vy().array() = from.col(3).array() + speed.y;
   return completed;
 }
 
 double DrivenIntegrator::energyDifference() const {
   const PlaneVector<double> moved = displacement(), speed = velocity();
   const double gain = 0.5 * (speed.x * speed.x + speed.y * speed.y) + chain_.gravity() * moved.y;
+  const std::ptrdiff_t anchor = chain_.firstSpring();
   double sum = 0.0;
   for (Eigen::Index i = 1; i < chain_.size(); ++i) {
     if (chain_.isHeld(i)) continue;
-    const double x = state_.x()[i] - state_.x()[0], y = state_.y()[i] - state_.y()[0];
+    const double x = state_.x()[i] - start_.x()[anchor], y = state_.y()[i] - start_.y()[anchor];
     const PlaneVector<double> springless = chain_.springlessAcceleration(i);
     // Accelerations by which the two potentials differ.
     const double ax = springless.x - acceleration_.x;

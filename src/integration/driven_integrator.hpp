@@ -4,6 +4,9 @@
 // other constant accelerations, and the methods need not know that it moves. The state that a caller
 // sees is that of the frame at rest.
 //
+// With air, which is at rest, the chain is seen from a particle at rest before P_1 instead:
+// `Chain::behindRest`.
+//
 // The power of the holders of other particles is integrated along with the motion. The work that
 // gravity, applied forces and the holder of P_1 do on the chain follows from the two ends of the
 // motion: constant accelerations have a potential.
@@ -18,7 +21,7 @@ namespace spring_pendulum {
 
 class DrivenIntegrator final : public Integrator {
  public:
-  /// \param chain      a driven chain
+  /// \param chain      a driven chain; with air, the result of `behindRest`
   /// \param relative   for `chain.seenFromAnchor()`
   /// \param fixed_step whether `relative` takes the given steps
   DrivenIntegrator(const Chain& chain, std::unique_ptr<Integrator> relative, bool fixed_step);
@@ -37,6 +40,8 @@ class DrivenIntegrator final : public Integrator {
 
  private:
   void begin(const State& state);
+  /// Number of particles that the caller sees.
+  std::ptrdiff_t size() const { return chain_.size() - chain_.firstSpring(); }
   double time() const { return origin_ + static_cast<double>(steps_) * time_step_; }
   /// Displacement and velocity of P_1 since the start.
   PlaneVector<double> displacement() const;

@@ -28,7 +28,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
                                                    const IntegratorOptions& options) {
-  if (chain.isDriven() || findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr) {
+  if (!chain.isPlain() || findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr) {
     return std::make_unique<PlainRungeKutta>(chain, *method.tableau, options.track_dissipation);
   }
   EngineOptions engine;
@@ -234,11 +234,14 @@ std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& ch
     throw InputError(
         fmt::format("method '{}' has no factory: register it with registerMethod", method.name));
   }
-  std::unique_ptr<Integrator> integrator = method.make(method, chain.seenFromAnchor(), options);
+  std::optional<Chain> longer;
+  if (chain.isDriven() && chain.airDrag() != 0.0) longer = chain.behindRest();
+  const Chain& seen = longer ? *longer : chain;
+  std::unique_ptr<Integrator> integrator = method.make(method, seen.seenFromAnchor(), options);
   if (!integrator)
     throw InputError(fmt::format("the factory of method '{}' returned no integrator", method.name));
   if (!chain.isDriven()) return integrator;
-  return std::make_unique<DrivenIntegrator>(chain, std::move(integrator), method.hasFixedStep());
+  return std::make_unique<DrivenIntegrator>(seen, std::move(integrator), method.hasFixedStep());
 }
 
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,

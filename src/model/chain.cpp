@@ -50,7 +50,7 @@ Chain::Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
 }
 
 Chain Chain::drivenBy(Drive drive) const {
-  Chain chain(masses_, spring_, gravity_);
+  Chain chain = Chain(masses_, spring_, gravity_).inAir(air_drag_);
   if (drive.empty()) return chain;
   const std::ptrdiff_t size = chain.size();
   chain.accelerations_ = AlignedNumbers(2 * size);
@@ -81,6 +81,13 @@ Chain Chain::drivenBy(Drive drive) const {
   return chain;
 }
 
+Chain Chain::inAir(double drag) const {
+  requireFiniteAtLeastZero("air_drag", drag, "N·s/m");
+  Chain chain = *this;
+  chain.air_drag_ = drag;
+  return chain;
+}
+
 PlaneVector<double> Chain::springlessAcceleration(std::ptrdiff_t i) const {
   if (isDriven()) return {accelerations_[i], accelerations_[size() + i]};
   return {0.0, i == 0 ? 0.0 : -gravity_};
@@ -95,6 +102,22 @@ Chain Chain::seenFromAnchor() const {
     chain.accelerations_[size() + i] -= anchor.y;
     if (isHeld(i)) chain.masses_[i] = kHeldMass;
   }
+  return chain;
+}
+
+Chain Chain::behindRest() const {
+  AlignedNumbers masses(size() + 1);
+  masses[0] = masses[1] = kHeldMass;
+  masses.view().tail(size() - 1) = masses_.view().tail(size() - 1);
+  Drive drive{{}, drive_.forces};
+  const PlaneVector<double> anchor = springlessAcceleration(0);
+  drive.held.push_back({1, anchor});
+  for (const HeldParticle& held : drive_.held) {
+    if (held.particle > 0) drive.held.push_back({held.particle + 1, held.acceleration});
+  }
+  for (AppliedForce& applied : drive.forces) ++applied.particle;
+  Chain chain = Chain(masses, spring_, gravity_).inAir(air_drag_).drivenBy(std::move(drive));
+  chain.first_spring_ = 1;
   return chain;
 }
 

@@ -55,6 +55,12 @@ double largestSpringMode(const Chain& chain) {
   return chain.size() < 2 ? 0.0 : SpringMatrix(chain).largestEigenvalue();
 }
 
+double largestDampingRate(const Chain& chain) {
+  const double springs = chain.spring().damping * largestSpringMode(chain);
+  if (chain.airDrag() == 0.0) return springs;
+  return springs + chain.airDrag() * chain.inverseMasses().maxCoeff();
+}
+
 double stiffestSpring(const Chain& chain) {
   return SpringMatrix(chain).largestDiagonal();
 }

@@ -49,6 +49,11 @@ void computeSlope(const Chain& chain, const State& state, State& slope) {
       slope.vx()[i] += springless.x;
       slope.vy()[i] = fused(right.y - left.y, inverse_mass, springless.y);
     }
+    if (chain.airDrag() != 0.0) {
+      const double rate = chain.airDrag() * inverse_mass;
+      slope.vx()[i] = fused(-rate, state.vx()[i], slope.vx()[i]);
+      slope.vy()[i] = fused(-rate, state.vy()[i], slope.vy()[i]);
+    }
     left = right;
   }
 }

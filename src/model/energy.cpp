@@ -42,6 +42,9 @@ double dissipatedPower(const Chain& chain, const State& state) {
         {state.x()[i] - state.x()[i - 1], state.y()[i] - state.y()[i - 1]},
         {state.vx()[i] - state.vx()[i - 1], state.vy()[i] - state.vy()[i - 1]});
     power = fused(chain.spring().damping, rate * rate, power);
+    if (chain.airDrag() == 0.0 || chain.isHeld(i)) continue;
+    const PlaneVector<double> velocity{state.vx()[i], state.vy()[i]};
+    power = fused(chain.airDrag(), squaredLength(velocity), power);
   }
   return power;
 }

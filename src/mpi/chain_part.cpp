@@ -71,7 +71,7 @@ ChainPart::ChainPart(const Ranks& ranks, const Scenario& scenario, const Part& p
 
 ChainPart::Piece ChainPart::makePiece(const AlignedNumbers& masses, const State& state,
                                       std::int64_t threads) const {
-  Piece piece{Chain(masses, scenario_.spring(), scenario_.gravity), state, nullptr};
+  Piece piece{scenario_.chainOf(masses), state, nullptr};
   piece.integrator = makeIntegrator(scenario_.method, piece.chain,
                                     {scenario_.tolerance, track_dissipation_,
                                      static_cast<int>(std::min<std::int64_t>(threads, 1024))});

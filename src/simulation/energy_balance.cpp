@@ -105,7 +105,7 @@ EnergyEntry EnergyBalance::entry(double time, const Energy& energy, double dissi
   const double scale_now = scale(time) + std::max(most_supplied_, std::abs(supplied));
   entry.relative_gain = entry.gain / scale_now;
   if (track_dissipation_) entry.dissipated = dissipated;
-  if (chain_.spring().damping == 0.0 && !changed_) entry.dissipated = 0.0;
+  if (!chain_.isDissipative() && !changed_) entry.dissipated = 0.0;
   if (entry.dissipated) {
     entry.residual = entry.gain + *entry.dissipated;
     entry.relative_residual = *entry.residual / scale_now;

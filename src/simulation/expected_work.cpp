@@ -14,7 +14,7 @@ namespace {
 double expectedSteps(const Chain& chain, double duration) {
   const double mode = largestSpringMode(chain);  // 1/kg
   const double per_second =
-      20.0 + 0.5 * std::sqrt(chain.spring().stiffness * mode) + 0.1 * chain.spring().damping * mode;
+      20.0 + 0.5 * std::sqrt(chain.spring().stiffness * mode) + 0.1 * largestDampingRate(chain);
   return per_second * duration;
 }
 

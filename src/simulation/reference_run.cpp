@@ -57,7 +57,7 @@ double largestDistance(const State& a, const State& b) {
 /// Returns the method of the companion; that of the reference is `Auto`. They differ if stability
 /// limits the step size, because one method would then take the same steps with both tolerances.
 std::string_view companionMethod(const Chain& chain) {
-  const double rate = chain.spring().damping * largestSpringMode(chain);
+  const double rate = largestDampingRate(chain);
   if (rate < kFastRate) return "Auto";
   return rate < kStiffRate ? "Stabilized-Taylor-8" : "Radau-9";
 }

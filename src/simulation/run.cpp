@@ -69,12 +69,12 @@ const Scenario& checked(const Scenario& scenario, std::int64_t first_frame) {
 Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions& options)
     : scenario_(checked(scenario, particles.frame)),
       options_(options),
-      chain_(particles.masses, scenario.spring(), scenario.gravity),
+      chain_(scenario.chainOf(particles.masses)),
       start_(startOf(scenario, chain_, particles)),
       first_frame_(particles.frame),
       state_(start_),
       frame_steps_(frameSteps(scenario)),
-      track_dissipation_(scenario.damping > 0.0 &&
+      track_dissipation_(chain_.isDissipative() &&
                          (options.track_dissipation || dissipationIsCheap(scenario, chain_))),
       judge_(chain_, start_, judgeOptions()),
       frame_(first_frame_) {
@@ -209,6 +209,7 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   next.damping = scenario.damping;
   next.rest_length = scenario.rest_length;
   next.gravity = scenario.gravity;
+  next.air_drag = scenario.air_drag;
   checkScenario(next);
   const bool fixed_step = next.method.get().hasFixedStep();
   const bool other_control = fixed_step != scenario_.method.get().hasFixedStep();
@@ -216,13 +217,11 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
     throw InputError(
         "a method with fixed steps and one with error control alternate at frames only");
   }
-  Chain chain(chain_.masses(), next.spring(), next.gravity);
-  chain = chain.drivenBy(drive);
+  Chain chain = next.chainOf(chain_.masses()).drivenBy(drive);
   requireSize(chain.size(), state.size());
   if (!state.values().allFinite()) throw InputError("the state has numbers that are not finite");
   if (!fixed_step) checkTolerance(next.tolerance, chain, state);
-  const bool knows_dissipation =
-      track_dissipation_ || (chain_.spring().damping == 0.0 && !changed_);
+  const bool knows_dissipation = track_dissipation_ || (!chain_.isDissipative() && !changed_);
   EnergyBalance balance = judge_.balance();
   const double supplied = balance.change(chain, state_, state, knows_dissipation, supplied_);
 

@@ -25,8 +25,9 @@ PlaneVector<double> handAcceleration(int k, double phase) {
           0.9 * std::cos(3.7 * t - phase) - 2.0 * std::sin(6.1 * t + phase)};
 }
 
-Scene slackCable(Eigen::Index particles, double mass) {
+Scene slackCable(Eigen::Index particles, double mass, double air_drag = 0.0) {
   Scene scene = test::horizontalChain("slack cable", particles, mass);
+  scene.chain = scene.chain.inAir(air_drag);
   scene.start.x() *= 0.8;
   return scene;
 }
@@ -38,6 +39,7 @@ Scenario scenarioOf(const std::string& method, const Scene& scene) {
   scenario.damping = scene.chain.spring().damping;
   scenario.rest_length = scene.chain.spring().rest_length;
   scenario.gravity = scene.chain.gravity();
+  scenario.air_drag = scene.chain.airDrag();
   scenario.frames = 1000000;
   scenario.steps_per_frame = 2;
   scenario.time_step = 0.5 * kInterval;
@@ -94,8 +96,8 @@ std::vector<std::string> errorControlled() {
 class DrivenErrorControlled : public testing::TestWithParam<std::string> {};
 
 TEST_P(DrivenErrorControlled, KeepsTheTolerance) {
-  const Scene scene = slackCable(7, 1.0);
-  for (const double tolerance : {1e-5, 1e-9}) {
+  for (const auto& [tolerance, air_drag] : {std::pair{1e-5, 0.3}, {1e-6, 0.0}, {1e-9, 0.0}}) {
+    const Scene scene = slackCable(7, 1.0, air_drag);
     Scenario scenario = scenarioOf(GetParam(), scene);
     scenario.tolerance = tolerance;
     DrivenPair pair(scenario, scene);
@@ -112,12 +114,14 @@ TEST_P(DrivenErrorControlled, KeepsTheTolerance) {
 INSTANTIATE_TEST_SUITE_P(AllMethods, DrivenErrorControlled, testing::ValuesIn(errorControlled()));
 
 TEST(DrivenRun, FollowsLightParticlesWithAuto) {
-  const Scene scene = slackCable(5, 1e-3);
-  Scenario scenario = scenarioOf("Auto", scene);
-  DrivenPair pair(scenario, scene);
-  moveHands(pair, 25);
-  EXPECT_LE(pair.error(), 10.0 * scenario.tolerance);
-  EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6);
+  for (const double air_drag : {0.0, 0.02}) {
+    const Scene scene = slackCable(5, 1e-3, air_drag);
+    Scenario scenario = scenarioOf("Auto", scene);
+    DrivenPair pair(scenario, scene);
+    moveHands(pair, 25);
+    EXPECT_LE(pair.error(), 10.0 * scenario.tolerance) << air_drag;
+    EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6) << air_drag;
+  }
 }
 
 double errorOf(const Scene& scene, const std::string& method, std::int64_t steps,
@@ -132,12 +136,13 @@ double errorOf(const Scene& scene, const std::string& method, std::int64_t steps
 }
 
 TEST(DrivenRun, HasTheOrderOfItsMethod) {
-  const Scene scene = slackCable(7, 1.0);
-  for (const auto& [method, order, steps] : {std::tuple{"Euler", 1, 64},
-                                             {"Runge-Kutta-2", 2, 4},
-                                             {"Runge-Kutta-4", 4, 2},
-                                             {"Semi-Implicit-Euler", 1, 64},
-                                             {"Velocity-Verlet", 2, 4}}) {
+  for (const auto& [method, order, steps, air_drag] : {std::tuple{"Euler", 1, 64, 0.0},
+                                                       {"Runge-Kutta-2", 2, 4, 0.0},
+                                                       {"Runge-Kutta-4", 4, 2, 0.0},
+                                                       {"Runge-Kutta-4", 4, 2, 0.3},
+                                                       {"Semi-Implicit-Euler", 1, 64, 0.0},
+                                                       {"Velocity-Verlet", 2, 4, 0.3}}) {
+    const Scene scene = slackCable(7, 1.0, air_drag);
     double residual = 0.0, half_residual = 0.0;
     const double error = errorOf(scene, method, steps, &residual);
     const double half = errorOf(scene, method, 2 * steps, &half_residual);

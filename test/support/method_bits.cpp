@@ -1,5 +1,5 @@
 // Prints a hash of the motion, the energies, the position errors and the verdicts for each method, one
-// method per line. Equal lines on two machines mean equal bits (scripts/test_arm64.sh).
+// method per line; a second hash is that of driven runs. Equal lines on two machines mean equal bits (scripts/test_arm64.sh).
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
@@ -73,12 +73,33 @@ std::uint64_t hashOfRuns(const Method& method) {
   return hash;
 }
 
+/// The same with particles that are held and pushed, the second time in air.
+std::uint64_t hashOfDrivenRuns(const Method& method) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const Eigen::Index size = 11;
+  const Chain chain(Eigen::VectorXd::LinSpaced(size, 0.5, 1.5), {50.0, 1.0, 1.0}, 9.81);
+  for (const double air_drag : {0.0, 0.25}) {
+    State state = zigzag(size);
+    for (int input = 0; input < 10; ++input) {
+      const double push = 0.25 * input - 1.0;
+      const Chain driven = chain.inAir(air_drag).drivenBy(
+          {{{0, {push, 0.5}}, {4, {-0.75, push}}, {10, {1.0, -push}}}, {{7, {push, 2.0}}}});
+      const auto integrator = makeIntegrator(method, driven, {kTolerance, true, 1});
+      integrator->advance(state, kTimeStep, kSteps);
+      for (Eigen::Index i = 0; i < 4 * size; ++i) hash = hashOf(state.values().data()[i], hash);
+      hash = hashOf(integrator->suppliedEnergy(), hashOf(integrator->dissipatedEnergy(), hash));
+    }
+  }
+  return hash;
+}
+
 }  // namespace
 }  // namespace spring_pendulum
 
 int main() {
   for (const spring_pendulum::Method& method : spring_pendulum::methodTable()) {
-    std::printf("%-20s %016llx\n", std::string(method.name).c_str(),
-                static_cast<unsigned long long>(spring_pendulum::hashOfRuns(method)));
+    std::printf("%-20s %016llx %016llx\n", std::string(method.name).c_str(),
+                static_cast<unsigned long long>(spring_pendulum::hashOfRuns(method)),
+                static_cast<unsigned long long>(spring_pendulum::hashOfDrivenRuns(method)));
   }
 }

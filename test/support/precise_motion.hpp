@@ -97,6 +97,11 @@ class PreciseMotion {
       slope_[b + 2] -= tension * rx / mass(b);
       slope_[b + 3] -= tension * ry / mass(b);
     }
+    for (std::size_t at = 0; at < z.size(); at += 4) {
+      const Quad rate = Quad(chain_.airDrag()) / chain_.masses()[static_cast<Eigen::Index>(at / 4)];
+      slope_[at + 2] -= rate * z[at + 2];
+      slope_[at + 3] -= rate * z[at + 3];
+    }
     for (const AppliedForce& applied : chain_.drive().forces) {
       const auto at = 4 * static_cast<std::size_t>(applied.particle);
       slope_[at + 2] += Quad(applied.force.x) / chain_.masses()[applied.particle];

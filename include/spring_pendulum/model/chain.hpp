@@ -31,6 +31,11 @@ class Chain {
   ///   particle, or a number that is not finite
   Chain drivenBy(Drive drive) const;
 
+  /// Returns the same chain in air, which exerts the force -k_air v on every particle that moves freely.
+  /// \param drag k_air in N·s/m, finite and at least 0
+  /// \throws InputError for a drag out of this range
+  Chain inAir(double drag) const;
+
   std::ptrdiff_t size() const { return masses_.size(); }
   /// N masses, kg.
   AlignedNumbers::ConstView masses() const { return masses_.view(); }
@@ -38,6 +43,11 @@ class Chain {
   AlignedNumbers::ConstView inverseMasses() const { return inverse_masses_.view(); }
   const SpringLaw& spring() const { return spring_; }
   double gravity() const { return gravity_; }
+  double airDrag() const { return air_drag_; }
+  /// Whether the motion loses energy: to dashpots or to the air.
+  bool isDissipative() const { return spring_.damping != 0.0 || air_drag_ != 0.0; }
+  /// Whether only springs and gravity act: neither air nor a drive.
+  bool isPlain() const { return air_drag_ == 0.0 && !isDriven(); }
   /// Whether all moving particles have exactly the same mass.
   bool equalMasses() const { return equal_masses_; }
 
@@ -50,14 +60,20 @@ class Chain {
   /// Returns the chain as seen from P_1: there, P_1 is at rest, and all springless accelerations are
   /// less by its acceleration. Held particles have a very large mass.
   Chain seenFromAnchor() const;
+  /// Returns the same chain with one more particle at rest before P_1, which is held then: the air stays
+  /// at rest when P_1 moves. The spring between the two does not count: `firstSpring()` is 1.
+  Chain behindRest() const;
+  std::ptrdiff_t firstSpring() const { return first_spring_; }
 
  private:
   AlignedNumbers masses_;
   AlignedNumbers inverse_masses_;
   SpringLaw spring_;
   double gravity_;
+  double air_drag_ = 0.0;
   bool equal_masses_;
   Drive drive_;
+  std::ptrdiff_t first_spring_ = 0;
   AlignedNumbers accelerations_;  ///< springless ones, all x and then all y; empty: not driven
 };
 

@@ -20,7 +20,8 @@ struct Energy {
 /// \throws InputError if the size of the state is not that of the chain
 Energy computeEnergy(const Chain& chain, const State& state);
 
-/// Returns the power dissipated by the dashpots, the sum of k_d (w·r)², W; never negative.
+/// Returns the power dissipated by the dashpots and the air, the sum of k_d (w·r)² and of k_air v² of
+/// all particles that are not held, W; never negative.
 /// \throws InputError if the size of the state is not that of the chain
 double dissipatedPower(const Chain& chain, const State& state);
 

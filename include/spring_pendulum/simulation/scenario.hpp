@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstdint>
@@ -43,6 +44,7 @@ struct Scenario {
   double damping = SpringLaw{}.damping;          ///< N·s/m
   double rest_length = SpringLaw{}.rest_length;  ///< m
   double gravity = 9.81;                         ///< m/s²
+  double air_drag = 0.0;                         ///< N·s/m
 
   double wanted_error = 0.0;  ///< m, `--check` finds the cheapest method for it; 0: off
 
@@ -50,6 +52,10 @@ struct Scenario {
   double sleep = 0.0;        ///< speed in m/s below which a chain is at rest; 0: off
 
   SpringLaw spring() const { return {stiffness, damping, rest_length}; }
+  /// Returns the chain of particles with these masses in kg.
+  Chain chainOf(const AlignedNumbers& masses) const {
+    return Chain(masses, spring(), gravity).inAir(air_drag);
+  }
 };
 
 }  // namespace spring_pendulum

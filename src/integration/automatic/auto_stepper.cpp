@@ -49,10 +49,6 @@ constexpr double kWorkBeforeFirstRace = 500.0;
 /// Least ratio of the paces for a switch.
 constexpr double kHysteresis = 1.2;
 
-double fastestDampingRate(const Chain& chain) {
-  return chain.spring().damping * largestSpringMode(chain);
-}
-
 template <int kOrder>
 std::unique_ptr<DenseOutputStepper> makeTaylor(const Chain& chain, double tolerance) {
   return std::make_unique<TaylorStepper>(chain, kOrder, tolerance);
@@ -68,7 +64,7 @@ std::unique_ptr<DenseOutputStepper> makeStabilizedTaylor(const Chain& chain, dou
 }
 
 bool needsOrder12(const Chain& chain, double tolerance) {
-  const bool fast = fastestDampingRate(chain) > kFastRate;
+  const bool fast = largestDampingRate(chain) > kFastRate;
   return tolerance < (fast ? kTightToleranceIfFast : kTightTolerance);
 }
 
@@ -82,7 +78,7 @@ AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keep
     : chain_(chain),
       tolerance_(tolerance),
       keeps_up_to_(keeps_up_to),
-      fastest_rate_(fastestDampingRate(chain)),
+      fastest_rate_(largestDampingRate(chain)),
       vibrates_fast_(std::sqrt(chain.spring().stiffness * largestSpringMode(chain)) >
                      kFastVibration) {
   const bool order_12 = needsOrder12(chain, tolerance);

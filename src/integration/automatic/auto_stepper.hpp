@@ -2,7 +2,7 @@
 //
 // The first method is a Taylor series method of order 8 or 12, depending on the tolerance. It is
 // the cheapest while accuracy limits the step size. When the steps approach its stability limit
-// (step * k_d μ, with the largest spring mode μ of the chain), the motion is stiff. The stabilised
+// (step * k_d μ without air, with the largest spring mode μ of the chain), the motion is stiff. The stabilised
 // series of order 8 then replaces the plain series of order 8, as it needs no more work. Later, the
 // methods race: the plain series, the stabilised series of order 4 and 8 and, for light particles,
 // Radau-9. Each candidate takes a few steps from the same state. The one that covers the most time

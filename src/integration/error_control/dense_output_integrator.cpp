@@ -41,10 +41,11 @@ DenseOutputIntegrator::DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper>
 
 DenseOutputIntegrator::Quadrature::Quadrature(const Chain& chain)
     : constants(chain),
+      air_drag(chain.airDrag()),
       kernels(fastestChainKernels(chain.size())),
       sample(chain.size()),
       padded_sample(chain.size()),
-      dissipated(chain.size()),
+      dissipated(chain.size(), chain.firstSpring()),
       held_work(chain) {}
 
 void DenseOutputIntegrator::restart() {
@@ -63,8 +64,9 @@ DenseOutputIntegrator::Energies DenseOutputIntegrator::energiesOf(double fractio
     d.padded_sample.values() = d.sample.values();
     d.kernels.addDissipation(d.constants.chain(), d.padded_sample.data(), scale * point.weight,
                              d.dissipated.data());
-    if (!d.held_work.isNeeded()) continue;
-    d.held_work.add(d.padded_sample, 0.5 * fraction * step_length_ * point.weight);
+    const double time = 0.5 * fraction * step_length_ * point.weight;
+    d.dissipated.addDrag(d.constants.chain(), d.air_drag, d.padded_sample, time);
+    if (d.held_work.isNeeded()) d.held_work.add(d.padded_sample, time);
   }
   return {d.dissipated.total(), d.held_work.total()};
 }

@@ -65,6 +65,7 @@ class DenseOutputIntegrator final : public Integrator {
     explicit Quadrature(const Chain& chain);
 
     KernelConstants constants;
+    double air_drag;  ///< N·s/m
     const ChainKernels& kernels;
     State sample;
     StateBuffer padded_sample;

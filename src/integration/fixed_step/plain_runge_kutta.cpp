@@ -7,10 +7,11 @@ namespace spring_pendulum {
 
 PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                                  bool track_dissipation, const ChainKernels& kernels)
-    : SpringwiseIntegrator(DissipatedEnergy(chain.size())),
+    : SpringwiseIntegrator(DissipatedEnergy(chain.size(), chain.firstSpring())),
       tableau_(tableau),
       track_dissipation_(track_dissipation),
       damping_(chain.spring().damping),
+      air_drag_(chain.airDrag()),
       constants_(chain),
       kernels_(kernels),
       held_work_(chain),
@@ -35,9 +36,12 @@ void PlainRungeKutta::step(double time_step) {
     kernels_.stageSlope(constants_.chain(), stage_.data(), {}, slopes_[i].data());
     ++force_evaluations_;
     if (held_work_.isNeeded()) held_work_.add(stage_, time_step * tableau_.b[i]);
-    if (track_dissipation_ && damping_ != 0.0 && tableau_.b[i] != 0.0) {
-      const double weight = time_step * tableau_.b[i] * damping_;
-      kernels_.addDissipation(constants_.chain(), stage_.data(), weight, dissipated_.data());
+    if (!track_dissipation_ || tableau_.b[i] == 0.0) continue;
+    const double weight = time_step * tableau_.b[i];
+    dissipated_.addDrag(constants_.chain(), air_drag_, stage_, weight);
+    if (damping_ != 0.0) {
+      kernels_.addDissipation(constants_.chain(), stage_.data(), weight * damping_,
+                              dissipated_.data());
     }
   }
   kernels_.combine(pitch, state_.data(), StageSum(time_step, tableau_.b, slopes_), state_.data());

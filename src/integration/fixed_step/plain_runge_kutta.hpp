@@ -39,7 +39,8 @@ class PlainRungeKutta : public SpringwiseIntegrator {
 
   ButcherTableau tableau_;
   bool track_dissipation_;
-  double damping_;  ///< N·s/m
+  double damping_;   ///< N·s/m
+  double air_drag_;  ///< N·s/m
   KernelConstants constants_;
   const ChainKernels& kernels_;
   HeldWork held_work_;

@@ -7,7 +7,7 @@
 namespace spring_pendulum {
 
 SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
-    : SpringwiseIntegrator(DissipatedEnergy(chain.size())),
+    : SpringwiseIntegrator(DissipatedEnergy(chain.size(), chain.firstSpring())),
       chain_(chain),
       track_dissipation_(track_dissipation),
       constants_(chain_),
@@ -38,6 +38,7 @@ void SymplecticMethod::addPowers(double time) {
   if (!track_dissipation_) return;
   kernels_.addDissipation(constants_.chain(), current_.data(), time * chain_.spring().damping,
                           dissipated_.data());
+  dissipated_.addDrag(constants_.chain(), chain_.airDrag(), current_, time);
 }
 
 void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {

@@ -53,7 +53,7 @@ class SymplecticMethod : public SpringwiseIntegrator {
   /// Discards what was kept from the last step, because the next step starts from another state.
   virtual void forget() {}
 
-  bool damped() const { return chain_.spring().damping != 0.0; }
+  bool damped() const { return chain_.isDissipative(); }
   StateBuffer& current() { return current_; }
   /// Writes the accelerations of a state to the columns vx and vy of `slope`.
   void evaluate(const StateBuffer& state, StateBuffer& slope);

@@ -9,7 +9,7 @@
 //
 // which is block tridiagonal with 2×2 blocks. A spring adds its block q df/dw + q² df/dd to the
 // diagonal blocks of its two particles and subtracts it from the two off-diagonal blocks between
-// them. q may be complex.
+// them. Air adds q k_air to the diagonal. q may be complex.
 //
 // Blocks are eliminated without pivoting from both ends towards the middle particle ("twisted" or
 // "burn at both ends" factorisation): two independent recursions use the processor better than one.

@@ -60,10 +60,6 @@ StepStatistics RadauStepper::statistics() const {
   return statistics;
 }
 
-double RadauStepper::Change::norm() const {
-  return std::max(position, velocity) + 0.0 * (position + velocity);
-}
-
 RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKernels& kernels)
     : ErrorEstimatingStepper(chain,
                              {kShareOfTolerance * tolerance, static_cast<int>(kStages),
@@ -82,7 +78,7 @@ void RadauStepper::prepare(bool restarted) {
   std::swap(stages_, previous_);
   previous_length_ = restarted ? 0.0 : statistics().last_step;
   if (restarted) active_ = stages_.particles.size();
-  if (chain().isDriven()) return;
+  if (!chain().isPlain()) return;
   const auto size = static_cast<Eigen::Index>(active_);
   const Eigen::Index first = beginOfFreeFall(begin(), size, chain().spring().rest_length, kStill);
   setActive(static_cast<std::size_t>(first) + kMargin);
@@ -236,6 +232,7 @@ void RadauStepper::computeResiduals() {
       fy[s] = (right_y[s] - left_y[s]) + mass * fall.y;
     }
     const Increments& increments = stages_.particles[i];
+    subtractDrag(i, fx, fy);
     real_.setRightHandSide(i, mass, increments, fx, fy);
     for (System<Complex>& pair : pairs_) pair.setRightHandSide(i, mass, increments, fx, fy);
     left_x = right_x;
@@ -324,6 +321,9 @@ double RadauStepper::filteredError(bool corrected) {
     const Increments& stage = stages_.particles[i];
     real_.x[i] = mass * (radau::dot(radau::kError, stage.vx) + q * fall.x) + (right.x - left.x);
     real_.y[i] = mass * (radau::dot(radau::kError, stage.vy) + q * fall.y) + (right.y - left.y);
+    const PlaneVector<double> drag = startDrag(i, corrected);
+    real_.x[i] -= q * drag.x;
+    real_.y[i] -= q * drag.y;
     here = next;
     left = right;
   }

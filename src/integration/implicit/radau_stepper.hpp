@@ -30,6 +30,7 @@
 #include "integration/implicit/linear_spring.hpp"
 #include "integration/implicit/radau_sums.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -96,7 +97,8 @@ class RadauStepper final : public ErrorEstimatingStepper {
   struct Change {
     double position = 0.0;  ///< largest change of a coordinate, m
     double velocity = 0.0;  ///< m/s
-    double norm() const;    ///< NaN if not finite
+    /// NaN if not finite
+    double norm() const { return std::max(position, velocity) + 0.0 * (position + velocity); }
   };
 
   /// Position and velocity of the right end of a spring relative to its left end.
@@ -110,6 +112,35 @@ class RadauStepper final : public ErrorEstimatingStepper {
 
   static Ends endsOf(std::size_t spring, const StateBuffer& state);
   Ends endsOf(std::size_t spring, const Ends& start, std::size_t stage) const;
+
+  /// Air drag on a particle, N·s/m; 0 if it is held.
+  double dragOn(std::size_t particle) const {
+    return chain().isHeld(static_cast<Eigen::Index>(particle)) ? 0.0 : chain().airDrag();
+  }
+  static PlaneVector<double> velocityOf(const StateBuffer& state, std::size_t particle) {
+    const double* row = state.particle(static_cast<Eigen::Index>(particle));
+    return {row[2 * state.pitch()], row[3 * state.pitch()]};
+  }
+  /// Subtracts k_air v at all stages.
+  void subtractDrag(std::size_t particle, Row& fx, Row& fy) const {
+    const double drag = dragOn(particle);
+    if (drag == 0.0) return;
+    const PlaneVector<double> velocity = velocityOf(begin(), particle);
+    const Increments& increments = stages_.particles[particle];
+    for (std::size_t s = 0; s < radau::kStages; ++s) {
+      fx[s] -= drag * (velocity.x + increments.vx[s]);
+      fy[s] -= drag * (velocity.y + increments.vy[s]);
+    }
+  }
+  /// Returns k_air v at the beginning of the step; `corrected` as for `filteredError`.
+  PlaneVector<double> startDrag(std::size_t particle, bool corrected) const {
+    const double drag = dragOn(particle);
+    if (drag == 0.0) return {};
+    const PlaneVector<double> velocity = velocityOf(begin(), particle);
+    const PlaneVector<double> change = velocityOf(change_, particle);
+    const double share = corrected ? 1.0 : 0.0;
+    return {drag * (velocity.x + share * change.x), drag * (velocity.y + share * change.y)};
+  }
 
   /// Computes this number of particles from now on. Those beyond fall like the last of these.
   void setActive(std::size_t particles);

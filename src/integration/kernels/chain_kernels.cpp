@@ -91,12 +91,23 @@ AlignedNumbers driveColumns(const Chain& chain) {
   return columns;
 }
 
+AlignedNumbers dragRates(const Chain& chain) {
+  if (chain.airDrag() == 0.0) return {};
+  AlignedNumbers rates(StateBuffer::pitchFor(chain.size()));
+  for (std::ptrdiff_t i = 1; i < chain.size(); ++i) {
+    rates[i - 1] = chain.airDrag() * chain.inverseMasses()[i];
+  }
+  return rates;
+}
+
 KernelConstants::KernelConstants(const Chain& chain) {
   const bool equal = chain.equalMasses() && chain.size() > 1;
   chain_.spring = chain.spring();
   chain_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
   drive_ = driveColumns(chain);
   chain_.drive = chain.isDriven() ? drive_.data() : nullptr;
+  drag_rates_ = dragRates(chain);
+  if (chain.airDrag() != 0.0) chain_.drag_rates = drag_rates_.data();
   chain_.mass_stride = equal ? 0 : 1;
   chain_.size = chain.size();
   chain_.pitch = StateBuffer::pitchFor(chain.size());

@@ -33,6 +33,7 @@ struct KernelChain {
   /// Springless accelerations (x, y) of the particles of a driven chain after the first, m/s²: two
   /// columns, `pitch` apart; else null
   const double* drive = nullptr;
+  const double* drag_rates = nullptr;  ///< k_air/m of the moving particles, 1/s; null without air
   /// Of the N - 1 moving particles, 1/kg, or 8 equal numbers if `mass_stride` is 0
   const double* inverse_masses = nullptr;
   std::ptrdiff_t mass_stride = 1;  ///< 1, or 0 if all moving particles have the same mass

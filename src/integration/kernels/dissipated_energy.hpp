@@ -1,7 +1,8 @@
-// The energy dissipated by each dashpot. Each spring has its own sum over time, so the result does
+// The energy dissipated by each dashpot, and that by the air. Each spring has its own sum over time, so the result does
 // not depend on blocks, threads or instruction sets.
 #pragma once
 
+#include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "model/block_sums.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
@@ -17,11 +18,30 @@ namespace spring_pendulum {
 class DissipatedEnergy {
  public:
   DissipatedEnergy() = default;
-  explicit DissipatedEnergy(Eigen::Index particles)
-      : springs_(particles - 1), numbers_(StateBuffer::pitchFor(particles)) {}
+  /// \param first_spring springs before do not count
+  explicit DissipatedEnergy(Eigen::Index particles, Eigen::Index first_spring = 0)
+      : springs_(particles - 1),
+        first_spring_(first_spring),
+        numbers_(StateBuffer::pitchFor(particles)) {}
 
   double* data() { return numbers_.data(); }
-  void reset() { std::fill_n(numbers_.data(), springs_, 0.0); }
+  void reset() {
+    std::fill_n(numbers_.data(), springs_, 0.0);
+    air_ = 0.0;
+  }
+
+  /// Adds what the air dissipates at the velocities of a state in `time` s.
+  void addDrag(const KernelChain& chain, double drag, const StateBuffer& state, double time) {
+    if (drag == 0.0) return;
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < springs_; ++i) {
+      const double* velocity = state.particle(i + 1) + 2 * state.pitch();
+      const double square =
+          velocity[0] * velocity[0] + velocity[state.pitch()] * velocity[state.pitch()];
+      if (chain.drag_rates[i] != 0.0) sum += square;  // not held
+    }
+    air_ += time * drag * sum;
+  }
 
   /// Sum over the springs first <= i < last, J.
   double sum(Eigen::Index first, Eigen::Index last) const {
@@ -33,19 +53,21 @@ class DissipatedEnergy {
            ((sums[2] + sums[6]) + (sums[3] + sums[7]));
   }
 
-  /// Sum over all springs, J, always in the same order.
+  /// Sum over all springs and the air, J, always in the same order.
   double total() const {
-    double total = 0.0;
+    double total = air_;
     const Eigen::Index block = sumBlockSize(springs_);
     for (Eigen::Index first = 0; first < springs_; first += block) {
-      total += sum(first, std::min(springs_, first + block));
+      total += sum(std::max(first, first_spring_), std::min(springs_, first + block));
     }
     return total;
   }
 
  private:
   Eigen::Index springs_ = 0;
+  Eigen::Index first_spring_ = 0;
   AlignedNumbers numbers_;
+  double air_ = 0.0;  ///< J
 };
 
 /// An integrator that knows the dissipated energy of each spring: one with a fixed step.

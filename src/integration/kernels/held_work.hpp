@@ -12,7 +12,8 @@ namespace spring_pendulum {
 /// integrators compute. Free of cost without such particles.
 class HeldWork {
  public:
-  explicit HeldWork(const Chain& chain) : spring_(chain.spring()) {
+  explicit HeldWork(const Chain& chain)
+      : spring_(chain.spring()), first_spring_(chain.firstSpring()) {
     for (Eigen::Index i = 1; i < chain.size(); ++i) {
       if (chain.isHeld(i)) held_.push_back(i);
     }
@@ -37,7 +38,7 @@ class HeldWork {
         const PlaneVector<double> force = springForce(spring_, separation, relative_velocity);
         power -= force.x * z[2 * pitch] + force.y * z[3 * pitch];
       };
-      add_spring(-1);
+      if (i > first_spring_) add_spring(-1);
       if (i + 1 < state.size()) add_spring(1);
     }
     work_ += time * power;
@@ -45,6 +46,7 @@ class HeldWork {
 
  private:
   SpringLaw spring_;
+  Eigen::Index first_spring_;
   std::vector<Eigen::Index> held_;
   double work_ = 0.0;
 };

@@ -22,10 +22,14 @@ class KernelConstants {
  private:
   AlignedNumbers inverse_masses_;
   AlignedNumbers drive_;
+  AlignedNumbers drag_rates_;
   KernelChain chain_;
 };
 
 /// Returns the columns of `KernelChain::drive`, empty if the chain is not driven.
 AlignedNumbers driveColumns(const Chain& chain);
+
+/// Returns the column `KernelChain::drag_rates`, empty without air.
+AlignedNumbers dragRates(const Chain& chain);
 
 }  // namespace spring_pendulum

@@ -1,4 +1,5 @@
-// Kernels that work through a whole chain: one stage of any tableau, sums, and error norms.
+// Kernels that work through a whole chain: one stage of any tableau, sums, also of Taylor series, and
+// error norms.
 #pragma once
 
 #include "integration/kernels/block.hpp"
@@ -34,6 +35,18 @@ inline void addTo(std::ptrdiff_t blocks, const double* from, double* to) {
   }
 }
 
+/// Subtracts the deceleration by the air, k_air/m times the velocity, from both columns.
+inline void addDrag(const KernelChain& chain, const double* velocities, double* accelerations) {
+  for (int column = 0; column < 2; ++column) {
+    for (std::ptrdiff_t first = 0; first < blocksOf(chain.size) * kLanes; first += kLanes) {
+      const std::ptrdiff_t at = column * chain.pitch + first;
+      fused(-Pack::load(chain.drag_rates + first), Pack::load(velocities + at),
+            Pack::load(accelerations + at))
+          .store(accelerations + at);
+    }
+  }
+}
+
 // Local copy of the chain: through the reference it would be reloaded after every store.
 template <bool kDamped>
 void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum sum,
@@ -56,12 +69,14 @@ void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum 
 void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, double* slope) {
   const auto spring_slope = chain.spring.damping == 0.0 ? stageSlope<false> : stageSlope<true>;
   spring_slope(chain, state, sum, slope);
-  if (chain.drive == nullptr) return;
-  double* velocities = slope + 2 * chain.pitch + kFirstMoving;
-  for (int column = 0; column < 2; ++column) {
-    addTo(blocksOf(chain.size), chain.drive + column * chain.pitch,
-          velocities + column * chain.pitch);
+  double* accelerations = slope + 2 * chain.pitch + kFirstMoving;
+  if (chain.drive != nullptr) {
+    for (int column = 0; column < 2; ++column) {
+      addTo(blocksOf(chain.size), chain.drive + column * chain.pitch,
+            accelerations + column * chain.pitch);
+    }
   }
+  if (chain.drag_rates != nullptr) addDrag(chain, slope + kFirstMoving, accelerations);
 }
 
 void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out) {
@@ -164,6 +179,68 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
   };
   if (any(much)) return SpringChange::kMuch;
   return any(unclear) ? SpringChange::kUnclear : SpringChange::kLittle;
+}
+
+/// Returns the weighted sum of the acceleration coefficients of one block.
+[[gnu::always_inline]] inline Block weightedSum(const TaylorWorkspace& work,
+                                                const TaylorWeights& weights,
+                                                std::ptrdiff_t block) {
+  Block change{};
+#pragma GCC unroll 1
+  for (std::ptrdiff_t n = weights.count - 1; n >= 0; --n) {
+    const double* row = work.accelerations + n * 2 * work.pitch + block * kLanes;
+    const Pack x = Pack::load(row);
+    const Pack y = Pack::load(row + work.pitch);
+    const double position = weights.position[n];
+    const double velocity = weights.velocity[n];
+    change = {fused(position, x, change.x), fused(position, y, change.y),
+              fused(velocity, x, change.vx), fused(velocity, y, change.vy)};
+  }
+  return change;
+}
+
+void taylorState(const TaylorWorkspace& callers_work, const double* state, const double* base,
+                 const TaylorWeights& weights, double* out) {
+  const TaylorWorkspace work = callers_work;
+  const double time = weights.start_velocity;
+  store(load(placeOf(base, work.pitch, -1)), placeOf(out, work.pitch, -1));
+  for (std::ptrdiff_t block = 0; block < blocksOf(work.size); ++block) {
+    const Block change = weightedSum(work, weights, block);
+    const Block start = load(placeOf(state, work.pitch, block));
+    const Block from = load(placeOf(base, work.pitch, block));
+    store({from.x + fused(time, start.vx, change.x), from.y + fused(time, start.vy, change.y),
+           from.vx + change.vx, from.vy + change.vy},
+          placeOf(out, work.pitch, block));
+  }
+}
+
+LargestChange taylorLargestSum(const TaylorWorkspace& work, const TaylorWeights& weights) {
+  Largest position;
+  Largest velocity;
+  for (std::ptrdiff_t block = 0; block < blocksOf(work.size); ++block) {
+    const Block change = weightedSum(work, weights, block);
+    position.add(change.x);
+    position.add(change.y);
+    velocity.add(change.vx);
+    velocity.add(change.vy);
+  }
+  return {position.result(), velocity.result()};
+}
+
+LastCoefficients lastCoefficients(const TaylorWorkspace& work) {
+  const std::ptrdiff_t end = blocksOf(work.size) * kLanes;
+  const auto size_of = [&](std::ptrdiff_t n) {
+    const double* x = work.accelerations + n * 2 * work.pitch;
+    const double* y = x + work.pitch;
+    Largest largest;
+    for (std::ptrdiff_t first = 0; first < end; first += kLanes) {
+      largest.add(Pack::load(x + first));
+      largest.add(Pack::load(y + first));
+    }
+    return largest.result();
+  };
+  const std::ptrdiff_t last = work.order - 1;
+  return {{size_of(last), size_of(last - 1), size_of(last - 2), size_of(last - 3)}};
 }
 
 }  // namespace

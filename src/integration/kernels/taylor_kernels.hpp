@@ -4,7 +4,6 @@
 
 #include "integration/kernels/block.hpp"
 #include "integration/kernels/instruction_sets/pack.hpp"
-#include "integration/kernels/largest.hpp"
 #include "integration/kernels/taylor_workspace.hpp"
 #include <spring_pendulum/model/spring_law.hpp>
 
@@ -299,94 +298,64 @@ template <Index n, Index kBlocks>
   }
 }
 
-/// Acts between order n and order n + 1. A chain of one block is not driven here.
+/// Adds the drag of the air, -k_air/m times coefficient n of the velocities, to coefficient n of the
+/// accelerations and, as differences of neighbours, to coefficient n + 2 of the separations.
+[[gnu::noinline]] inline void addDrag(const TaylorWorkspace& work, const double* state, Index n) {
+  // Coefficient n of the velocities is coefficient n - 1 of the accelerations, divided by n.
+  const double* from = n == 0 ? placeOf(state, work.pitch, 0).first + 2 * work.pitch
+                              : work.accelerations + (n - 1) * 2 * work.pitch;
+  const double divisor = n == 0 ? -1.0 : -1.0 / static_cast<double>(n);
+  const double share = 1.0 / static_cast<double>((n + 1) * (n + 2));
+  PlaneVector<Pack> left{};
+  for (Index block = 0; block < blocksOf(work.size); ++block) {
+    const Index first = block * kLanes;
+    const Pack rate = divisor * Pack::load(work.drag_rates + first);
+    const PlaneVector<Pack> here{rate * Pack::load(from + first),
+                                 rate * Pack::load(from + work.pitch + first)};
+    double* accelerations = work.accelerations + n * 2 * work.pitch + first;
+    (Pack::load(accelerations) + here.x).store(accelerations);
+    (Pack::load(accelerations + work.pitch) + here.y).store(accelerations + work.pitch);
+    if (n + 1 < work.order) {
+      SpringSeries spring(work, block);
+      const PlaneVector<Pack> separation = spring.separation(n + 2);
+      spring.setSeparation(n + 2,
+                           {separation.x + share * (here.x - leftNeighbours(left.x, here.x)),
+                            separation.y + share * (here.y - leftNeighbours(left.y, here.y))});
+    }
+    left = here;
+  }
+}
+
+/// Acts between order n and order n + 1. A chain of one block is neither driven nor in air here.
 template <Index n, Index kBlocks>
-[[gnu::always_inline]] inline void finishOrder(const TaylorWorkspace& work) {
-  if constexpr (n == 0 && kBlocks == 0) {
-    if (work.drive != nullptr) addDrive(work);
+[[gnu::always_inline]] inline void finishOrder(const TaylorWorkspace& work, const double* state) {
+  if constexpr (kBlocks == 0) {
+    if (n == 0 && work.drive != nullptr) addDrive(work);
+    if (work.drag_rates != nullptr) addDrag(work, state, n);
   }
 }
 
 template <Index kBlocks, Index... n>
-[[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work,
+[[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work, const double* state,
                                              std::integer_sequence<Index, n...> /*orders*/) {
-  (void)((n < work.order && (addOrder<n, kBlocks>(work), finishOrder<n, kBlocks>(work), true)) &&
+  (void)((n < work.order &&
+          (addOrder<n, kBlocks>(work), finishOrder<n, kBlocks>(work, state), true)) &&
          ...);
 }
 
 template <Index kBlocks>
 void seriesOf(const TaylorWorkspace& work, const double* state) {
   beginSeries(work, state);
-  addOrders<kBlocks>(work, std::make_integer_sequence<Index, kLargestTaylorOrder>());
+  addOrders<kBlocks>(work, state, std::make_integer_sequence<Index, kLargestTaylorOrder>());
 }
 
 // Local copy of the workspace: through the reference it would be reloaded after every store. A
 // chain of one block keeps its coefficients in registers.
 void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
   const TaylorWorkspace work = callers_work;
-  if (blocksOf(work.size) == 1 && work.drive == nullptr) return seriesOf<1>(work, state);
+  const bool plain = work.drive == nullptr && work.drag_rates == nullptr;
+  if (plain && blocksOf(work.size) == 1) return seriesOf<1>(work, state);
   seriesOf<0>(work, state);
-}
-
-/// Returns the weighted sum of the acceleration coefficients of one block.
-[[gnu::always_inline]] inline Block weightedSum(const TaylorWorkspace& work,
-                                                const TaylorWeights& weights, Index block) {
-  Block change{};
-#pragma GCC unroll 1
-  for (Index n = weights.count - 1; n >= 0; --n) {
-    const double* row = work.accelerations + n * 2 * work.pitch + block * kLanes;
-    const Pack x = Pack::load(row);
-    const Pack y = Pack::load(row + work.pitch);
-    const double position = weights.position[n];
-    const double velocity = weights.velocity[n];
-    change = {fused(position, x, change.x), fused(position, y, change.y),
-              fused(velocity, x, change.vx), fused(velocity, y, change.vy)};
-  }
-  return change;
-}
-
-void taylorState(const TaylorWorkspace& callers_work, const double* state, const double* base,
-                 const TaylorWeights& weights, double* out) {
-  const TaylorWorkspace work = callers_work;
-  const double time = weights.start_velocity;
-  store(load(placeOf(base, work.pitch, -1)), placeOf(out, work.pitch, -1));
-  for (Index block = 0; block < blocksOf(work.size); ++block) {
-    const Block change = weightedSum(work, weights, block);
-    const Block start = load(placeOf(state, work.pitch, block));
-    const Block from = load(placeOf(base, work.pitch, block));
-    store({from.x + fused(time, start.vx, change.x), from.y + fused(time, start.vy, change.y),
-           from.vx + change.vx, from.vy + change.vy},
-          placeOf(out, work.pitch, block));
-  }
-}
-
-LargestChange taylorLargestSum(const TaylorWorkspace& work, const TaylorWeights& weights) {
-  Largest position;
-  Largest velocity;
-  for (Index block = 0; block < blocksOf(work.size); ++block) {
-    const Block change = weightedSum(work, weights, block);
-    position.add(change.x);
-    position.add(change.y);
-    velocity.add(change.vx);
-    velocity.add(change.vy);
-  }
-  return {position.result(), velocity.result()};
-}
-
-LastCoefficients lastCoefficients(const TaylorWorkspace& work) {
-  const Index end = blocksOf(work.size) * kLanes;
-  const auto size_of = [&](Index n) {
-    const double* x = work.accelerations + n * 2 * work.pitch;
-    const double* y = x + work.pitch;
-    Largest largest;
-    for (Index first = 0; first < end; first += kLanes) {
-      largest.add(Pack::load(x + first));
-      largest.add(Pack::load(y + first));
-    }
-    return largest.result();
-  };
-  const Index last = work.order - 1;
-  return {{size_of(last), size_of(last - 1), size_of(last - 2), size_of(last - 3)}};
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct TaylorWorkspace {
   SpringLaw spring;
   double gravity = 0.0;                         ///< m/s²; 0 with a drive
   const double* drive = nullptr;                ///< as in `KernelChain`
+  const double* drag_rates = nullptr;           ///< as in `KernelChain`
   const double* inverse_masses = nullptr;       ///< of the moving particles, 1/kg; 0 if padding
   const double* left_inverse_masses = nullptr;  ///< of their left neighbours, 1/kg; 0 if fixed
   std::ptrdiff_t size = 0;                      ///< N >= 1 particles

@@ -62,7 +62,7 @@ StabilizedTaylorStepper::StabilizedTaylorStepper(const Chain& chain, int order, 
                                                  const ChainKernels& kernels)
     : ErrorEstimatingStepper(chain, kShareOfTolerance * tolerance, order, kernels),
       least_time_per_error_(leastTimePerError(order)),
-      fastest_rate_(chain.spring().damping * largestSpringMode(chain)),
+      fastest_rate_(largestDampingRate(chain)),
       time_of_velocity_error_(timeOfVelocityError(chain, fastest_rate_)),
       polynomials_(stabilizedPolynomials(order)),
       polynomial_(polynomials_.begin()),

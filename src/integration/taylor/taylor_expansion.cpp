@@ -25,6 +25,8 @@ TaylorExpansion::TaylorExpansion(const Chain& chain, int order) {
   work_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
   drive_ = driveColumns(chain);
   work_.drive = chain.isDriven() ? drive_.data() : nullptr;
+  drag_rates_ = dragRates(chain);
+  if (chain.airDrag() != 0.0) work_.drag_rates = drag_rates_.data();
   work_.size = chain.size();
   work_.pitch = StateBuffer::pitchFor(chain.size());
   work_.order = order;

@@ -22,6 +22,7 @@ class TaylorExpansion {
   AlignedNumbers inverse_masses_;
   AlignedNumbers left_inverse_masses_;
   AlignedNumbers drive_;
+  AlignedNumbers drag_rates_;
   AlignedNumbers springs_;
   AlignedNumbers accelerations_;
   TaylorWorkspace work_;

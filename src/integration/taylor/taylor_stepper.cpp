@@ -45,7 +45,7 @@ void TaylorStepper::start(const State& state) {
 
 // The springs beyond the computed part fell freely in the last step and still do.
 void TaylorStepper::skipFreeEnd() {
-  if (chain_.isDriven()) return;
+  if (!chain_.isPlain()) return;
   const Eigen::Index first = beginOfFreeFall(begin_, work_.size, work_.spring.rest_length);
   const Eigen::Index moving = StateBuffer::paddedSize(first + work_.order + 1);
   const Eigen::Index size = std::min<Eigen::Index>(chain_.size(), 1 + moving);

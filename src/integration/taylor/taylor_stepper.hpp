@@ -15,7 +15,7 @@
 //     T_n     = k_s (L_n - [n = 0] rest length) + k_d (n+1) L_{n+1}
 //     u_n     = (T_n - sum_{j<n} u_j L_{n-j}) / L_0
 //     f_n     = sum_{j<=n} u_j d_{n-j}
-//     a_n     = (f_n of the right spring - f_n of the left one) / m - [n = 0] g
+//     a_n     = (f_n of the right spring - f_n of the left one) / m - [n = 0] g - k_air/m v_n
 //     d_{n+2} = (a_n of the right particle - a_n of the left one) / (n+1)(n+2)
 //
 // K force coefficients give velocities of order K and positions of order K + 1. A step needs one

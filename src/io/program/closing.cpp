@@ -37,7 +37,7 @@ std::string skippedWork(const Run& run, const Integrator& integrator) {
   if (skips.masses) {
     text += "skipped: reading masses: all moving particles have the same mass\n";
   }
-  if (run.scenario().damping == 0.0) {
+  if (!run.chain().isDissipative()) {
     text += "skipped: dissipated energy: damping is 0\n";
   } else if (!run.tracksDissipation()) {
     text += "skipped: dissipated energy: expensive for this run; --energy FILE computes it\n";

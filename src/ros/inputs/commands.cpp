@@ -20,8 +20,9 @@
 namespace spring_pendulum {
 namespace {
 
-const std::vector<std::string> kLive = {"method",      "tolerance", "stiffness",       "damping",
-                                        "rest_length", "gravity",   "real_time_factor"};
+const std::vector<std::string> kLive = {"method",   "tolerance",       "stiffness",
+                                        "damping",  "rest_length",     "gravity",
+                                        "air_drag", "real_time_factor"};
 
 /// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
 /// the range of double, or takes hours per frame.
@@ -84,8 +85,8 @@ std::string Commands::set(const std::string& name, const std::string& value) {
   const Option& option = all.find(name, "set");
   all.set(option, value, name);
   checkScenario(wanted);
-  const double largest =
-      std::max({wanted.stiffness, wanted.damping, wanted.rest_length, std::abs(wanted.gravity)});
+  const double largest = std::max({wanted.stiffness, wanted.damping, wanted.rest_length,
+                                   std::abs(wanted.gravity), wanted.air_drag});
   if (largest > kLargest) throw InputError(tooLarge(name));
   if (!wanted.method.get().hasFixedStep()) {
     checkTolerance(wanted.tolerance, run_.chain(), run_.state());

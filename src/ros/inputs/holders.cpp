@@ -31,7 +31,8 @@ bool isSame(const Drive& a, const Drive& b) {
 
 bool isSame(const Scenario& a, const Scenario& b) {
   return &a.method.get() == &b.method.get() && a.stiffness == b.stiffness &&
-         a.damping == b.damping && a.rest_length == b.rest_length && a.gravity == b.gravity;
+         a.damping == b.damping && a.rest_length == b.rest_length && a.gravity == b.gravity &&
+         a.air_drag == b.air_drag;
 }
 
 }  // namespace

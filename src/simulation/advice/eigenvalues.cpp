@@ -49,6 +49,10 @@ std::vector<std::complex<double>> eigenvalues(const Chain& chain, const State& s
       addForce(jacobian, end - 1, end - 1, -weight * stiffness, -weight * damping);
     }
   }
+  for (Eigen::Index i = 1; i < chain.size(); ++i) {
+    const Eigen::Index row = half + 2 * (i - 1);
+    jacobian.block<2, 2>(row, row).diagonal().array() -= chain.airDrag() * chain.inverseMasses()[i];
+  }
   std::vector<std::complex<double>> result(static_cast<std::size_t>(2 * half));
   if (result.empty()) return result;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(jacobian, false);

@@ -86,6 +86,7 @@ double growthPerStep(const Method& method, double swing, double decay) {
 
 bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step,
                        double duration) {
+  if (chain.airDrag() != 0.0) return false;  // it may damp the spring more or less than others
   const double mode = stiffestSpring(chain);
   const double frequency = std::sqrt(chain.spring().stiffness * mode);
   const double damping = chain.spring().damping * mode;
@@ -101,7 +102,7 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
   const double mode = largestSpringMode(chain);
   if (!method.hasFixedStep() || mode == 0.0) return kUnlimited;
   const double frequency = std::sqrt(chain.spring().stiffness * mode);
-  const double damped = stepForMode(method, frequency, chain.spring().damping * mode, duration);
+  const double damped = stepForMode(method, frequency, largestDampingRate(chain), duration);
   // Transverse motion is undamped. The tension acts as a stiffness below k_s; for methods that are
   // unstable on the imaginary axis, the slowest mode, which has most of the energy, counts.
   const bool stable = method.imaginary_stability_limit > 0.0;

@@ -27,6 +27,7 @@ TrialBench::TrialBench(const Chain& chain, const State& start, double duration,
     : particles_{chain.masses(), start},
       spring_(chain.spring()),
       gravity_(chain.gravity()),
+      air_drag_(chain.airDrag()),
       least_tolerance_(smallestTolerance(chain, start)),
       duration_(std::min(duration, kLongest)),
       frame_interval_(std::clamp(frame_interval, duration_ / kMostFrames, duration_)),
@@ -40,6 +41,7 @@ Trial TrialBench::run(Scenario scenario, ReferenceUse reference, VerdictKind eno
   scenario.damping = spring_.damping;
   scenario.rest_length = spring_.rest_length;
   scenario.gravity = gravity_;
+  scenario.air_drag = air_drag_;
   scenario.reference = reference;
   scenario.on_divergence = OnDivergence::kStop;
   scenario.threads = 1;

@@ -62,6 +62,7 @@ class TrialBench {
   Particles particles_;
   SpringLaw spring_;
   double gravity_;
+  double air_drag_;
   double least_tolerance_;
   double duration_;
   double frame_interval_;

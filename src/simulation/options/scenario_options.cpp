@@ -72,6 +72,8 @@ std::vector<Option> scenarioOptions(Scenario& s) {
       {"rest_length", Number{&s.rest_length, Range::atLeast(0)}, "m",
        "length L_0 of an unloaded spring"},
       {"gravity", Number{&s.gravity, Range::any()}, "m/s²", "gravity g (points down)"},
+      {"air_drag", Number{&s.air_drag, Range::atLeast(0)}, "N·s/m",
+       "drag k_air of the air: the force -k_air v on each particle"},
       {"wanted_error", Number{&s.wanted_error, Range::atLeast(0)}, "m",
        "position error for which --check finds the cheapest method; 0: none"},
       {"threads", Count{&s.threads, Range::atLeast(0)}, "",

@@ -56,7 +56,7 @@ std::string sceneOf(const Study& study, const Case& a_case) {
   std::string scene = s.particles;
   if (study.samples > 0) scene += fmt::format(" {}", a_case.sample);
   for (const double value : {a_case.settings.mass_factor, s.stiffness, s.damping, s.rest_length,
-                             s.gravity, frameInterval(s), runTolerance(s)}) {
+                             s.gravity, s.air_drag, frameInterval(s), runTolerance(s)}) {
     scene += ' ' + numberText(value);
   }
   return scene;
@@ -71,7 +71,7 @@ std::shared_ptr<SharedReference> References::take(std::int32_t scene, const Case
     return found->reference;
   }
   const Scenario& s = a_case.settings.scenario;
-  const Chain chain(a_case.particles.masses, s.spring(), s.gravity);
+  const Chain chain = s.chainOf(a_case.particles.masses);
   scenes_.push_front({scene, std::make_shared<SharedReference>(chain, a_case.particles.state,
                                                                frameInterval(s), runTolerance(s))});
   if (scenes_.size() > most_) scenes_.pop_back();
