@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace spring_pendulum {
@@ -36,16 +37,20 @@ int record(int argc, const char* const* argv) {
   }
   if (!options.isGiven("output")) scenario.no_frames = true;
   bag.config = switches.config;
-  Run run(scenario, readParticles(scenario),
-          {display.track_dissipation || !scenario.energy.empty(),
-           display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0, interruption});
-  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
+  std::optional<Replay> replay;
+  if (!bag.inputs.empty()) replay.emplace(bag.inputs);
+  double display_interval = display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0;
+  if (replay) display_interval = replay->displayInterval();
+  const Particles particles = replay ? replay->begin(scenario) : readParticles(scenario);
+  Run run(scenario, particles,
+          {display.track_dissipation || !scenario.energy.empty(), display_interval, interruption});
+  std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   printAnswers(run, *integrator, switches);
   if (switches.check) return kDone;
   catchInterruptions();
   const std::string remarks = remarksOn(run);
-  const std::string output =
-      recordBag(run, *integrator, display, bag, [&] { printError(remarks); });
+  const std::string output = recordBag(run, integrator, replay ? &*replay : nullptr, display, bag,
+                                       [&] { printError(remarks); });
   printClosingLine(run.closingLine(*integrator, output));
   return conclude(run);
 }

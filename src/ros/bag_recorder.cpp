@@ -89,10 +89,17 @@ std::string topicPrefix(const std::string& name_space) {
 }
 
 /// Records until the end of the run or a signal, also the status of a run that diverged.
-void recordRun(Run& run, Integrator& integrator, BagRecorder& recorder, RunFiles& files) {
-  while (run.advancePart(integrator)) {
-    recorder.write(run);
-    files.write(run);
+void recordRun(Run& run, std::unique_ptr<Integrator>& integrator, Replay* replay,
+               BagRecorder& recorder, RunFiles& files) {
+  bool goes_on = true;
+  while (goes_on) {
+    goes_on = run.advancePart(*integrator);
+    if (goes_on) {
+      recorder.write(run);
+      files.write(run);
+    }
+    // A run that is over may go back.
+    if (replay != nullptr && !run.wasStopped()) goes_on = replay->apply(run, integrator) || goes_on;
   }
   if (!run.isShown()) recorder.write(run);
 }
@@ -104,17 +111,23 @@ std::vector<Option> bagOptions(BagOptions& o) {
       {"bag", Text{&o.path, "FILE", "a file"}, "", "the bag to write"},
       {"namespace", Text{&o.name_space, "NAME", "a name that ROS accepts", isTopicName}, "",
        "put before the topics markers, state and status"},
+      {"inputs", Text{&o.inputs, "FILE", "a bag", anyText}, "",
+       "bag with the inputs of a node, whose run is repeated bit for bit; method, constants, "
+       "numbers "
+       "and particles come from it"},
       {"append", Flag{&o.append}, "", "add to an existing bag, for example another method's run"},
   };
 }
 
-std::string recordBag(Run& run, Integrator& integrator, const NodeOptions& options,
-                      const BagOptions& to, const std::function<void()>& started) {
+std::string recordBag(Run& run, std::unique_ptr<Integrator>& integrator, Replay* replay,
+                      const NodeOptions& options, const BagOptions& to,
+                      const std::function<void()>& started) {
   const Scenario& scenario = run.scenario();
   auto bag = std::make_unique<rosbag::Bag>();
   BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
   // What can refuse the options is done: these remove files of earlier runs.
   TouchedFiles touched = touchedFiles(scenario, to.config);
+  touched.inputs.push_back(to.inputs);
   touched.outputs.push_back(to.path);
   checkTouchedFiles(touched);
   OutputFile file(to.path);
@@ -127,7 +140,7 @@ std::string recordBag(Run& run, Integrator& integrator, const NodeOptions& optio
     bag->open(file.unfinishedPath(),
               has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     started();
-    recordRun(run, integrator, recorder, files);
+    recordRun(run, integrator, replay, recorder, files);
     bag->close();
     messages = recorder.messages();
   } catch (const rosbag::BagException& error) {

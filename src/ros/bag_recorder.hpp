@@ -1,11 +1,13 @@
 // Records the messages of a run in a bag without a running ROS master.
 #pragma once
 
+#include "ros/inputs/input_messages.hpp"
 #include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace spring_pendulum {
 struct BagOptions {
   std::string path = "pendulum.bag";
   std::string name_space;  ///< prefix of the topics
+  std::string inputs;      ///< bag whose run is repeated; empty: none
   bool append = false;     ///< add to the bag instead of replacing it
   std::string config;      ///< configuration file of the run, which must not be overwritten
 };
@@ -29,7 +32,7 @@ std::vector<Option> bagOptions(BagOptions& options);
 /// \returns for the closing line: ", 501 messages, 123456 bytes in /home/me/pendulum.bag"
 /// \throws FileError naming the bag
 std::string recordBag(
-    Run& run, Integrator& integrator, const NodeOptions& options, const BagOptions& to,
-    const std::function<void()>& started = [] {});
+    Run& run, std::unique_ptr<Integrator>& integrator, Replay* replay, const NodeOptions& options,
+    const BagOptions& to, const std::function<void()>& started = [] {});
 
 }  // namespace spring_pendulum

@@ -76,19 +76,19 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
       frame_steps_(frameSteps(scenario)),
       track_dissipation_(chain_.isDissipative() &&
                          (options.track_dissipation || dissipationIsCheap(scenario, chain_))),
-      judge_(chain_, start_, judgeOptions()),
+      judge_(chain_, start_, judgeOptions(first_frame_)),
       frame_(first_frame_) {
   checkMemory(scenario, chain_.size());
   if (!scenario.method.get().hasFixedStep()) checkTolerance(scenario.tolerance, chain_, start_);
   setFrameSteps();
-  startReference();
+  startReference(start_);
   judgeFrame();
 }
 
-JudgeOptions Run::judgeOptions() const {
+JudgeOptions Run::judgeOptions(std::int64_t first_frame) const {
   const Method& method = scenario_.method;
   return {track_dissipation_, method.symplectic ? scenario_.time_step : 0.0, toleranceOf(scenario_),
-          frameSteps(scenario_).timeOfFrame(first_frame_)};
+          frameSteps(scenario_).timeOfFrame(first_frame)};
 }
 
 void Run::setFrameSteps() {
@@ -98,12 +98,12 @@ void Run::setFrameSteps() {
   frame_steps_ = {scenario_.frame_interval / static_cast<double>(parts_), parts_};
 }
 
-void Run::startReference() {
+void Run::startReference(const State& start) {
   if (scenario_.reference == ReferenceUse::kNever) return;
   const ReferenceOptions reference{toleranceOf(scenario_),
                                    scenario_.reference == ReferenceUse::kAlways,
                                    changed_ ? nullptr : options_.shared_reference};
-  reference_.emplace(chain_, start_, reference);
+  reference_.emplace(chain_, start, reference);
 }
 
 std::unique_ptr<Integrator> Run::makeIntegrator() const {
@@ -183,21 +183,39 @@ void Run::judgeFrame() {
 }
 
 void Run::reset(Integrator& integrator) {
-  integrator.restart();
   if (changed_) {
-    judge_ = Judge(chain_, start_, judgeOptions());
-    startReference();
+    judge_ = Judge(chain_, start_, judgeOptions(first_frame_));
+    startReference(start_);
     changed_ = false;
   } else {
     judge_.restart();
     if (reference_) reference_->restart();
   }
-  state_ = start_;
-  frame_ = first_frame_;
+  begin(first_frame_, start_, integrator);
+}
+
+void Run::goTo(std::int64_t frame, const State& state, Integrator& integrator) {
+  checkFirstFrame(scenario_, frame);
+  checkState(state);
+  changed_ = true;
+  judge_ = Judge(chain_, state, judgeOptions(frame));
+  startReference(state);
+  begin(frame, state, integrator);
+}
+
+void Run::begin(std::int64_t frame, const State& state, Integrator& integrator) {
+  integrator.restart();
+  state_ = state;
+  frame_ = frame;
   part_ = frame_origin_ = 0;
   started_ = stopped_ = asleep_ = false;
   time_origin_ = dissipated_before_ = dissipated_ = supplied_before_ = supplied_ = work_ = 0.0;
   judgeFrame();
+}
+
+void Run::checkState(const State& state) const {
+  requireSize(chain_.size(), state.size());
+  if (!state.values().allFinite()) throw InputError("the state has numbers that are not finite");
 }
 
 void Run::change(const Scenario& scenario, const Drive& drive, const State& state,
@@ -218,8 +236,7 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
         "a method with fixed steps and one with error control alternate at frames only");
   }
   Chain chain = next.chainOf(chain_.masses()).drivenBy(drive);
-  requireSize(chain.size(), state.size());
-  if (!state.values().allFinite()) throw InputError("the state has numbers that are not finite");
+  checkState(state);
   if (!fixed_step) checkTolerance(next.tolerance, chain, state);
   const bool knows_dissipation = track_dissipation_ || (!chain_.isDissipative() && !changed_);
   EnergyBalance balance = judge_.balance();
@@ -231,7 +248,7 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   state_ = state;
   track_dissipation_ = knows_dissipation;
   changed_ = true;
-  judge_.change(chain_, std::move(balance), judgeOptions());
+  judge_.change(chain_, std::move(balance), judgeOptions(first_frame_));
   if (reference_) reference_->stopAtChange();
   if (other_control) {
     setFrameSteps();

@@ -20,7 +20,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import (InteractiveMarkerFeedback, InteractiveMarkerInit,
                                     InteractiveMarkerUpdate, MarkerArray)
 
-from pendulum_process import PendulumNode, methods, project, wait_until
+from pendulum_process import Folder, PendulumNode, methods, project, wait_until
 
 ARGUMENTS = dict(word.split(':=') for word in sys.argv if ':=' in word and not word.startswith('_'))
 INPUTS = int(ARGUMENTS.get('inputs', 500))
@@ -193,9 +193,10 @@ class RandomInputs(unittest.TestCase):
                  (self.send_click, 6), (self.call_set, 8), (self.call_force, 9), (self.call_pause, 4),
                  (self.call_trigger, 4))
         self.unstable = {name for name, error_controlled in methods() if not error_controlled}
-        with PendulumNode(particles=project('data/horizontal_11.txt'), frames=1000000, method='Auto',
-                          real_time_factor=1.0, at_end='hold', held='6, last', held_6_frame='gripper',
-                          tf_particles='1, 5') as node:
+        with Folder() as folder, PendulumNode(
+                cwd=folder, particles=project('data/horizontal_11.txt'), frames=1000000, method='Auto',
+                real_time_factor=1.0, at_end='hold', held='6, last', held_6_frame='gripper',
+                tf_particles='1, 5') as node:
             self.connect()
             wait_until(lambda: judge.state is not None, 'a state')
             init = rospy.wait_for_message('handles/update_full', InteractiveMarkerInit, timeout=60)

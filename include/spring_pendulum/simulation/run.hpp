@@ -71,6 +71,11 @@ class Run {
   /// line counts the work of all rounds. Changed constants and the drive stay.
   void reset(Integrator& integrator);
 
+  /// Goes to a frame and a state at it, as if the run had started there: energies, errors and verdict
+  /// are relative to it until a reset. Changed constants and the drive stay.
+  /// \throws InputError if the scenario has no such frame or the chain cannot have the state
+  void goTo(std::int64_t frame, const State& state, Integrator& integrator);
+
   /// Continues from another state, with other constants and another drive. The energy balance counts
   /// the difference of the energies before and after as supplied. The reference run ends.
   /// \param scenario   its method, tolerance and constants of the chain replace those of the run
@@ -147,8 +152,10 @@ class Run {
     double reference_seconds = 0.0;      ///< wall-clock time of the reference run
   };
 
-  JudgeOptions judgeOptions() const;
-  void startReference();
+  JudgeOptions judgeOptions(std::int64_t first_frame) const;
+  void startReference(const State& start);
+  void begin(std::int64_t frame, const State& state, Integrator& integrator);
+  void checkState(const State& state) const;
   void setFrameSteps();
   bool advanceTo(std::int64_t part, Integrator& integrator);
   bool integrate(std::int64_t steps, Integrator& integrator);

@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "ros/inputs/answer.hpp"
 #include "simulation/options/option_set.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
@@ -32,19 +33,6 @@ constexpr double kLargestAcceleration = 1e6;
 
 std::string tooLarge(const std::string& name) {
   return fmt::format("{}: must be at most {:g} while the chain moves", name, kLargest);
-}
-
-/// Calls a function and answers with its sentence, or with the error.
-template <typename Response, typename Function>
-bool answer(Response& response, const Function& function) {
-  try {
-    response.message = function();
-    response.success = 1;
-  } catch (const std::exception& error) {
-    response.message = error.what();
-    response.success = 0;
-  }
-  return true;
 }
 
 }  // namespace

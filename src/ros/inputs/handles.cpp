@@ -104,6 +104,7 @@ void Handles::makeMenu() {
   addEntry("Pause or go on", [this](std::ptrdiff_t) { actions_.toggle_pause(); });
   addEntry("Step", [this](std::ptrdiff_t) { actions_.step(); });
   addEntry("Reset", [this](std::ptrdiff_t) { actions_.reset(); });
+  addEntry("Save state", [this](std::ptrdiff_t) { actions_.save_state(); });
   addEntry("Hold here", [this](std::ptrdiff_t i) {
     holders_.hold(i, {{run_.state().x()[i], run_.state().y()[i]}, {}});
   });

@@ -23,6 +23,7 @@ struct MenuActions {
   std::function<void()> toggle_pause;
   std::function<void()> step;
   std::function<void()> reset;
+  std::function<void()> save_state;
   std::function<void()> show;  ///< shows the state again soon
 };
 

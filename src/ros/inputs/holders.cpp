@@ -37,8 +37,9 @@ bool isSame(const Scenario& a, const Scenario& b) {
 
 }  // namespace
 
-Holders::Holders(const Run& run)
+Holders::Holders(const Run& run, InputLog* log)
     : run_(run),
+      log_(log),
       fastest_(kLengthsPerSecond * std::max(chainLength(run.chain(), run.start()), 1.0)),
       wanted_(run.scenario()) {}
 
@@ -130,8 +131,10 @@ void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double ne
                     state.values() == run.state().values();
   if (same) return;
   try {
+    const State before = run.state();
     run.change(scenario, drive, state, integrator);
     ++changes_;
+    if (log_ != nullptr) log_->changed(run, before);
   } catch (...) {
     wanted_ = run.scenario();
     forces_.clear();
@@ -139,20 +142,27 @@ void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double ne
   }
 }
 
-void Holders::reset(Run& run, std::unique_ptr<Integrator>& integrator) {
+void Holders::reset(Run& run, std::unique_ptr<Integrator>& integrator, const Particles* to) {
+  const double time = run.time();
+  const State& state = to != nullptr ? to->state : run.start();
   targets_.clear();
   forces_.clear();
   kicks_.clear();
   jump_.reset();
   if (changes_ > 0) {
     try {
-      run.change(possible(), {}, run.start(), integrator);
+      run.change(possible(), {}, state, integrator);
     } catch (const InputError&) {  // what was wanted for another state is impossible at the start
       wanted_ = run.scenario();
-      run.change(wanted_, {}, run.start(), integrator);
+      run.change(wanted_, {}, state, integrator);
     }
   }
-  run.reset(*integrator);
+  if (to != nullptr) {
+    run.goTo(to->frame, to->state, *integrator);
+  } else {
+    run.reset(*integrator);
+  }
+  if (log_ != nullptr) log_->started(run, time);
 }
 
 }  // namespace spring_pendulum

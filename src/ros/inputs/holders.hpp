@@ -1,6 +1,7 @@
 // Who holds which particle, and the accelerations that bring held particles to their targets.
 #pragma once
 
+#include "ros/inputs/input_messages.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <cstdint>
@@ -29,7 +30,8 @@ struct TimedForce {
 /// brings it to rest relative to its target within two intervals.
 class Holders {
  public:
-  explicit Holders(const Run& run);
+  /// \param log learns of every change; must outlive the holders
+  explicit Holders(const Run& run, InputLog* log = nullptr);
 
   /// Holds a particle, or sets a new target for a held one.
   void hold(std::ptrdiff_t particle, const Target& target) { targets_[particle] = target; }
@@ -53,8 +55,8 @@ class Holders {
   /// \throws InputError as Run::change; forgets what the run cannot do
   void apply(Run& run, std::unique_ptr<Integrator>& integrator, double next_time, bool paused);
 
-  /// Lets go of everything and returns the run to its start.
-  void reset(Run& run, std::unique_ptr<Integrator>& integrator);
+  /// Lets go of everything and returns the run to its start, or to a frame and the state at it.
+  void reset(Run& run, std::unique_ptr<Integrator>& integrator, const Particles* to = nullptr);
 
   /// Number of changes of the run so far.
   std::int64_t changes() const { return changes_; }
@@ -65,6 +67,7 @@ class Holders {
   Scenario possible() const;
 
   const Run& run_;
+  InputLog* log_;
   double fastest_;  ///< m/s, of a particle on the way to its target
   Scenario wanted_;
   std::map<std::ptrdiff_t, Target> targets_;

@@ -5,6 +5,12 @@
 #include <ros/console.h>
 
 namespace spring_pendulum {
+namespace {
+
+/// A subscriber that comes later than this number of inputs misses some.
+constexpr std::uint32_t kMostInputs = 20000;
+
+}  // namespace
 
 LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
                  std::unique_ptr<Integrator>& integrator, const NodeOptions& options,
@@ -12,13 +18,26 @@ LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
     : run_(run),
       integrator_(integrator),
       player_(player),
-      holders_(run),
+      inputs_(node.advertise<PendulumInput>("inputs", kMostInputs,
+                                            [this](const ros::SingleSubscriberPublisher& late) {
+                                              for (const PendulumInput& input : sent_)
+                                                late.publish(input);
+                                            })),
+      log_(options.displayInterval(), ros::Time::now(),
+           [this, frame = options.frame_id](PendulumInput message) {
+             message.header.stamp = ros::Time::now();
+             message.header.frame_id = frame;
+             inputs_.publish(message);
+             if (sent_.size() < kMostInputs) sent_.push_back(std::move(message));
+           }),
+      holders_(run, &log_),
       frames_(options.frame_id),
       handles_(node, run, options, holders_, frames_, menuActions()),
       held_inputs_(node, run, options, holders_, frames_),
       commands_(
           node, private_node, run, options, holders_, frames_,
-          [this](double factor) { player_.setSpeed(factor); }, [this] { player_.touch(); }) {}
+          [this](double factor) { player_.setSpeed(factor); }, [this] { player_.touch(); }),
+      states_(private_node, run, [this] { player_.reset(); }) {}
 
 MenuActions LiveRun::menuActions() {
   return {[this] { player_.pause(!player_.isPaused()); },
@@ -26,7 +45,14 @@ MenuActions LiveRun::menuActions() {
             player_.pause(true);
             player_.step();
           },
-          [this] { player_.reset(); }, [this] { player_.touch(); }};
+          [this] { player_.reset(); }, [this] { ROS_INFO_STREAM(states_.save()); },
+          [this] { player_.touch(); }};
+}
+
+void LiveRun::start() {
+  run_.advance(*integrator_);
+  log_.started(run_, run_.time());
+  states_.keep();
 }
 
 void LiveRun::change(double next_time, bool paused) {
@@ -42,7 +68,8 @@ void LiveRun::change(double next_time, bool paused) {
 void LiveRun::act(Player::Action action, const Publisher& publisher) {
   if (action == Player::Action::kReset) {
     handles_.reset();
-    holders_.reset(run_, integrator_);
+    const auto wanted = states_.takeWanted();
+    holders_.reset(run_, integrator_, wanted ? &*wanted : nullptr);
     held_inputs_.reset();
     run_.advance(*integrator_);
   } else if (action == Player::Action::kShowAgain) {
@@ -56,6 +83,7 @@ void LiveRun::act(Player::Action action, const Publisher& publisher) {
     change(run_.nextFrameTime(), false);
     run_.advance(*integrator_);
   }
+  states_.keep();
 }
 
 void LiveRun::show(const std_msgs::Header& header) {

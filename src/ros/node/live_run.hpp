@@ -5,10 +5,13 @@
 #include "ros/inputs/handles.hpp"
 #include "ros/inputs/held_inputs.hpp"
 #include "ros/inputs/holders.hpp"
+#include "ros/inputs/input_messages.hpp"
+#include "ros/inputs/kept_states.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace spring_pendulum {
 
@@ -18,7 +21,7 @@ class LiveRun {
   LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
           std::unique_ptr<Integrator>& integrator, const NodeOptions& options, Player& player);
 
-  void start() { run_.advance(*integrator_); }
+  void start();
   /// Takes one action of the player, with the changes that are wanted before it.
   void act(Player::Action action, const Publisher& publisher);
   /// Moves the handles to the particles and publishes the forces on holders.
@@ -31,11 +34,15 @@ class LiveRun {
   Run& run_;
   std::unique_ptr<Integrator>& integrator_;
   Player& player_;
+  std::vector<PendulumInput> sent_;  ///< for subscribers that come late
+  ros::Publisher inputs_;
+  InputLog log_;
   Holders holders_;
   Frames frames_;
   Handles handles_;
   HeldInputs held_inputs_;
   Commands commands_;
+  KeptStates states_;
 };
 
 }  // namespace spring_pendulum

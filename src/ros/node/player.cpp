@@ -93,7 +93,7 @@ Player::Action Player::goBack() {
   reset_wanted_ = false;
   steps_wanted_ = 0;
   stands_since_ = ros::SteadyTime();
-  pacer_.start(0.0, ros::SteadyTime::now());
+  pacer_ = Pacer(options_.real_time_factor, options_.display_rate);  // starts at the new time
   return Action::kReset;
 }
 

@@ -1,0 +1,68 @@
+// Messages that repeat what acted on a run from outside.
+#pragma once
+
+#include <spring_pendulum/PendulumInput.h>
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <ros/time.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spring_pendulum {
+
+/// Numbers the changes of a run and hands them on as messages.
+class InputLog {
+ public:
+  using Sink = std::function<void(const PendulumInput&)>;
+
+  /// \param display_interval of the run, s
+  /// \param began            the present time, which tells the runs in a bag apart
+  InputLog(double display_interval, ros::Time began, Sink sink)
+      : display_interval_(display_interval), began_(began), sink_(std::move(sink)) {}
+
+  /// Must be called at the start of a run, and whenever it has gone to a frame.
+  /// \param time at which it did, s
+  void started(const Run& run, double time);
+  /// Must be called after every Run::change.
+  /// \param before the state until then
+  void changed(const Run& run, const State& before);
+
+ private:
+  PendulumInput messageOf(const Run& run, double time);
+
+  double display_interval_;
+  ros::Time began_;
+  Sink sink_;
+  std::uint32_t count_ = 0;
+};
+
+/// Repeats a run from its inputs.
+class Replay {
+ public:
+  /// Reads all inputs of a bag; those of the last run count.
+  /// \throws FileError, InputError naming the bag
+  explicit Replay(const std::string& path);
+
+  /// Sets the options of the run, apart from files, and returns its particles.
+  Particles begin(Scenario& scenario) const;
+  double displayInterval() const { return inputs_.front().display_interval; }
+
+  /// Changes the run as the inputs did at its current time. Must be called after every state.
+  /// \returns whether the run has gone to another frame
+  /// \throws InputError if the inputs are not those of this run
+  bool apply(Run& run, std::unique_ptr<Integrator>& integrator);
+
+ private:
+  void check(const PendulumInput& input) const;
+
+  std::string path_;
+  std::vector<PendulumInput> inputs_;
+  std::size_t next_ = 1;  ///< the first is the start
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,233 @@
+#!/usr/bin/python3
+"""Saved states, jumps back, and runs that are repeated from the inputs in a bag."""
+import os
+import random
+import signal
+import subprocess
+import unittest
+
+import rosbag
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped, Vector3
+from spring_pendulum.msg import PendulumInput, PendulumState
+from spring_pendulum.srv import ApplyForce, Seek, Set, StatePath
+from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import InteractiveMarkerFeedback
+
+from pendulum_process import (Folder, Listener, PendulumNode, program, project, read_frames, run_exercise,
+                              wait_until)
+
+SCENE = project('data/horizontal_11.txt')
+CONSTANTS = (('stiffness', '80'), ('damping', '0.5'), ('gravity', '5.25'), ('air_drag', '0.3'), ('rest_length', '0.9'))
+
+
+def service(name, kind):
+    rospy.wait_for_service('/pendulum/' + name, timeout=60)
+    return rospy.ServiceProxy('/pendulum/' + name, kind)
+
+
+def frame_of(state):
+    return ''.join('%r %r\n' % (p.x, p.z) for p in state.positions)
+
+
+def numbers_of(text):
+    return [tuple(map(float, line.split())) for line in text.splitlines()]
+
+
+class States(unittest.TestCase):
+
+    def setUp(self):
+        self.state = Listener('state', PendulumState)
+
+    def tearDown(self):
+        self.state.close()
+
+    def node(self, folder, **parameters):
+        values = dict(particles=SCENE, frames=60, real_time_factor=5.0, at_end='hold', wait_for_subscribers=1,
+                      display_rate=0.0, cwd=folder)
+        values.update(parameters)
+        return PendulumNode(**values)
+
+    def check_frames(self, states, frames):
+        """All states have the bits of the frames."""
+        for state in states:
+            expected = numbers_of(frames['frame_%04d.txt' % state.frame].decode())
+            self.assertEqual([(p.x, p.z) for p in state.positions], expected)
+
+    def test_seeks_any_frame_at_once(self):
+        for method in ('Runge-Kutta-4', 'Velocity-Verlet'):
+            with Folder() as folder, self.node(folder, method=method):
+                frames = run_exercise(folder, method, '--particles', SCENE, '--frames', '60')
+                seek = service('seek', Seek)
+                self.state.wait_for_any(lambda m: m.frame == 59)
+                for frame in (10, 42, 0, 59):
+                    service('pause', SetBool)(True)
+                    del self.state.messages[:]
+                    answer = seek(frame)
+                    self.assertTrue(answer.success, answer.message)
+                    self.state.wait_for_any(lambda m, frame=frame: m.frame == frame)
+                    service('pause', SetBool)(False)
+                    self.state.wait_for_any(lambda m: m.frame == 59)
+                    at = [m.frame for m in self.state.messages].index(frame)
+                    self.check_frames(self.state.messages[at:], frames)
+                    self.assertEqual(self.state.messages[-1].verdict, 'ok')
+                for frame in (-1, 60, 2 ** 62):
+                    answer = seek(frame)
+                    self.assertFalse(answer.success)
+                    self.assertIn('must be 0 to 59', answer.message)
+                del self.state.messages[:]
+
+    def test_saves_and_loads(self):
+        with Folder() as folder, self.node(folder, method='Runge-Kutta-4'):
+            frames = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')
+            self.state.wait_for_any(lambda m: m.frame >= 20)
+            answer = service('save_state', StatePath)('')
+            self.assertTrue(answer.success, answer.message)
+            path = os.path.join(folder, 'pendulum_state.txt')
+            self.assertIn(path, answer.message)
+            with open(path) as saved:
+                frame = int(saved.readline().split('frame ')[1].split(',')[0])
+            self.assertGreaterEqual(frame, 20)
+            self.state.wait_for_any(lambda m: m.frame == 59)
+            del self.state.messages[:]
+            answer = service('load_state', StatePath)(path)
+            self.assertTrue(answer.success, answer.message)
+            self.state.wait_for_any(lambda m: m.frame == frame)
+            self.state.wait_for_any(lambda m: m.frame == 59)
+            at = [m.frame for m in self.state.messages].index(frame)
+            self.check_frames(self.state.messages[at:], frames)
+            # Exercise3 goes on from it as well.
+            os.mkdir(os.path.join(folder, 'resumed'))
+            resumed = run_exercise(os.path.join(folder, 'resumed'), 'Runge-Kutta-4', path, '--resume',
+                                   '--frames', '60')
+            self.assertEqual(sorted(resumed), sorted(frames)[frame:])
+            self.assertTrue(all(frames[name] == text for name, text in resumed.items()))
+
+    def test_refuses_what_is_no_state(self):
+        with Folder() as folder, self.node(folder):
+            self.state.wait_for(3)
+            load, save = service('load_state', StatePath), service('save_state', StatePath)
+            other = os.path.join(folder, 'other.txt')
+            with open(other, 'w') as file:
+                file.write('# state of 11 particles at frame 0, t = 0 s\n' +
+                           ''.join('%d 0 2 0 0\n' % i for i in range(11)))
+            for path, says in (('nothing.txt', 'nothing.txt'), (SCENE, 'must be'), (folder, folder),
+                               (other, 'masses differ')):
+                answer = load(path)
+                self.assertFalse(answer.success, path)
+                self.assertIn(says, answer.message)
+                self.assertNotIn('\n', answer.message)
+            for path in ('/proc/nowhere/state.txt', folder, SCENE):
+                answer = save(path)
+                self.assertFalse(answer.success, path)
+                self.assertNotIn('\n', answer.message)
+            del self.state.messages[:]
+            self.state.wait_for(3)
+
+
+class Repeated(unittest.TestCase):
+
+    def disturb(self, dice, hand, robot, state):
+        """Acts on a node until its run is over."""
+        force, set_constant = service('apply_force', ApplyForce), service('set', Set)
+        seek, pause, reset = service('seek', Seek), service('pause', SetBool), service('reset', Trigger)
+        jumps = 0
+        while state.messages[-1].frame < 79:
+            choice = dice.random()
+            if choice < 0.5:
+                message = InteractiveMarkerFeedback(marker_name='particle_6', client_id='test', event_type=1)
+                message.header.frame_id = 'world'
+                message.pose.position.x, message.pose.position.z = dice.uniform(3, 7), dice.uniform(-2, 2)
+                message.pose.orientation.w = 1.0
+                if dice.random() < 0.2:
+                    message.event_type = InteractiveMarkerFeedback.MOUSE_UP
+                hand.publish(message)
+            elif choice < 0.75:
+                pose = PoseStamped()
+                pose.header.frame_id, pose.header.stamp = 'world', rospy.Time.now()
+                pose.pose.position.x, pose.pose.position.z = dice.uniform(9, 10), dice.uniform(-1, 1)
+                pose.pose.orientation.w = 1.0
+                robot.publish(pose)
+            elif choice < 0.85:
+                force(particle=dice.randint(2, 10), force=Vector3(dice.uniform(-5, 5), 0, 3), frame_id='',
+                      start_time=0.0, duration=0.3)
+            elif choice < 0.93:
+                set_constant(*dice.choice(CONSTANTS))
+            elif choice < 0.96 and jumps < 3:
+                jumps += 1
+                dice.choice([lambda: seek(dice.randint(0, 5)), reset])()
+            else:
+                pause(True)
+                rospy.sleep(0.02)
+                pause(False)
+            rospy.sleep(0.02)
+
+    def repeat(self, method, seed):
+        with Folder() as folder:
+            bag, live, again = (os.path.join(folder, name) for name in ('inputs.bag', 'live', 'again'))
+            recorder = subprocess.Popen(['rosbag', 'record', '-O', bag, '/inputs', '__name:=recorder'],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            master = rospy.get_master()
+            wait_until(lambda: any(topic == '/inputs' for topic, _ in master.getSystemState()[2][1]), 'the recorder')
+            hand = rospy.Publisher('handles/feedback', InteractiveMarkerFeedback, queue_size=100)
+            robot = rospy.Publisher('held_11/pose', PoseStamped, queue_size=100)
+            state, inputs = Listener('state', PendulumState), Listener('inputs', PendulumInput)
+            with PendulumNode(method=method, particles=SCENE, frames=80, real_time_factor=1.0, output=live,
+                              held='last', wait_for_subscribers=1) as node:
+                state.wait_for(2)
+                try:
+                    self.disturb(random.Random(seed), hand, robot, state)
+                except rospy.ServiceException:  # the run is over
+                    pass
+                self.assertEqual(node.wait(), 0)
+            wait_until(lambda: os.path.exists(bag + '.active'), 'the bag')
+            rospy.sleep(1.0)
+            recorder.send_signal(signal.SIGINT)
+            recorder.wait(60)
+            with rosbag.Bag(bag) as recorded:
+                count = recorded.get_message_count('/inputs')
+            self.assertGreater(count, 30)
+            done = subprocess.run([program('record_bag'), 'Euler', '--inputs', bag, '--bag',
+                                   os.path.join(folder, 'again.bag'), '--output', again],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            expected = read_frames(live)
+            self.assertEqual(len(expected), 80)
+            self.assertNotEqual(expected, run_exercise(folder, method, '--particles', SCENE, '--frames', '80'))
+            self.assertTrue(read_frames(again) == expected)
+            for listener in (state, inputs):
+                listener.close()
+            hand.unregister()
+            robot.unregister()
+            return bag
+
+    def test_a_fixed_step_run(self):
+        self.repeat('Runge-Kutta-4', 1)
+
+    def test_an_error_controlled_run(self):
+        self.repeat('Auto', 2)
+
+    def test_refuses_other_bags(self):
+        with Folder() as folder:
+            empty, cut = os.path.join(folder, 'empty.bag'), os.path.join(folder, 'cut.bag')
+            with rosbag.Bag(empty, 'w') as bag:
+                bag.write('/state', PendulumState(), rospy.Time(1))
+            with rosbag.Bag(cut, 'w') as bag:
+                bag.write('/inputs', PendulumInput(number=3), rospy.Time(1))
+            text = os.path.join(folder, 'text.bag')
+            with open(text, 'w') as file:
+                file.write('no bag')
+            for path, says, status in ((empty, 'has no inputs', 2), (cut, 'input 0 is missing', 2),
+                                       (text, 'cannot be read as a bag', 1), (os.path.join(folder, 'none.bag'), 'none.bag: cannot be read', 1)):
+                done = subprocess.run([program('record_bag'), 'Euler', '--inputs', path, '--bag',
+                                       os.path.join(folder, 'out.bag')], capture_output=True, text=True)
+                self.assertEqual(done.returncode, status, done.stderr)
+                self.assertIn(says, done.stderr)
+                self.assertEqual(done.stderr.count('\n'), 1)
+                self.assertFalse(os.path.exists(os.path.join(folder, 'out.bag')))
+
+
+if __name__ == '__main__':
+    rospy.init_node('inputs_test', disable_signals=True)
+    rostest.rosrun('spring_pendulum', 'inputs', '__main__')
