@@ -257,7 +257,8 @@ TEST(Bag, IsReadBackByTheLibrary) {
   BagOptions options;
   options.path = folder.path() + "/one.bag";
   spring_pendulum::Run run(scenario, readParticleFile(scenario.particles), {true, 1.0 / 30.0});
-  const std::string output = recordBag(run, *run.makeIntegrator(), NodeOptions{}, options);
+  auto integrator = run.makeIntegrator();
+  const std::string output = recordBag(run, integrator, nullptr, NodeOptions{}, options);
   rosbag::Bag bag(options.path);
   std::map<std::string, int> counts;
   ros::Time last;
