@@ -185,6 +185,7 @@ class Repeated(unittest.TestCase):
             rospy.sleep(1.0)
             recorder.send_signal(signal.SIGINT)
             recorder.wait(60)
+            wait_until(lambda: os.path.exists(bag), 'the end of the bag')
             with rosbag.Bag(bag) as recorded:
                 count = recorded.get_message_count('/inputs')
             self.assertGreater(count, 30)

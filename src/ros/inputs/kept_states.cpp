@@ -16,7 +16,8 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr std::size_t kMostNumbers = std::size_t{1} << 25U;  ///< of all kept states: 256 MB
+constexpr std::size_t kMostBytes = 32'000'000;  ///< of all kept states
+constexpr std::size_t kBytesBeside = 112;       ///< of a kept state, beside its numbers
 constexpr const char* kDefaultFile = "pendulum_state.txt";
 
 }  // namespace
@@ -36,8 +37,8 @@ void KeptStates::keep() {
   reached_ = std::max(reached_, last_frame_);
   if (last_frame_ % stride_ != 0) return;
   states_[last_frame_] = last_;
-  const auto numbers = static_cast<std::size_t>(4 * last_.size());
-  if (states_.size() * numbers <= kMostNumbers) return;
+  const std::size_t bytes = 4 * sizeof(double) * static_cast<std::size_t>(last_.size());
+  if (states_.size() * (bytes + kBytesBeside) <= kMostBytes) return;
   stride_ *= 2;
   for (auto it = states_.begin(); it != states_.end();) {
     it = it->first % stride_ == 0 ? std::next(it) : states_.erase(it);

@@ -21,7 +21,7 @@ class KeptStates {
   /// \param go_back makes the node return to its start, or to what `takeWanted` returns
   KeptStates(ros::NodeHandle& private_node, const Run& run, std::function<void()> go_back);
 
-  /// Keeps the current state if it is that of a frame. Beyond 256 MB, every other frame is dropped.
+  /// Keeps the current state if it is that of a frame. Beyond 32 MB, every other frame is dropped.
   void keep();
   /// Writes the last frame to a state file; see StatePath.srv.
   /// \returns a sentence with the absolute path, or the error

@@ -77,7 +77,7 @@ Trial TrialBench::run(const Method& method, double setting, ReferenceUse referen
     scenario.steps_per_frame = std::max<std::int64_t>(1, std::llround(frame_interval_ / setting));
   } else {
     scenario.tolerance = setting;
-    scenario.frame_interval = std::min(frame_interval_, 1e6);
+    scenario.frame_interval = std::clamp(frame_interval_, 1e-300, 1e6);  // as the option
   }
   const double frames = std::ceil(duration_ / frameSteps(scenario).timeOfFrame(1) * (1.0 - 1e-9));
   scenario.frames = static_cast<std::int64_t>(std::min(frames, 1e9)) + 1;
