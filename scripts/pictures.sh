@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documents: docs/pendulum.gif, docs/compare.gif and docs/run_time_error.png.
-# docs/rviz.gif and docs/rviz_window.png need a virtual display: scripts/pictures.sh rviz
+# docs/pull.gif and docs/rviz_window.png need a virtual display: scripts/pictures.sh rviz
 # The plots of results are drawn from benchmark/results, so run scripts/benchmark.sh for new ones.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -41,10 +41,10 @@ plots() {
 # A chain with visible waves: stiffer springs, heavier and lighter particles.
 rviz() {
   "$project/scripts/setup.sh" ros rviz film
-  compile "$build" record_bag
+  compile "$build" record_bag pendulum_node
   "$(program record_bag)" Auto --particles "$project/data/random_masses.txt" --stiffness 400 \
     --frame-interval 0.04 --frames 200 --display-rate 0 --bag "$work/rviz.bag"
-  "$project/scripts/film.sh" "$work/rviz.bag" "$docs/rviz.gif" --duration 7 --fps 15 --size 600x460
+  "$(devel_of "$build")/env.sh" "$project/scripts/film_pull.py" "$docs/pull.gif"
   "$project/scripts/film.sh" "$work/rviz.bag" "$docs/rviz_window.png" --start 5.5 --window --size 1280x800
 }
 

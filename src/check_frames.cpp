@@ -42,6 +42,7 @@ Row check(const std::string& folder, const Scenario& scenario, const Particles& 
 /// \returns 1 if any folder is unreadable, else 4 if any is different
 int checkAll(const Scenario& scenario, const OptionSet& options, const Switches& switches) {
   if (scenario.air_drag > 0.0) throw InputError("air_drag: not with check_frames");
+  if (scenario.start != Start::kFile) throw InputError("start: not with check_frames");
   const Particles particles = readParticles(scenario);
   catchInterruptions();
   std::size_t width = 0;

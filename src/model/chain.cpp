@@ -71,7 +71,7 @@ Chain Chain::drivenBy(Drive drive) const {
   }
   for (const auto& [particle, force] : drive.forces) {
     requireParticle(particle, size);
-    requireFinite("force on", particle, force);
+    requireFinite("force", particle, force);
     if (chain.isHeld(particle))
       throw InputError(fmt::format("particle {} is held: a force would not move it", particle + 1));
     x[particle] += force.x * inverse_masses_[particle];

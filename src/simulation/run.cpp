@@ -37,12 +37,6 @@ double toleranceOf(const Scenario& scenario) {
   return scenario.method.get().hasFixedStep() ? 0.0 : scenario.tolerance;
 }
 
-/// A resumed run goes on from its state.
-State startOf(const Scenario& scenario, const Chain& chain, const Particles& particles) {
-  const bool at_rest = scenario.start == Start::kAtRest && particles.frame == 0;
-  return at_rest ? equilibrium(chain, particles.state) : particles.state;
-}
-
 /// Number of states shown per frame.
 std::int64_t partsPerFrame(const Scenario& scenario, double display_interval) {
   // `sleep` is checked once per frame: states between the frames would not move.
@@ -65,6 +59,11 @@ const Scenario& checked(const Scenario& scenario, std::int64_t first_frame) {
 }
 
 }  // namespace
+
+State startOf(const Scenario& scenario, const Chain& chain, const Particles& particles) {
+  const bool at_rest = scenario.start == Start::kAtRest && particles.frame == 0;
+  return at_rest ? equilibrium(chain, particles.state) : particles.state;
+}
 
 Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions& options)
     : scenario_(checked(scenario, particles.frame)),

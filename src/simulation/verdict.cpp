@@ -101,9 +101,9 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
       tolerance_(options.tolerance),
       start_time_(options.start_time) {}
 
-Judge::Judge(const Chain& piece, const EnergyBalance& balance, const JudgeOptions& options)
-    : chain_(piece),
-      balance_(balance),
+Judge::Judge(Chain piece, EnergyBalance balance, const JudgeOptions& options)
+    : chain_(std::move(piece)),
+      balance_(std::move(balance)),
       chain_length_(std::numeric_limits<double>::quiet_NaN()),
       symplectic_step_(options.symplectic_step),
       tolerance_(options.tolerance),

@@ -183,6 +183,15 @@ TEST_F(Sweep, ACaseIsARunOfExercise3) {
   EXPECT_EQ(readFile(folder_.path("again/frame_0040.txt")), frame);
 }
 
+// Runs that share a reference share its start, too.
+TEST_F(Sweep, StartsAtRestAsExercise3Does) {
+  folder_.write("study.yaml",
+                "base:\n  particles: chain.txt\n  duration: 1\n  method: Auto\n"
+                "axes:\n  start: [file, at_rest]\n  tolerance: [1e-6, 1e-4]\ncolumns: [verdict]\n");
+  EXPECT_THAT(table(), testing::Not(HasSubstr("inaccurate")));
+  EXPECT_EQ(row(table(), 3).back(), "ok");
+}
+
 TEST_F(Sweep, DrawsItsTable) {
   const Result result = run(sweep({"-o", "drawn.csv", "--plot"}));
   EXPECT_EQ(result.status, 0);

@@ -104,6 +104,41 @@ class States(unittest.TestCase):
             self.assertEqual(sorted(resumed), sorted(frames)[frame:])
             self.assertTrue(all(frames[name] == text for name, text in resumed.items()))
 
+    def test_writes_the_frames_that_a_jump_left_out_when_it_reaches_them(self):
+        with Folder() as folder:
+            expected = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')
+            state_file, written = os.path.join(folder, 'state.txt'), os.path.join(folder, 'written')
+            done = subprocess.run([program('Exercise3'), 'Runge-Kutta-4', '--particles', SCENE, '--frames',
+                                   '31', '--no-frames', '--save-state', state_file], capture_output=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            state = Listener('state', PendulumState)
+            with PendulumNode(method='Runge-Kutta-4', particles=SCENE, frames=60, output=written,
+                              at_end='hold', real_time_factor=2.0):
+                state.wait_for(2)
+                load = service('load_state', StatePath)(state_file)
+                self.assertTrue(load.success, load.message)
+                state.wait_for_any(lambda m: m.frame >= 31)
+                self.assertLess(len(read_frames(written)), 30)
+                seek = service('seek', Seek)(0)  # before the end of the run, which ends the files
+                self.assertTrue(seek.success, seek.message)
+                wait_until(lambda: len(read_frames(written)) == 60, 'all frames')
+                frames = read_frames(written)
+            state.close()
+            self.assertTrue(frames == expected)
+
+    def test_a_run_that_has_not_started_has_no_state(self):
+        with Folder() as folder:
+            kept = os.path.join(folder, 'kept.txt')
+            with open(kept, 'w') as file:
+                file.write('kept')
+            with PendulumNode(particles=SCENE, wait_for_subscribers=9, wait_timeout=100):
+                for answer in (service('save_state', StatePath)(kept), service('seek', Seek)(0),
+                               service('load_state', StatePath)(kept)):
+                    self.assertFalse(answer.success)
+                    self.assertEqual(answer.message, 'the run has not started yet')
+            with open(kept) as file:
+                self.assertEqual(file.read(), 'kept')
+
     def test_refuses_what_is_no_state(self):
         with Folder() as folder, self.node(folder):
             self.state.wait_for(3)

@@ -46,6 +46,10 @@ struct RunOptions {
   bool measure_seconds = true;
 };
 
+/// Returns the state in which a run of the particles starts: theirs, or with `Start::kAtRest` the
+/// equilibrium of the chain. A resumed run goes on from the state of its particles.
+State startOf(const Scenario& scenario, const Chain& chain, const Particles& particles);
+
 class Run {
  public:
   /// \throws InputError for a value out of its range, a tolerance below the rounding errors of the

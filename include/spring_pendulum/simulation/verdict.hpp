@@ -82,7 +82,7 @@ class Judge {
   /// \throws InputError as EnergyBalance
   Judge(const Chain& chain, const State& start, const JudgeOptions& options);
   /// For a chain of which a machine has only a piece. Judge with `judge(time, energy, dissipated)`.
-  Judge(const Chain& piece, const EnergyBalance& balance, const JudgeOptions& options);
+  Judge(Chain piece, EnergyBalance balance, const JudgeOptions& options);
 
   /// Judges the state at `time` s by its energy and its positions.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked

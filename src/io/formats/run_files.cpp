@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+#include <map>
 #include <optional>
 
 namespace spring_pendulum {
@@ -34,7 +36,25 @@ struct RunFiles::Files {
   std::optional<StateFile> state;
   std::optional<BackgroundFrameWriter> frames;
   std::int64_t next_frame = 0;
+  std::map<std::int64_t, std::int64_t> left_out;  ///< first frame and end of what a jump left out
   bool finished = false;
+
+  /// Whether a frame is not written yet; counts it as written.
+  bool takes(std::int64_t frame) {
+    if (frame >= next_frame) {
+      if (frame > next_frame) left_out[next_frame] = frame;
+      next_frame = frame + 1;
+      return true;
+    }
+    const auto after = left_out.upper_bound(frame);
+    if (after == left_out.begin()) return false;
+    const auto [first, end] = *std::prev(after);
+    if (frame >= end) return false;
+    left_out.erase(first);
+    if (first < frame) left_out[first] = frame;
+    if (frame + 1 < end) left_out[frame + 1] = end;
+    return true;
+  }
 
   /// "/home/me/frames (500 earlier frames removed)"
   std::string frameFolder() const {
@@ -45,6 +65,7 @@ struct RunFiles::Files {
 };
 
 RunFiles::RunFiles(const Run& run, const std::string& config) : files_(new Files) {
+  files_->next_frame = run.firstFrame();
   const Scenario& scenario = run.scenario();
   checkTouchedFiles(touchedFiles(scenario, config));
   if (!scenario.energy.empty()) files_->energy.emplace(scenario.energy);
@@ -60,11 +81,10 @@ RunFiles::RunFiles(RunFiles&&) noexcept = default;
 void RunFiles::write(const Run& run) {
   Files& to = *files_;
   const std::int64_t frame = run.frame();
-  if (to.finished || frame < to.next_frame || !run.isAtFrame() || !run.isShown()) return;
+  if (to.finished || !run.isAtFrame() || !run.isShown() || !to.takes(frame)) return;
   if (to.frames) to.frames->write(frame, run.state());
   if (to.energy) to.energy->write(frame, run.energyEntry(), run.positionError().now);
   if (to.state) to.state->keep(run);
-  to.next_frame = frame + 1;
 }
 
 void RunFiles::finish() {

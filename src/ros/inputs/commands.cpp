@@ -77,17 +77,14 @@ std::string Commands::set(const std::string& name, const std::string& value) {
                                    std::abs(wanted.gravity), wanted.air_drag});
   if (largest > kLargest) throw InputError(tooLarge(name));
   if (!wanted.method.get().hasFixedStep()) {
-    checkTolerance(wanted.tolerance, run_.chain(), run_.state());
+    checkTolerance(wanted.tolerance, run_.chain(), run_.isOver() ? run_.start() : run_.state());
   }
   holders_.wanted() = wanted;
   return fmt::format("{} is {} from the next state on", name, option.text());
 }
 
 bool Commands::onSet(Set::Request& request, Set::Response& response) {
-  return answer(response, [&] {
-    if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
-    return set(request.name, request.value);
-  });
+  return answer(response, [&] { return set(request.name, request.value); });
 }
 
 std::string Commands::applyForce(const ApplyForce::Request& request) {

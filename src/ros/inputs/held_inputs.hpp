@@ -76,7 +76,7 @@ class HeldInputs {
   void take(Held& held, const std_msgs::Header& header, const geometry_msgs::Vector3& position,
             const geometry_msgs::Vector3& velocity);
   void lookUp(Held& held, double now);
-  void say(Held& held);
+  static void say(Held& held);
 
   const Run& run_;
   Holders& holders_;

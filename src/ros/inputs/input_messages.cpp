@@ -134,7 +134,8 @@ Replay::Replay(const std::string& path) : path_(path) {
         throw InputError(fmt::format("{}: has the inputs of several runs: {} and {}", path, topic,
                                      message.getTopic()));
       }
-      if (!inputs.empty() && inputs.begin()->second->began < input->began) inputs.clear();
+      if (!inputs.empty() && input->began < inputs.begin()->second->began) continue;
+      if (!inputs.empty() && input->began > inputs.begin()->second->began) inputs.clear();
       inputs.emplace(input->number, input);
     }
   } catch (const rosbag::BagException& error) {

@@ -45,7 +45,12 @@ void KeptStates::keep() {
   }
 }
 
+void KeptStates::requireStarted() const {
+  if (states_.empty()) throw InputError("the run has not started yet");
+}
+
 std::string KeptStates::saveTo(const std::string& file) const {
+  requireStarted();
   const std::string path = file.empty() ? kDefaultFile : file;
   TouchedFiles touched = touchedFiles(run_.scenario(), "");
   touched.outputs.push_back(path);
@@ -67,6 +72,7 @@ bool KeptStates::onSave(PathRequest& request, PathResponse& response) {
 
 bool KeptStates::onLoad(PathRequest& request, PathResponse& response) {
   return answer(response, [&] {
+    requireStarted();
     Scenario scenario = run_.scenario();
     const std::string& given = scenario.save_state;
     scenario.particles = !request.file.empty() ? request.file
@@ -85,6 +91,7 @@ bool KeptStates::onLoad(PathRequest& request, PathResponse& response) {
 
 bool KeptStates::onSeek(Seek::Request& request, Seek::Response& response) {
   return answer(response, [&] {
+    requireStarted();
     const auto after = states_.upper_bound(request.frame);
     if (request.frame > reached_ || after == states_.begin()) {
       throw InputError(fmt::format("frame {}: must be {} to {}, the frames until now",

@@ -35,6 +35,7 @@ class KeptStates {
   bool onSave(PathRequest& request, PathResponse& response);
   bool onLoad(PathRequest& request, PathResponse& response);
   bool onSeek(Seek::Request& request, Seek::Response& response);
+  void requireStarted() const;
   std::string saveTo(const std::string& file) const;
   void goTo(std::int64_t frame, const State& state);
 

@@ -10,6 +10,12 @@ namespace {
 /// A subscriber that comes later than this number of inputs misses some.
 constexpr std::uint32_t kMostInputs = 20000;
 
+/// Unlike ros::Time, it differs for each run, also with use_sim_time.
+ros::Time wallTime() {
+  const ros::WallTime now = ros::WallTime::now();
+  return {now.sec, now.nsec};
+}
+
 }  // namespace
 
 LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
@@ -23,7 +29,7 @@ LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
                                               for (const PendulumInput& input : sent_)
                                                 late.publish(input);
                                             })),
-      log_(options.displayInterval(), ros::Time::now(),
+      log_(options.displayInterval(), wallTime(),
            [this, frame = options.frame_id](PendulumInput message) {
              message.header.stamp = ros::Time::now();
              message.header.frame_id = frame;

@@ -164,7 +164,7 @@ std::string Player::overMessage() const {
 }
 
 std::string Player::pause(bool paused) {
-  const std::string sentence =
+  std::string sentence =
       fmt::format("{}{} at frame {}, t = {:.6g} s", paused == paused_ ? "already " : "",
                   paused ? "paused" : "running", run_.frame(), run_.time());
   if (paused == paused_) return sentence;

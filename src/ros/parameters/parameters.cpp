@@ -62,6 +62,7 @@ void joinList(XmlRpc::XmlRpcValue& value) {
     return;
   }
   std::string text;
+  // NOLINTNEXTLINE(modernize-loop-convert): begin() is for members of a struct
   for (int i = 0; i < value.size(); ++i) {
     text += (text.empty() ? "" : ", ") + parameterText(value[i], "a list of particles");
   }

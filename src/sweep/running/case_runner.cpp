@@ -54,6 +54,7 @@ std::string sceneOf(const Study& study, const Case& a_case) {
       4.0 * static_cast<double>(a_case.particles.masses.size()) * static_cast<double>(s.frames);
   if (s.reference == ReferenceUse::kNever || numbers > kMostNumbers) return {};
   std::string scene = s.particles;
+  if (s.start == Start::kAtRest) scene += " at rest";
   if (study.samples > 0) scene += fmt::format(" {}", a_case.sample);
   for (const double value : {a_case.settings.mass_factor, s.stiffness, s.damping, s.rest_length,
                              s.gravity, s.air_drag, frameInterval(s), runTolerance(s)}) {
@@ -72,8 +73,9 @@ std::shared_ptr<SharedReference> References::take(std::int32_t scene, const Case
   }
   const Scenario& s = a_case.settings.scenario;
   const Chain chain = s.chainOf(a_case.particles.masses);
-  scenes_.push_front({scene, std::make_shared<SharedReference>(chain, a_case.particles.state,
-                                                               frameInterval(s), runTolerance(s))});
+  scenes_.push_front(
+      {scene, std::make_shared<SharedReference>(chain, startOf(s, chain, a_case.particles),
+                                                frameInterval(s), runTolerance(s))});
   if (scenes_.size() > most_) scenes_.pop_back();
   return scenes_.front().reference;
 }
