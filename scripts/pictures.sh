@@ -40,7 +40,7 @@ plots() {
 
 # A chain with visible waves: stiffer springs, heavier and lighter particles.
 rviz() {
-  "$project/scripts/setup.sh" ros rviz film
+  "$project/scripts/setup.sh" ros rviz film test-ros
   compile "$build" record_bag pendulum_node
   "$(program record_bag)" Auto --particles "$project/data/random_masses.txt" --stiffness 400 \
     --frame-interval 0.04 --frames 200 --display-rate 0 --bag "$work/rviz.bag"

@@ -131,7 +131,7 @@ double errorOf(const Scene& scene, const std::string& method, std::int64_t steps
   scenario.time_step = kInterval / static_cast<double>(steps);
   DrivenPair pair(scenario, scene);
   moveHands(pair, 100);
-  if (residual) *residual = std::abs(pair.run.energyEntry().relative_residual.value());
+  if (residual != nullptr) *residual = std::abs(pair.run.energyEntry().relative_residual.value());
   return pair.error();
 }
 
