@@ -58,11 +58,11 @@ TEST(StabilityAdvice, LargestAccurateStepKeepsOnePercentOfTheLength) {
         findStepLimits(method, scene.chain, scene.start, 0.01, kDuration, kFrameInterval);
     ASSERT_GT(limits.accurate, 0.0);
     EXPECT_LE(limits.accurate, limits.stable);
-    const auto errorAt = [&](double step) {
+    const auto error_at = [&](double step) {
       return bench.run(method, step, ReferenceUse::kAuto).position_error.largest;
     };
-    EXPECT_LE(errorAt(limits.accurate), allowed);
-    EXPECT_GT(errorAt(1.5 * limits.accurate), allowed);
+    EXPECT_LE(error_at(limits.accurate), allowed);
+    EXPECT_GT(error_at(1.5 * limits.accurate), allowed);
   });
 }
 
