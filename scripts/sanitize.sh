@@ -26,7 +26,7 @@ if [ "$sanitizers" = thread ]; then
   ctest --output-on-failure -j "$(nproc)" -L unit_with_threads -E "$long_tests" "$@"
   ctest --output-on-failure -j "$(nproc)" -R 'Sweep\.' "$@"
 else
-  compile . unit_tests $([ $without_python = ON ] || echo spring_pendulum_python)
+  compile . unit_tests $([ $without_python = ON ] || echo spring_pendulum_python Exercise3)
   ctest --output-on-failure -j "$(nproc)" -L unit -E "$long_measurements" "$@"
 fi
 if [ $without_python = OFF ]; then
