@@ -14,7 +14,7 @@ std::int64_t Integrator::advanceWithin(State& state, double time_step, std::int6
   std::int64_t completed = 0;
   for (double before = work(); completed < steps && before < most_work;) {
     const double affordable = step_work_ > 0.0 ? (most_work - before) / step_work_ : 1.0;
-    const double left = static_cast<double>(steps - completed);
+    const auto left = static_cast<double>(steps - completed);
     const auto count = affordable < left
                            ? std::max(static_cast<std::int64_t>(affordable), std::int64_t{1})
                            : steps - completed;
