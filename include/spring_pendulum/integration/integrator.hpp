@@ -37,10 +37,8 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   /// Advances `state` in place by `steps` >= 0 steps of `time_step` s. Taking a + b steps in one
-  /// call or in two gives the same bits.
-  /// The first particle does not move unless the chain is driven.
-  /// A diverging motion does not throw: the state then has elements that are very large or not
-  /// finite.
+  /// call or in two gives the same bits. The first particle does not move unless the chain is driven.
+  /// A diverging motion does not throw: the state then has elements that are very large or not finite.
   /// \throws InputError if the size of the state is not that of the chain, `time_step` is not
   ///         finite and positive, or `steps` is negative
   virtual void advance(State& state, double time_step, std::int64_t steps) = 0;

@@ -28,8 +28,9 @@ inline double springLengths(const State& state, std::ptrdiff_t begin, std::ptrdi
 PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::ptrdiff_t i);
 
 /// Computes the slope z' = F(z): the velocities in the columns x and y, m/s, and the accelerations
-/// (sum of spring forces - k_air v)/m + (0, -g) in the columns vx and vy, m/s². All 0 for the first particle,
-/// which is fixed. Held particles and applied forces count as `Chain::springlessAcceleration` says.
+/// (sum of spring forces - k_air v)/m + (0, -g) in the columns vx and vy, m/s². All 0 for the first
+/// particle, which is fixed. Held particles and applied forces count as
+/// `Chain::springlessAcceleration` says.
 /// \param[out] slope must not be `state`; resized to the chain if needed
 /// \throws InputError if the size of the state is not that of the chain
 void computeSlope(const Chain& chain, const State& state, State& slope);

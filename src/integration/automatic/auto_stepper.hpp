@@ -2,13 +2,13 @@
 //
 // The first method is a Taylor series method of order 8 or 12, depending on the tolerance. It is
 // the cheapest while accuracy limits the step size. When the steps approach its stability limit
-// (step * k_d μ without air, with the largest spring mode μ of the chain), the motion is stiff. The stabilised
-// series of order 8 then replaces the plain series of order 8, as it needs no more work. Later, the
-// methods race: the plain series, the stabilised series of order 4 and 8 and, for light particles,
-// Radau-9. Each candidate takes a few steps from the same state. The one that covers the most time
-// per work wins, where work is measured in force evaluations of Taylor-8. The work of an evaluation
-// is a constant for each method and no clock is read, so the choice and the bits are the same on
-// every machine. A method is constructed when it is first used.
+// (step * k_d μ without air, with the largest spring mode μ of the chain), the motion is stiff. The
+// stabilised series of order 8 then replaces the plain series of order 8, as it needs no more work.
+// Later, the methods race: the plain series, the stabilised series of order 4 and 8 and, for light
+// particles, Radau-9. Each candidate takes a few steps from the same state. The one that covers the
+// most time per work wins, where work is measured in force evaluations of Taylor-8. The work of an
+// evaluation is a constant for each method and no clock is read, so the choice and the bits are the
+// same on every machine. A method is constructed when it is first used.
 //
 // Races take a few percent of the work. A candidate must be faster by a fifth to win, so that two
 // equally good methods do not alternate. Races continue while a stiff method is active, so Auto

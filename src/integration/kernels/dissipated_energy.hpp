@@ -1,5 +1,5 @@
-// The energy dissipated by each dashpot, and that by the air. Each spring has its own sum over time, so the result does
-// not depend on blocks, threads or instruction sets.
+// The energy dissipated by each dashpot, and that by the air. Each spring has its own sum over time, so
+// the result does not depend on blocks, threads or instruction sets.
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
