@@ -38,7 +38,7 @@ constexpr Shade kShades[] = {{"", "#c6dbef", "no fault found"},
                              {"gained energy", "#f98e1b", "gains energy"},
                              {"diverged", "#662506", "diverges"}};
 
-std::string inQuotes(const std::string& text) {
+std::string gnuplotText(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
   return result + "'";
@@ -81,7 +81,7 @@ class Plotter {
   std::string data() {
     const std::vector<std::string> panels = valuesOf(p_.panels);
     for (const std::string& panel : panels) {
-      commands_.push_back(fmt::format("set title {} noenhanced\n", inQuotes(panel)) +
+      commands_.push_back(fmt::format("set title {} noenhanced\n", gnuplotText(panel)) +
                           panelCommand(panel));
     }
     return blocks_;
@@ -96,7 +96,7 @@ class Plotter {
         " title {} noenhanced\n",
         size.rows, size.columns, share(80, size.width), 1.0 - share(20, size.width),
         share(70 + size.key, size.height), 1.0 - share(70, size.height), share(80, size.width),
-        share(90, size.height), inQuotes(p_.title.empty() ? study_.name : p_.title));
+        share(90, size.height), gnuplotText(p_.title.empty() ? study_.name : p_.title));
     text += fmt::format("set key at screen 0.5,0.01 center bottom vertical maxrows {} noenhanced\n",
                         size.key / kKeyLine);
     for (const std::string& command : commands_) text += command + "unset key\n";
@@ -108,14 +108,14 @@ class Plotter {
   std::string axes() const {
     std::string text = "set tics out nomirror\n";
     const bool is_histogram = p_.type == Type::kHistogram;
-    text += fmt::format("set xlabel {} noenhanced\n", inQuotes(title_.at(p_.x)));
+    text += fmt::format("set xlabel {} noenhanced\n", gnuplotText(title_.at(p_.x)));
     text += fmt::format("set ylabel {} noenhanced\n",
-                        inQuotes(is_histogram ? "cases" : title_.at(p_.y)));
+                        gnuplotText(is_histogram ? "cases" : title_.at(p_.y)));
     if (p_.log_x) text += "set logscale x\nset format x '10^{%T}'\n";
     if (p_.log_y && !is_histogram) text += "set logscale y\nset format y '10^{%T}'\n";
     if (p_.type == Type::kMap && p_.color != "verdict") {
       text += fmt::format("set palette viridis\nset cblabel {} noenhanced\n",
-                          inQuotes(title_.at(p_.color)));
+                          gnuplotText(title_.at(p_.color)));
     }
     return text;
   }
@@ -203,7 +203,7 @@ class Plotter {
       std::string lines;
       for (const auto& [x, y] : points) lines += numberText(x) + ' ' + numberText(y) + '\n';
       command += fmt::format("{} using 1:2 with linespoints pointtype 7 pointsize 0.5 title {}, ",
-                             addBlock(lines), inQuotes(line));
+                             addBlock(lines), gnuplotText(line));
     }
     return command + "\n";
   }
@@ -273,7 +273,7 @@ class Plotter {
       if (lines.empty()) continue;
       command +=
           fmt::format(kBoxes, addBlock(lines), "", fmt::format("linecolor rgb '{}'", shade.color),
-                      inQuotes(std::string(shade.label)));
+                      gnuplotText(std::string(shade.label)));
     }
     return command;
   }
@@ -285,7 +285,7 @@ class Plotter {
       if (isDrawn(x, y)) lines += numberText(x) + ' ' + numberText(y) + '\n';
     }
     return fmt::format("{} using 1:2 with lines linewidth 3 linecolor 'black' title {}",
-                       addBlock(lines), inQuotes(title_.at(p_.limit)));
+                       addBlock(lines), gnuplotText(title_.at(p_.limit)));
   }
 
   std::string histogramCommand(const std::vector<const Fields*>& rows) {
@@ -319,8 +319,8 @@ class Plotter {
         "'#6baed6' title "
         "{}\n",
         addBlock(boxes),
-        inQuotes(fmt::format("{} cases, median {}, 95 % below {}", values.size(),
-                             roundedText(share(0.5), 3), roundedText(share(0.95), 3))));
+        gnuplotText(fmt::format("{} cases, median {}, 95 % below {}", values.size(),
+                                roundedText(share(0.5), 3), roundedText(share(0.95), 3))));
   }
 
   const Study& study_;
@@ -342,7 +342,7 @@ std::string plotScript(const Study& study, const std::vector<std::string>& rows,
   for (const char* const type : {"png", "svg"}) {
     const std::string terminal = std::string(type) == "png" ? "pngcairo" : "svg background 'white'";
     script += fmt::format("set terminal {} size {} font 'sans,11'\nset output {}\n", terminal,
-                          plotter.size(), inQuotes(path + "." + type));
+                          plotter.size(), gnuplotText(path + "." + type));
     script += plotter.picture() + "unset output\n";
   }
   return script;
