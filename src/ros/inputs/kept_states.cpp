@@ -22,8 +22,9 @@ constexpr const char* kDefaultFile = "pendulum_state.txt";
 
 }  // namespace
 
-KeptStates::KeptStates(ros::NodeHandle& private_node, const Run& run, std::function<void()> go_back)
-    : run_(run), go_back_(std::move(go_back)) {
+KeptStates::KeptStates(ros::NodeHandle& private_node, const Run& run,
+                       std::function<void(Particles)> go_to)
+    : run_(run), go_to_(std::move(go_to)) {
   save_ = private_node.advertiseService("save_state", &KeptStates::onSave, this);
   load_ = private_node.advertiseService("load_state", &KeptStates::onLoad, this);
   seek_ = private_node.advertiseService("seek", &KeptStates::onSeek, this);
@@ -106,12 +107,7 @@ bool KeptStates::onSeek(Seek::Request& request, Seek::Response& response) {
 
 void KeptStates::goTo(std::int64_t frame, const State& state) {
   checkFirstFrame(run_.scenario(), frame);
-  wanted_ = Particles{run_.chain().masses(), state, frame};
-  go_back_();
-}
-
-std::optional<Particles> KeptStates::takeWanted() {
-  return std::exchange(wanted_, std::nullopt);
+  go_to_({run_.chain().masses(), state, frame});
 }
 
 }  // namespace spring_pendulum

@@ -10,24 +10,21 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 
 namespace spring_pendulum {
 
 class KeptStates {
  public:
-  /// \param run     must outlive this object
-  /// \param go_back makes the node return to its start, or to what `takeWanted` returns
-  KeptStates(ros::NodeHandle& private_node, const Run& run, std::function<void()> go_back);
+  /// \param run   must outlive this object
+  /// \param go_to makes the node go to a frame and the state at it
+  KeptStates(ros::NodeHandle& private_node, const Run& run, std::function<void(Particles)> go_to);
 
   /// Keeps the current state if it is that of a frame. Beyond 32 MB, every other frame is dropped.
   void keep();
   /// Writes the last frame to a state file; see StatePath.srv.
   /// \returns a sentence with the absolute path, or the error
   std::string save();
-  /// Removes and returns the frame to go to, if a service has asked for one.
-  std::optional<Particles> takeWanted();
 
  private:
   using PathRequest = StatePath::Request;
@@ -40,14 +37,13 @@ class KeptStates {
   void goTo(std::int64_t frame, const State& state);
 
   const Run& run_;
-  std::function<void()> go_back_;
+  std::function<void(Particles)> go_to_;
   std::map<std::int64_t, State> states_;  ///< by frame
   std::int64_t stride_ = 1;               ///< of the kept frames
   State last_;
   std::int64_t last_frame_ = 0;
   std::int64_t reached_ = 0;  ///< the highest frame so far
   double last_time_ = 0.0;    ///< s
-  std::optional<Particles> wanted_;
   ros::ServiceServer save_, load_, seek_;
 };
 

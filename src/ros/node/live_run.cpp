@@ -43,7 +43,8 @@ LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
       commands_(
           node, private_node, run, options, holders_, frames_,
           [this](double factor) { player_.setSpeed(factor); }, [this] { player_.touch(); }),
-      states_(private_node, run, [this] { player_.reset(); }) {}
+      states_(private_node, run,
+              [this](Particles particles) { player_.goTo(std::move(particles)); }) {}
 
 MenuActions LiveRun::menuActions() {
   return {[this] { player_.pause(!player_.isPaused()); },
@@ -74,7 +75,7 @@ void LiveRun::change(double next_time, bool paused) {
 void LiveRun::act(Player::Action action, const Publisher& publisher) {
   if (action == Player::Action::kReset) {
     handles_.reset();
-    const auto wanted = states_.takeWanted();
+    const auto wanted = player_.takeWanted();
     holders_.reset(run_, integrator_, wanted ? &*wanted : nullptr);
     held_inputs_.reset();
     run_.advance(*integrator_);

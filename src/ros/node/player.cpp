@@ -1,6 +1,8 @@
 #include "ros/node/player.hpp"
 
 #include "io/program/interruption.hpp"
+#include "ros/inputs/answer.hpp"
+#include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 
@@ -20,11 +22,6 @@ constexpr double kSlowStates = 1.5;
 constexpr double kSlowSteps = 1.1;
 constexpr double kLongestInterval = 1e9;  // s; ros::Duration has 32 bits for seconds
 constexpr double kLoopPause = 1.0;        // s, pause at the last frame before a loop
-
-void answer(std_srvs::Trigger::Response& response, bool success, std::string sentence) {
-  response.success = success ? 1 : 0;
-  response.message = std::move(sentence);
-}
 
 /// Whether neither ROS nor a signal has ended the program.
 bool isWanted() {
@@ -186,32 +183,34 @@ std::string Player::step() {
   return fmt::format("advancing to frame {}", run_.frame() + steps_wanted_);
 }
 
+void Player::goTo(Particles particles) {
+  wanted_ = std::move(particles);
+  reset_wanted_ = true;
+}
+
 std::string Player::reset() {
+  wanted_.reset();
   reset_wanted_ = true;
   return fmt::format("back to frame 0 from frame {}{}", run_.frame(), paused_ ? ", paused" : "");
 }
 
 bool Player::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  const bool over = run_.isOver() && options_.at_end != AtEnd::kLoop;
-  response.success = over ? 0 : 1;
-  response.message = over ? overMessage() : pause(request.data != 0);
-  return true;
+  return answer(response, [&] {
+    if (run_.isOver() && options_.at_end != AtEnd::kLoop) throw InputError(overMessage());
+    return pause(request.data != 0);
+  });
 }
 
 bool Player::onStep(TriggerRequest&, TriggerResponse& response) {
-  if (run_.isOver()) {
-    answer(response, false, overMessage());
-  } else if (!paused_) {
-    answer(response, false, "the run is not paused; call ~pause first");
-  } else {
-    answer(response, true, step());
-  }
-  return true;
+  return answer(response, [this] {
+    if (run_.isOver()) throw InputError(overMessage());
+    if (!paused_) throw InputError("the run is not paused; call ~pause first");
+    return step();
+  });
 }
 
 bool Player::onReset(TriggerRequest&, TriggerResponse& response) {
-  answer(response, true, reset());
-  return true;
+  return answer(response, [this] { return reset(); });
 }
 
 void Player::onLeaderState(const PendulumState::ConstPtr& state) {

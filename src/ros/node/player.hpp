@@ -12,7 +12,9 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace spring_pendulum {
 
@@ -21,7 +23,7 @@ class Player {
   enum class Action {
     kAdvance,       ///< advance to the next shown state
     kAdvanceFrame,  ///< advance to the next frame
-    kReset,         ///< return to frame 0
+    kReset,         ///< go to a frame, see `takeWanted`
     kShowBetween,   ///< slow motion: show a state between the last two
     kShowAgain,     ///< show the same state again, for late subscribers
     kQuit
@@ -38,6 +40,10 @@ class Player {
   std::string pause(bool paused);
   std::string step();
   std::string reset();
+  /// Goes to the frame and state of particles at the next action, which is `kReset`.
+  void goTo(Particles particles);
+  /// Removes and returns these particles; nothing: the run goes back to frame 0.
+  std::optional<Particles> takeWanted() { return std::exchange(wanted_, std::nullopt); }
   bool isPaused() const { return paused_; }
   /// Sets the real-time factor from now on.
   void setSpeed(double real_time_factor);
@@ -71,6 +77,7 @@ class Player {
   Pacer pacer_;
   bool paused_ = false;
   bool reset_wanted_ = false;
+  std::optional<Particles> wanted_;
   bool touched_ = false;
   std::int64_t steps_wanted_ = 0;
   double ahead_from_ = -1.0;  ///< s, slow motion: time of the previous state; else < 0
