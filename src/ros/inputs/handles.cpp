@@ -105,9 +105,7 @@ void Handles::makeMenu() {
   addEntry("Step", [this](std::ptrdiff_t) { actions_.step(); });
   addEntry("Reset", [this](std::ptrdiff_t) { actions_.reset(); });
   addEntry("Save state", [this](std::ptrdiff_t) { actions_.save_state(); });
-  addEntry("Hold here", [this](std::ptrdiff_t i) {
-    holders_.hold(i, {{run_.state().x()[i], run_.state().y()[i]}, {}});
-  });
+  addEntry("Hold here", [this](std::ptrdiff_t i) { holders_.hold(i); });
   addEntry("Release", [this](std::ptrdiff_t i) { holders_.release(i); });
   const Scenario& launched = run_.scenario();
   addSwitch("Damping", &Scenario::damping,
@@ -173,31 +171,34 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
     case InteractiveMarkerFeedback::POSE_UPDATE: {
       const bool is_new = hands_.count(particle) == 0;
       if (is_new && feedback->event_type == InteractiveMarkerFeedback::KEEP_ALIVE) return;
-      if (is_new) was_held_[particle] = holders_.isHeld(particle) || particle == 0;
-      const PlaneVector<double> here{run_.state().x()[particle], run_.state().y()[particle]};
+      const bool was_held =
+          is_new ? holders_.isHeld(particle) || particle == 0 : hands_[particle].was_held;
       if (feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) {
         const auto position = planePosition(feedback);
         if (!position) return;
-        // Also true for a position that is not finite.
-        if (!(std::hypot(position->x - here.x, position->y - here.y) <= farthest_)) {
+        const double dx = position->x - run_.state().x()[particle];
+        const double dy = position->y - run_.state().y()[particle];
+        if (std::hypot(dx, dy) <= farthest_) {  // false for a position that is not finite
+          holders_.hold(particle, {*position, {}});
+        } else {
           ROS_WARN_STREAM_THROTTLE(5.0, "handle " << feedback->marker_name
                                                   << ": the hand is too far away to be followed");
-          hands_[particle] = ros::SteadyTime::now();
-          return;
         }
-        holders_.hold(particle, {*position, {}});
       } else if (is_new) {
-        holders_.hold(particle, {here, {}});
+        holders_.hold(particle);
       }
-      hands_[particle] = ros::SteadyTime::now();
+      hands_[particle] = {ros::SteadyTime::now(), was_held};
       actions_.show();
       return;
     }
-    case InteractiveMarkerFeedback::MOUSE_UP:
-      if (hands_.erase(particle) == 0) return;
-      if (!was_held_[particle]) holders_.release(particle);
+    case InteractiveMarkerFeedback::MOUSE_UP: {
+      const auto hand = hands_.find(particle);
+      if (hand == hands_.end()) return;
+      if (!hand->second.was_held) holders_.release(particle);
+      hands_.erase(hand);
       actions_.show();
       return;
+    }
     default:
       return;
   }
@@ -206,13 +207,13 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
 void Handles::watch() {
   const ros::SteadyTime now = ros::SteadyTime::now();
   for (auto hand = hands_.begin(); hand != hands_.end();) {
-    if ((now - hand->second).toSec() < kLongestSilence) {
+    if ((now - hand->second.heard).toSec() < kLongestSilence) {
       ++hand;
       continue;
     }
     ROS_WARN_STREAM("no word from the hand at particle " << hand->first + 1
                                                          << " for a second: released");
-    if (!was_held_[hand->first]) holders_.release(hand->first);
+    if (!hand->second.was_held) holders_.release(hand->first);
     hand = hands_.erase(hand);
   }
 }
@@ -237,7 +238,6 @@ void Handles::show() {
 
 void Handles::reset() {
   hands_.clear();
-  was_held_.clear();
 }
 
 }  // namespace spring_pendulum

@@ -49,6 +49,11 @@ class Handles {
   using Feedback = visualization_msgs::InteractiveMarkerFeedbackConstPtr;
   using Entry = interactive_markers::MenuHandler::EntryHandle;
 
+  struct Hand {
+    ros::SteadyTime heard;  ///< last feedback
+    bool was_held;          ///< whether the particle was held before
+  };
+
   void insert(std::ptrdiff_t particle, double size);
   geometry_msgs::Pose poseOf(std::ptrdiff_t particle) const;
   void makeMenu();
@@ -73,9 +78,8 @@ class Handles {
   std::map<Entry, std::function<bool()>> checks_;
   std::map<Entry, bool> checked_;
   std::vector<std::ptrdiff_t> particles_;
-  std::map<std::ptrdiff_t, ros::SteadyTime> hands_;  ///< last feedback of dragged particles
-  std::map<std::ptrdiff_t, bool> was_held_;          ///< before they were dragged
-  ros::Publisher updates_;                           ///< counts the subscribers of the server
+  std::map<std::ptrdiff_t, Hand> hands_;  ///< by dragged particle
+  ros::Publisher updates_;                ///< counts the subscribers of the server
 };
 
 }  // namespace spring_pendulum

@@ -38,10 +38,6 @@ geometry_msgs::Vector3 vectorOf(const geometry_msgs::Point& point) {
   return vector;
 }
 
-double lengthOfVector(double x, double y) {
-  return std::hypot(x, y);
-}
-
 }  // namespace
 
 std::vector<std::ptrdiff_t> parseParticleList(const std::string& text, std::ptrdiff_t particles,
@@ -79,11 +75,11 @@ bool HolderCheck::accepts(const PlaneVector<double>& position, const PlaneVector
     return refuse("has numbers that are not finite");
   }
   const double fastest = kJumpsPerSecond * longest_;
-  if (!(lengthOfVector(velocity.x, velocity.y) <= fastest)) {
+  if (!(std::hypot(velocity.x, velocity.y) <= fastest)) {
     return refuse(fmt::format("moves at more than {:.3g} m/s", fastest));
   }
   if (last_ && stamp < last_stamp_) return refuse("runs backwards in time");
-  if (last_ && !(lengthOfVector(position.x - last_->x, position.y - last_->y) <= longest_)) {
+  if (last_ && !(std::hypot(position.x - last_->x, position.y - last_->y) <= longest_)) {
     return refuse(fmt::format("jumps by more than {:.3g} m", longest_));
   }
   if (said_ || silent_) message_ = fmt::format("{} is followed again", name_);
@@ -166,8 +162,7 @@ void HeldInputs::reset() {
     held->met = false;
     held->taken = 0.0;
     held->check.restart();
-    holders_.hold(held->particle,
-                  {{run_.state().x()[held->particle], run_.state().y()[held->particle]}, {}});
+    holders_.hold(held->particle);
   }
 }
 
@@ -230,7 +225,7 @@ void HeldInputs::watch() {
     const PlaneVector<double> here{run_.state().x()[held->particle],
                                    run_.state().y()[held->particle]};
     const double dx = target.position.x - here.x, dy = target.position.y - here.y;
-    const double distance = lengthOfVector(dx, dy);
+    const double distance = std::hypot(dx, dy);
     held->met = held->met || distance < kMet;
     const double step = kApproachSpeed * std::max(run_.nextTime() - run_.time(), 1e-3);
     if (!alive) {

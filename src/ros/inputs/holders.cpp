@@ -32,7 +32,7 @@ bool isSame(const Drive& a, const Drive& b) {
 bool isSame(const Scenario& a, const Scenario& b) {
   return &a.method.get() == &b.method.get() && a.stiffness == b.stiffness &&
          a.damping == b.damping && a.rest_length == b.rest_length && a.gravity == b.gravity &&
-         a.air_drag == b.air_drag;
+         a.air_drag == b.air_drag && a.tolerance == b.tolerance;
 }
 
 }  // namespace
@@ -43,9 +43,12 @@ Holders::Holders(const Run& run, InputLog* log)
       fastest_(kLengthsPerSecond * std::max(chainLength(run.chain(), run.start()), 1.0)),
       wanted_(run.scenario()) {}
 
+void Holders::hold(std::ptrdiff_t particle) {
+  hold(particle, {{run_.state().x()[particle], run_.state().y()[particle]}, {}});
+}
+
 void Holders::release(std::ptrdiff_t particle) {
-  if (targets_.erase(particle) == 0 || particle != 0) return;
-  hold(0, {{run_.state().x()[0], run_.state().y()[0]}, {}});
+  if (targets_.erase(particle) > 0 && particle == 0) hold(0);
 }
 
 std::size_t Holders::clearForces() {
@@ -103,6 +106,11 @@ Scenario Holders::possible() const {
 void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double next_time,
                     bool paused) {
   if (run.isOver()) return;
+  // Most runs are left alone: for them, no state is copied.
+  if (targets_.empty() && forces_.empty() && kicks_.empty() && !jump_ && !run.chain().isDriven() &&
+      isSame(wanted_, run.scenario())) {
+    return;
+  }
   State state = jump_ ? *jump_ : run.state();
   for (const auto& [i, velocity] : kicks_) {
     if (isHeld(i) || i == 0) continue;
@@ -133,7 +141,6 @@ void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double ne
   try {
     const State before = run.state();
     run.change(scenario, drive, state, integrator);
-    ++changes_;
     if (log_ != nullptr) log_->changed(run, before);
   } catch (...) {
     wanted_ = run.scenario();
@@ -149,7 +156,7 @@ void Holders::reset(Run& run, std::unique_ptr<Integrator>& integrator, const Par
   forces_.clear();
   kicks_.clear();
   jump_.reset();
-  if (changes_ > 0) {
+  if (run.isChanged()) {
     try {
       run.change(possible(), {}, state, integrator);
     } catch (const InputError&) {  // what was wanted for another state is impossible at the start

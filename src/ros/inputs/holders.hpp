@@ -4,7 +4,7 @@
 #include "ros/inputs/input_messages.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
-#include <cstdint>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <vector>
@@ -35,6 +35,8 @@ class Holders {
 
   /// Holds a particle, or sets a new target for a held one.
   void hold(std::ptrdiff_t particle, const Target& target) { targets_[particle] = target; }
+  /// Holds a particle where it is.
+  void hold(std::ptrdiff_t particle);
   /// Lets go of a particle, which keeps its velocity; P_1 stops where it is.
   void release(std::ptrdiff_t particle);
   bool isHeld(std::ptrdiff_t particle) const { return targets_.count(particle) > 0; }
@@ -58,9 +60,6 @@ class Holders {
   /// Lets go of everything and returns the run to its start, or to a frame and the state at it.
   void reset(Run& run, std::unique_ptr<Integrator>& integrator, const Particles* to = nullptr);
 
-  /// Number of changes of the run so far.
-  std::int64_t changes() const { return changes_; }
-
  private:
   Drive driveUntil(double next_time, State& state);
   /// What is wanted, with the method of the run if the methods can change at a frame only.
@@ -74,7 +73,6 @@ class Holders {
   std::vector<TimedForce> forces_;
   std::map<std::ptrdiff_t, PlaneVector<double>> kicks_;
   std::unique_ptr<State> jump_;
-  std::int64_t changes_ = 0;
 };
 
 }  // namespace spring_pendulum
