@@ -34,11 +34,17 @@ void SymplecticMethod::advance(State& state, double time_step, std::int64_t step
 }
 
 void SymplecticMethod::addPowers(double time) {
-  if (held_work_.isNeeded()) held_work_.add(current_, time);
+  if (held_work_.isNeeded() || chain_.airDrag() != 0.0) addWorkAndDrag(time);
   if (!track_dissipation_) return;
   kernels_.addDissipation(constants_.chain(), current_.data(), time * chain_.spring().damping,
                           dissipated_.data());
-  dissipated_.addDrag(constants_.chain(), chain_.airDrag(), current_, time);
+}
+
+void SymplecticMethod::addWorkAndDrag(double time) {
+  if (held_work_.isNeeded()) held_work_.add(current_, time);
+  if (track_dissipation_) {
+    dissipated_.addDrag(constants_.chain(), chain_.airDrag(), current_, time);
+  }
 }
 
 void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {

@@ -65,6 +65,8 @@ class SymplecticMethod : public SpringwiseIntegrator {
  private:
   /// Adds the current powers, dissipated and supplied, times `time` s.
   void addPowers(double time);
+  /// The part of `addPowers` that most chains do not need.
+  void addWorkAndDrag(double time);
 
   Chain chain_;
   bool track_dissipation_;
