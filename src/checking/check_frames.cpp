@@ -17,11 +17,11 @@
 namespace spring_pendulum {
 namespace {
 
-/// Work that a comparison with one method may take, in spring forces of the library: some 10 s.
+/// Work that a comparison with one method, or a search for mistakes, may take, in spring forces of the
+/// library: some 10 s.
 constexpr double kMostWork = 4e9;
 
-/// Work of a search for mistakes, and of one for mistakes that right frames do not show.
-constexpr double kMostSearchWork = 4e9;
+/// Work of a search for mistakes that right frames do not show.
 constexpr double kMostDoubtWork = 4e8;
 
 using Methods = std::vector<const Method*>;
@@ -46,12 +46,11 @@ class Checker {
 
   FrameCheck check() {
     compareWith(wanted_);
-    if (result_.methods.empty() && !result_.departure && !(options_.stop && options_.stop())) {
+    if (result_.methods.empty() && !unknown_.empty()) {
       throw FileError(
-          fmt::format("frame {}: is the first one, and no frame so late can be compared: rounding "
-                      "errors grow too "
-                      "much, or it takes too long",
-                      frames_.frames.front().index));
+          fmt::format("frame {}: is the first one, and too late to be compared with {}: "
+                      "rounding errors grow too much, or it takes too long",
+                      frames_.frames.front().index, unknown_));
     }
     result_.equal = !result_.methods.empty();
     if (result_.equal) {
@@ -65,16 +64,27 @@ class Checker {
   }
 
  private:
+  /// Missing frames make each comparison slower, and tell nothing.
+  double mostWork() const {
+    constexpr double kMostMissing = 30.0;  // for each frame that is there
+    const auto there = static_cast<double>(result_.frames);
+    const auto needed = static_cast<double>(frames_.lastIndex() + 1);
+    return kMostWork * std::min(1.0, kMostMissing * there / needed);
+  }
+
+  bool isStopped() const { return options_.stop && options_.stop(); }
+
   void compareWith(const Methods& methods) {
     for (const Method* method : methods) {
-      if (options_.stop && options_.stop()) return;
-      WorkLimit limit{kMostWork, options_.stop};
+      if (isStopped()) return;
+      WorkLimit limit{mostWork(), options_.stop};
       const Agreement agreement = compare(
           frames_, [&] { return motionOf(*method, scenario_, particles_); }, limit);
       if (agreement.complete && (result_.methods.empty() || agreement.frames > agreeing_)) {
         note(agreement);
       }
       if (agreement.complete) result_.methods.push_back(method->name);
+      if (agreement.frames == 0 && !agreement.departure && !isStopped()) unknown_ = method->name;
       noteNearest(*method, agreement);
     }
   }
@@ -109,8 +119,7 @@ class Checker {
       const bool is_wanted = std::find(wanted_.begin(), wanted_.end(), &method) != wanted_.end();
       (is_wanted ? first : exercise).push_back(&method);
     }
-    MistakeSearch search(scenario_, particles_, frames_, departing_,
-                         {kMostSearchWork, options_.stop});
+    MistakeSearch search(scenario_, particles_, frames_, departing_, {mostWork(), options_.stop});
     for (const Method* method : options_.method_is_given ? first : Methods{}) {
       result_.explanations = search.singleMistakes(*method);
     }
@@ -165,6 +174,7 @@ class Checker {
   const CheckOptions& options_;
   Methods wanted_;
   Methods others_;
+  std::string unknown_;        ///< a method that even the first frame can't be compared with
   std::size_t agreeing_ = 0;   ///< number of frames
   std::size_t departing_ = 0;  ///< number of frames before the departure
   FrameCheck result_;

@@ -41,29 +41,27 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
   Eigen::ArrayX2d positions, disturbed;
   double rounding = 0.0;  // m
   companion->disturb(random);
-  motion->advanceTo(0, limit.done);
-  companion->advanceTo(0, limit.done);
   std::int64_t index = 0;
-  for (const FrameNumbers& frame : frames.frames) {
-    for (; index < frame.index && !limit.isOver(); ++index) {  // missing frames, too
-      motion->advanceTo(index + 1, limit.done);
-      companion->advanceTo(index + 1, limit.done);
-    }
+  for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver()) break;
+    motion->advanceTo(index, limit.done);
+    companion->advanceTo(index, limit.done);
     motion->writePositions(positions);
     companion->writePositions(disturbed);
     const double spread = (positions - disturbed).abs().maxCoeff<Eigen::PropagateNaN>();
     const double scale = std::max(agreement.scale, largestFinite(positions));
     rounding = spread <= rounding ? rounding : spread;  // NaN replaces it
     if (!(rounding <= kComparable * scale) && scale > 0.0) break;
-    agreement.departure = departureOf(frame, positions, rounding);
-    if (agreement.departure) return agreement;
     if (!companion->isDisturbedOnce()) companion->disturb(random);
+    if (index < frame->index) continue;  // missing
+    agreement.departure = departureOf(*frame, positions, rounding);
+    if (agreement.departure) return agreement;
     ++agreement.frames;
-    agreement.last_frame = frame.index;
+    agreement.last_frame = index;
     agreement.scale = scale;
     agreement.distance = std::max(
-        agreement.distance, (frame.positions - positions).matrix().rowwise().norm().maxCoeff());
+        agreement.distance, (frame->positions - positions).matrix().rowwise().norm().maxCoeff());
+    ++frame;
   }
   agreement.complete = agreement.frames > 0 && !(limit.stop && limit.stop());
   return agreement;
