@@ -1,6 +1,6 @@
 #include "checking/comparison.hpp"
 
-#include <cmath>
+#include <limits>
 #include <random>
 
 namespace spring_pendulum {
@@ -10,11 +10,13 @@ namespace {
 constexpr double kComparable = 1e-3;
 
 double largestFinite(const Eigen::ArrayX2d& numbers) {
-  double largest = 0.0;
-  for (const double number : numbers.reshaped()) {
-    if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
-  }
-  return largest;
+  return numbers.isFinite().select(numbers.abs(), 0.0).maxCoeff();
+}
+
+/// NaN if one of the numbers is not finite.
+double largestDistance(const Eigen::ArrayX2d& a, const Eigen::ArrayX2d& b) {
+  const Eigen::ArrayX2d distance = (a - b).abs();
+  return distance.allFinite() ? distance.maxCoeff() : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The first particle of a frame that differs from a motion by more than a unit of the last digit and
@@ -48,7 +50,7 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
     companion->advanceTo(index, limit.done);
     motion->writePositions(positions);
     companion->writePositions(disturbed);
-    const double spread = (positions - disturbed).abs().maxCoeff<Eigen::PropagateNaN>();
+    const double spread = largestDistance(positions, disturbed);
     const double scale = std::max(agreement.scale, largestFinite(positions));
     rounding = spread <= rounding ? rounding : spread;  // NaN replaces it
     if (!(rounding <= kComparable * scale) && scale > 0.0) break;

@@ -1,7 +1,5 @@
 #include "checking/program_fit.hpp"
 
-#include <cmath>
-
 #include "checking/motion.hpp"
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <unsupported/Eigen/NumericalDiff>
@@ -49,8 +47,9 @@ struct Differences {
       const Eigen::ArrayX2d difference =
           (positions - frame.positions) /
           (frame.units + kRounding * frame.positions.abs().maxCoeff());
-      for (const double number : difference.reshaped())
-        differences[row++] = std::isfinite(number) ? number : kDiverged;
+      Eigen::Map<Eigen::ArrayX2d>(differences.data() + row, difference.rows(), 2) =
+          difference.isFinite().select(difference, kDiverged);
+      row += difference.size();
     }
     return 0;
   }
