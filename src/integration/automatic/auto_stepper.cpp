@@ -23,6 +23,10 @@ constexpr double kFastRate = 100.0;
 /// Damping rate in 1/s above which the implicit method is a candidate.
 constexpr double kRateForImplicit = 1e3;
 
+/// Damping rate in 1/s above which the implicit method is the only candidate: explicit methods are
+/// unstable there with any step much longer than the shortest one.
+constexpr double kRateForImplicitOnly = 1.0 / kShortestStep;
+
 /// Share of the stability limit above which the motion counts as stiff for an explicit method.
 constexpr double kStiffFrom = 0.25;
 
@@ -83,13 +87,17 @@ AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keep
                      kFastVibration) {
   const bool order_12 = needsOrder12(chain, tolerance);
   explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
-  successor_is_better_ = !order_12;
+  const bool implicit_only = fastest_rate_ >= kRateForImplicitOnly;
+  successor_is_better_ = !order_12 && !implicit_only;
   const auto add = [&](std::string_view name, const NominalTime& cost, auto make) {
     candidates_.push_back({name, cost.of(chain.size()) / kTaylorTime.of(chain.size()), make});
   };
-  add(order_12 ? "Taylor-12" : "Taylor-8", kTaylorTime, order_12 ? makeTaylor<12> : makeTaylor<8>);
-  add("Stabilized-Taylor-8", kStabilizedTaylor8Time, makeStabilizedTaylor<8>);
-  add("Stabilized-Taylor-4", kStabilizedTaylor4Time, makeStabilizedTaylor<4>);
+  if (!implicit_only) {
+    add(order_12 ? "Taylor-12" : "Taylor-8", kTaylorTime,
+        order_12 ? makeTaylor<12> : makeTaylor<8>);
+    add("Stabilized-Taylor-8", kStabilizedTaylor8Time, makeStabilizedTaylor<8>);
+    add("Stabilized-Taylor-4", kStabilizedTaylor4Time, makeStabilizedTaylor<4>);
+  }
   if (fastest_rate_ >= kRateForImplicit) add("Radau-9", kRadauTime, makeRadau);
   candidates_[0].stepper = candidates_[0].make(chain_, tolerance_);
 }
@@ -156,7 +164,7 @@ double AutoStepper::step() {
       readState();
       change(1);
       work_before_race_ = kWorkBeforeFirstRace;
-    } else if ((vibrates_fast_ || isStiff()) && isTimeForRace()) {
+    } else if (candidates_.size() > 1 && (vibrates_fast_ || isStiff()) && isTimeForRace()) {
       race();
     }
   }
