@@ -112,6 +112,14 @@ class Segment {
   Vector span_;
 };
 
+/// Whether a spring has no length, and so no direction.
+bool hasShrunkSpring(const State& state) {
+  for (Eigen::Index i = 0; i + 1 < state.size(); ++i) {
+    if (state.x()[i] == state.x()[i + 1] && state.y()[i] == state.y()[i + 1]) return true;
+  }
+  return false;
+}
+
 /// Whether gravity, forces and springs balance on each particle that is not held.
 bool isBalanced(const Chain& chain, const State& state) {
   Vector left{};
@@ -159,6 +167,12 @@ State equilibrium(const Chain& chain, const State& state) {
   Vector weight{};
   for (Eigen::Index i = first + 1; i < chain.size(); ++i) weight = weight + loadOn(chain, i);
   hang(first, chain.size(), weight);
+  if (hasShrunkSpring(result)) {
+    throw InputError(
+        "a chain at rest with a spring of length 0 cannot move on: give it a rest length, gravity, "
+        "or "
+        "held particles that are apart");
+  }
   if (!result.values().allFinite() || !isBalanced(chain, result)) {
     throw InputError(
         "found no rest position of the chain in which all springs are stretched: move its held "

@@ -71,6 +71,10 @@ TEST(Equilibrium, RefusesWhatCannotRest) {
   const Chain weightless =
       Chain(Eigen::VectorXd::Ones(4), SpringLaw{}, 0.0).drivenBy({{{3, {}}}, {}});
   EXPECT_THROW(equilibrium(weightless, start), InputError);
+  const Chain point(Eigen::VectorXd::Ones(4), SpringLaw{50.0, 1.0, 0.0}, 0.0);
+  EXPECT_THROW(equilibrium(point, start), InputError);
+  EXPECT_NO_THROW(equilibrium(point.drivenBy({{{3, {}}}, {}}), start));
+  EXPECT_THROW(equilibrium(point.drivenBy({{{3, {}}}, {}}), State(4)), InputError);
   EXPECT_EQ(equilibrium(Chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81), State(1)).size(), 1);
 }
 

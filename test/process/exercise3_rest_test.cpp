@@ -26,5 +26,25 @@ TEST(Exercise3Rest, NeedsStiffness) {
   EXPECT_THAT(result.errors, testing::HasSubstr("a chain at rest needs a stiffness above 0 N/m"));
 }
 
+TEST(Exercise3Rest, NeedsSpringsWithALength) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  const Result result = run(
+      exercise3(folder, {"Auto", "--start", "at_rest", "--rest-length", "0", "--gravity", "0"}));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, testing::HasSubstr("a spring of length 0"));
+}
+
+TEST(Exercise3Rest, DoesNotResume) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  ASSERT_EQ(run(exercise3(folder, {"Euler", "--frames", "2", "--save-state", "state.txt"})).status,
+            0);
+  const Result result = run(
+      exercise3(folder, {"Euler", "--particles", "state.txt", "--resume", "--start", "at_rest"}));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, testing::StartsWith("start: at_rest and resume exclude each other"));
+}
+
 }  // namespace
 }  // namespace spring_pendulum

@@ -17,7 +17,7 @@ namespace spring_pendulum {
 /// Reference: S. P. Timoshenko, D. H. Young, Theory of Structures, 2nd ed., McGraw-Hill 1965, section
 /// 6.3 (complementary energy).
 /// \throws InputError if the size of the state is not that of the chain, or if there is no such
-///   equilibrium: without stiffness, or where a spring would be compressed
+///   equilibrium: without stiffness, or where a spring would be compressed or have no length
 State equilibrium(const Chain& chain, const State& state);
 
 }  // namespace spring_pendulum

@@ -93,6 +93,10 @@ void checkScenario(const Scenario& scenario) {
       throw InputError(fmt::format("{}: {}", option.key, error.what()));
     }
   }
+  if (scenario.resume && scenario.start == Start::kAtRest) {
+    throw InputError(
+        "start: at_rest and resume exclude each other: a resumed run goes on from its saved state");
+  }
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   const FrameSteps step = frameSteps(scenario);
   if (scenario.frames > kMost / step.steps) {  // frame times are computed from step counts
