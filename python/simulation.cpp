@@ -37,7 +37,8 @@ Scenario pythonDefaults() {
 }
 
 bool isPath(const py::object& value) {
-  return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
+  // Not py::str, which includes bytes before version 2.7 of pybind11.
+  return PyUnicode_Check(value.ptr()) || py::hasattr(value, "__fspath__");
 }
 
 /// Encodes a name as the file system does.
