@@ -76,6 +76,7 @@ int runNode() {
   catchInterruptions();  // from now on ROS continues after a signal until the files are closed
   RunLog log(run, integrator, files, publisher, options.at_end == AtEnd::kHold);
   play(run, live, player, publisher, files, log);
+  live.end();
   files.finish();
   log.finish();
 

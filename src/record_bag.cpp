@@ -9,6 +9,7 @@
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
+#include <console_bridge/console.h>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -37,6 +38,7 @@ int record(int argc, const char* const* argv) {
   }
   if (!options.isGiven("output")) scenario.no_frames = true;
   bag.config = switches.config;
+  console_bridge::noOutputHandler();  // rosbag also throws what it prints of a damaged bag
   std::optional<Replay> replay;
   if (!bag.inputs.empty()) replay.emplace(bag.inputs);
   double display_interval = display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0;
@@ -52,6 +54,9 @@ int record(int argc, const char* const* argv) {
   const std::string output = recordBag(run, integrator, replay ? &*replay : nullptr, display, bag,
                                        [&] { printError(remarks); });
   printClosingLine(run.closingLine(*integrator, output));
+  if (replay && interruption() == 0 && !replay->remark().empty()) {
+    printError("warning: " + replay->remark() + "\n");
+  }
   return conclude(run);
 }
 

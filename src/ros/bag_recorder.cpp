@@ -98,8 +98,9 @@ void recordRun(Run& run, std::unique_ptr<Integrator>& integrator, Replay* replay
       recorder.write(run);
       files.write(run);
     }
+    if (replay == nullptr || run.wasStopped()) continue;
     // A run that is over may go back.
-    if (replay != nullptr && !run.wasStopped()) goes_on = replay->apply(run, integrator) || goes_on;
+    goes_on = replay->apply(run, integrator) || (goes_on && !replay->isOver(run));
   }
   if (!run.isShown()) recorder.write(run);
 }
@@ -111,10 +112,9 @@ std::vector<Option> bagOptions(BagOptions& o) {
       {"bag", Text{&o.path, "FILE", "a file"}, "", "the bag to write"},
       {"namespace", Text{&o.name_space, "NAME", "a name that ROS accepts", isTopicName}, "",
        "put before the topics markers, state and status"},
-      {"inputs", Text{&o.inputs, "FILE", "a bag", anyText}, "",
+      {"inputs", Text{&o.inputs, "FILE", "a bag"}, "",
        "bag with the inputs of a node, whose run is repeated bit for bit; method, constants, "
-       "numbers "
-       "and particles come from it"},
+       "numbers and particles come from it"},
       {"append", Flag{&o.append}, "", "add to an existing bag, for example another method's run"},
   };
 }

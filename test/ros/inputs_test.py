@@ -35,6 +35,28 @@ def numbers_of(text):
     return [tuple(map(float, line.split())) for line in text.splitlines()]
 
 
+CONSTANTS_OF_RUN = ['method=Runge-Kutta-4', 'frames=20', 'steps_per_frame=10', 'time_step=0.01', 'tolerance=1e-6',
+                    'frame_interval=0.1', 'stiffness=50', 'damping=1', 'rest_length=1', 'gravity=9.81', 'air_drag=0',
+                    'wanted_error=0', 'threads=1', 'sleep=0']
+
+
+def start(**values):
+    """The first input of a run of three particles."""
+    return PendulumInput(**dict(dict(start=True, scenario=CONSTANTS_OF_RUN, placed=[1, 2, 3], masses=[1.0, 1.0, 1.0],
+                                     states=[float(i) if c == 0 else 0.0 for i in range(3) for c in range(4)]),
+                                **values))
+
+
+def change(number, time, **values):
+    return PendulumInput(**dict(dict(number=number, time=time, scenario=CONSTANTS_OF_RUN), **values))
+
+
+def write_inputs(path, *inputs):
+    with rosbag.Bag(path, 'w') as bag:
+        for i, message in enumerate(inputs):
+            bag.write('/inputs', message, rospy.Time(1 + i))
+
+
 class States(unittest.TestCase):
 
     def setUp(self):
@@ -224,10 +246,14 @@ class Repeated(unittest.TestCase):
             with rosbag.Bag(bag) as recorded:
                 count = recorded.get_message_count('/inputs')
             self.assertGreater(count, 30)
+            with rosbag.Bag(bag) as recorded:
+                last = max((message for _, message, _ in recorded.read_messages()), key=lambda m: m.number)
+            self.assertTrue(last.end)
+            self.assertEqual(last.number + 1, len({m.number for m in inputs.messages}))
             done = subprocess.run([program('record_bag'), 'Euler', '--inputs', bag, '--bag',
                                    os.path.join(folder, 'again.bag'), '--output', again],
                                   capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
             expected = read_frames(live)
             self.assertEqual(len(expected), 80)
             self.assertNotEqual(expected, run_exercise(folder, method, '--particles', SCENE, '--frames', '80'))
@@ -244,24 +270,79 @@ class Repeated(unittest.TestCase):
     def test_an_error_controlled_run(self):
         self.repeat('Auto', 2)
 
+    def replay(self, folder, path, *arguments):
+        return subprocess.run([program('record_bag'), 'Euler', '--inputs', path, '--bag',
+                               os.path.join(folder, 'out.bag'), *arguments], capture_output=True, text=True)
+
+    def check_refused(self, folder, path, says, status):
+        done = self.replay(folder, path)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertIn(says, done.stderr)
+        self.assertIn(path, done.stderr)
+        self.assertEqual(done.stderr.count('\n'), 1)
+        self.assertFalse(os.path.exists(os.path.join(folder, 'out.bag')))
+
     def test_refuses_other_bags(self):
         with Folder() as folder:
-            empty, cut = os.path.join(folder, 'empty.bag'), os.path.join(folder, 'cut.bag')
+            empty, cut, text, fifo = (os.path.join(folder, name)
+                                      for name in ('empty.bag', 'cut.bag', 'text.bag', 'fifo.bag'))
             with rosbag.Bag(empty, 'w') as bag:
                 bag.write('/state', PendulumState(), rospy.Time(1))
-            with rosbag.Bag(cut, 'w') as bag:
-                bag.write('/inputs', PendulumInput(number=3), rospy.Time(1))
-            text = os.path.join(folder, 'text.bag')
+            write_inputs(cut, PendulumInput(number=3))
             with open(text, 'w') as file:
                 file.write('no bag')
+            os.mkfifo(fifo)  # reading it would wait forever
             for path, says, status in ((empty, 'has no inputs', 2), (cut, 'input 0 is missing', 2),
-                                       (text, 'cannot be read as a bag', 1), (os.path.join(folder, 'none.bag'), 'none.bag: cannot be read', 1)):
-                done = subprocess.run([program('record_bag'), 'Euler', '--inputs', path, '--bag',
-                                       os.path.join(folder, 'out.bag')], capture_output=True, text=True)
-                self.assertEqual(done.returncode, status, done.stderr)
+                                       (text, 'cannot be read as a bag', 1), (fifo, 'it is a pipe', 1),
+                                       (os.path.join(folder, 'none.bag'), 'No such file', 1), ('', '--inputs: ', 2)):
+                self.check_refused(folder, path, says, status)
+
+    def test_refuses_inputs_that_no_node_sends(self):
+        wrong = [s.replace('stiffness=50', 'stiffness=-3') for s in CONSTANTS_OF_RUN]
+        with Folder() as folder:
+            path = os.path.join(folder, 'inputs.bag')
+            for says, *inputs in (('input 0: has no method', start(scenario=[])),
+                                  ('input 1: has no method', start(), change(1, 0.5, scenario=[])),
+                                  ('input 0: stiffness: must be', start(scenario=wrong)),
+                                  ('input 1: stiffness: must be', start(), change(1, 0.5, scenario=wrong)),
+                                  ('input 0: mass of particle 2', start(masses=[1.0, -1.0, 1.0])),
+                                  ('input 0: frames: must be', start(frame=-1)),
+                                  ('input 0: is not complete', start(placed=[1, 1, 3])),
+                                  ('input 1: particle 9', start(), change(1, 0.5, held=[9], accelerations=[0.0, 0.0])),
+                                  ('input 2: comes after the end', start(), change(1, 0.5, end=True), change(2, 0.5))):
+                write_inputs(path, *inputs)
+                self.check_refused(folder, path, says, 2)
+
+    def test_a_damaged_bag_has_one_line_with_its_name(self):
+        with Folder() as folder:
+            path = os.path.join(folder, 'inputs.bag')
+            write_inputs(path, start(), change(1, 0.5), change(2, 0.5, end=True))
+            with open(path, 'rb') as file:
+                whole = file.read()
+            at = whole.index(b'air_drag=0') - 4  # the length of a text
+            header = whole.rindex(b'message_definition=') - 4  # of the index
+            for place in (at, header):
+                with open(path, 'wb') as file:
+                    file.write(whole[:place] + b'\xff\xff\xff\x0f' + whole[place + 4:])
+                self.check_refused(folder, path, 'cannot be read as a bag', 1)
+            for length in range(100, len(whole), 400):
+                with open(path, 'wb') as file:
+                    file.write(whole[:length])
+                self.check_refused(folder, path, 'cannot be read as a bag', 1)
+
+    def test_ends_where_the_node_ended_and_tells_if_that_is_unknown(self):
+        with Folder() as folder:
+            path, pull = os.path.join(folder, 'inputs.bag'), dict(held=[3], accelerations=[0.0, 1.0])
+            for frames, says, *inputs in ((6, '', start(), change(1, 0.2, **pull), change(2, 0.5, end=True)),
+                                          (1, '', start(), change(1, 0.0, end=True)),
+                                          (20, 'the last inputs may be missing', start(), change(1, 0.2, **pull)),
+                                          (20, 'ended before input 1 at t = 9 s', start(), change(1, 9.0, **pull))):
+                write_inputs(path, *inputs)
+                done = self.replay(folder, path)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(', %d frame%s, ' % (frames, 's' if frames > 1 else ''), done.stdout)
                 self.assertIn(says, done.stderr)
-                self.assertEqual(done.stderr.count('\n'), 1)
-                self.assertFalse(os.path.exists(os.path.join(folder, 'out.bag')))
+                self.assertEqual(done.stderr.count('\n'), 1 if says else 0, done.stderr)
 
 
 if __name__ == '__main__':

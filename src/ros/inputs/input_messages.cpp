@@ -1,6 +1,8 @@
 #include "ros/inputs/input_messages.hpp"
 
 #include "base/numbers.hpp"
+#include "io/files/text_file.hpp"
+#include "simulation/options/option_set.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -40,13 +43,15 @@ PlaneVector<double> vectorAt(const std::vector<double>& numbers, std::size_t k) 
 }
 
 void setScenario(Scenario& scenario, const PendulumInput& input) {
-  const std::vector<Option> options = scenarioOptions(scenario);
-  for (const std::string& text : input.scenario) {
-    const std::size_t equals = text.find('=');
-    for (const Option& option : options) {
-      if (!isRecorded(option) || option.key != text.substr(0, equals)) continue;
-      option.assign(std::string_view(text).substr(equals + 1));
-    }
+  OptionSet options(scenarioOptions(scenario));
+  for (const Option& option : options.options()) {
+    if (!isRecorded(option)) continue;
+    const std::string start = fmt::format("{}=", option.key);
+    const auto text =
+        std::find_if(input.scenario.begin(), input.scenario.end(),
+                     [&](const std::string& each) { return each.rfind(start, 0) == 0; });
+    if (text == input.scenario.end()) throw InputError(fmt::format("has no {}", option.key));
+    options.set(option, text->substr(start.size()), std::string(option.key));
   }
   checkScenario(scenario);
 }
@@ -119,9 +124,17 @@ void InputLog::changed(const Run& run, const State& before) {
   sink_(message);
 }
 
+void InputLog::ended(const Run& run) {
+  PendulumInput message = messageOf(run, run.time());
+  message.end = 1;
+  sink_(message);
+}
+
 Replay::Replay(const std::string& path) : path_(path) {
   std::map<std::uint32_t, PendulumInput::ConstPtr>
       inputs;  // by number: a late recorder gets some twice
+  std::int64_t size = 0;
+  openTextFile(path, size);  // refuses pipes, which would block
   try {
     const rosbag::Bag bag(path, rosbag::bagmode::Read);
     std::string topic;
@@ -138,7 +151,9 @@ Replay::Replay(const std::string& path) : path_(path) {
       if (!inputs.empty() && input->began > inputs.begin()->second->began) inputs.clear();
       inputs.emplace(input->number, input);
     }
-  } catch (const rosbag::BagException& error) {
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {  // a damaged bag; rosbag throws many kinds
     throw FileError(fmt::format("{}: cannot be read as a bag: {}", path, error.what()));
   }
   for (const auto& [number, input] : inputs) {
@@ -150,34 +165,53 @@ Replay::Replay(const std::string& path) : path_(path) {
   }
 }
 
+void Replay::refuse(const PendulumInput& input, const std::string& reason) const {
+  throw InputError(fmt::format("{}: input {}: {}", path_, input.number, reason));
+}
+
 void Replay::check(const PendulumInput& input) const {
   if (input.number != inputs_.size()) {
     throw InputError(fmt::format("{}: input {} is missing; record from the start of the node on",
                                  path_, inputs_.size()));
   }
-  if ((input.number == 0 && input.start == 0) || !std::isfinite(input.time) ||
-      !(input.display_interval >= 0.0) || input.accelerations.size() != 2 * input.held.size() ||
-      input.forces.size() != 2 * input.pushed.size() ||
-      input.states.size() != 4 * input.placed.size() ||
-      (input.start != 0 && input.masses.size() != input.placed.size())) {
-    throw InputError(fmt::format("{}: input {} is not complete", path_, input.number));
+  bool complete = (input.number > 0 || input.start != 0) && std::isfinite(input.time) &&
+                  input.display_interval >= 0.0 &&
+                  input.accelerations.size() == 2 * input.held.size() &&
+                  input.forces.size() == 2 * input.pushed.size() &&
+                  input.states.size() == 4 * input.placed.size();
+  if (input.start != 0) {  // has all particles
+    complete = complete && input.masses.size() == input.placed.size() &&
+               (input.number == 0 || input.masses == inputs_.front().masses);
+    for (std::size_t i = 0; i < input.placed.size(); ++i) {
+      complete = complete && input.placed[i] == i + 1;
+    }
   }
+  if (!complete) refuse(input, "is not complete");
+  if (!inputs_.empty() && inputs_.back().end != 0) refuse(input, "comes after the end");
 }
 
 Particles Replay::begin(Scenario& scenario) const {
   const PendulumInput& first = inputs_.front();
-  setScenario(scenario, first);
-  scenario.start = Start::kFile;
-  const auto size = static_cast<std::ptrdiff_t>(first.masses.size());
-  Particles particles{AlignedNumbers(size), State(size), first.frame};
-  std::copy(first.masses.begin(), first.masses.end(), particles.masses.data());
-  setStates(particles.state, first);
-  return particles;
+  try {
+    scenario.start = Start::kFile;
+    setScenario(scenario, first);
+    const auto size = static_cast<std::ptrdiff_t>(first.masses.size());
+    Particles particles{AlignedNumbers(size), State(size), first.frame};
+    std::copy(first.masses.begin(), first.masses.end(), particles.masses.data());
+    setStates(particles.state, first);
+    Scenario copy = scenario;
+    copy.reference = ReferenceUse::kNever;
+    const Run run(copy, particles);  // refuses what no run can start with
+    return particles;
+  } catch (const InputError& error) {
+    refuse(first, error.what());
+  }
 }
 
 bool Replay::apply(Run& run, std::unique_ptr<Integrator>& integrator) {
   for (; next_ < inputs_.size() && inputs_[next_].time <= run.time(); ++next_) {
     const PendulumInput& input = inputs_[next_];
+    if (input.end != 0) return false;
     try {
       if (input.time != run.time()) {
         throw InputError(
@@ -190,7 +224,7 @@ bool Replay::apply(Run& run, std::unique_ptr<Integrator>& integrator) {
       run.change(scenario, driveOf(input), state, integrator);
       if (input.start != 0) run.goTo(input.frame, state, *integrator);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: input {} {}", path_, input.number, error.what()));
+      refuse(input, error.what());
     }
     if (input.start != 0) {
       ++next_;
@@ -198,6 +232,23 @@ bool Replay::apply(Run& run, std::unique_ptr<Integrator>& integrator) {
     }
   }
   return false;
+}
+
+bool Replay::isOver(const Run& run) const {
+  return next_ + 1 == inputs_.size() && inputs_.back().end != 0 &&
+         inputs_.back().time <= run.time();
+}
+
+std::string Replay::remark() const {
+  if (next_ < inputs_.size() && inputs_[next_].end == 0) {
+    return fmt::format("{}: the run ended before input {} at t = {} s", path_, next_,
+                       numberText(inputs_[next_].time));
+  }
+  if (inputs_.back().end != 0) return "";
+  return fmt::format(
+      "{}: the last inputs may be missing: the node or its recorder was ended before the closing "
+      "one",
+      path_);
 }
 
 }  // namespace spring_pendulum

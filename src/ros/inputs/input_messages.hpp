@@ -31,6 +31,8 @@ class InputLog {
   /// Must be called after every Run::change.
   /// \param before the state until then
   void changed(const Run& run, const State& before);
+  /// Must be called at the end of the node.
+  void ended(const Run& run);
 
  private:
   PendulumInput messageOf(const Run& run, double time);
@@ -57,8 +59,14 @@ class Replay {
   /// \throws InputError if the inputs are not those of this run
   bool apply(Run& run, std::unique_ptr<Integrator>& integrator);
 
+  /// Whether the node had ended at the current time of the run.
+  bool isOver(const Run& run) const;
+  /// A sentence if inputs at the end are missing or were not reached; else empty.
+  std::string remark() const;
+
  private:
   void check(const PendulumInput& input) const;
+  [[noreturn]] void refuse(const PendulumInput& input, const std::string& reason) const;
 
   std::string path_;
   std::vector<PendulumInput> inputs_;

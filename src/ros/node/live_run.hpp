@@ -24,6 +24,8 @@ class LiveRun {
   void start();
   /// Takes one action of the player, with the changes that are wanted before it.
   void act(Player::Action action, const Publisher& publisher);
+  /// Tells subscribers of the inputs that no more will come.
+  void end() { log_.ended(run_); }
   /// Moves the handles to the particles and publishes the forces on holders.
   void show(const std_msgs::Header& header);
 
