@@ -16,12 +16,27 @@ namespace {
 /// Significant digits of fitted constants.
 constexpr int kMostDigits = 15;
 
+/// Numbers with as many digits tell whether they are floats.
+constexpr int kDigitsOfFloat = 9;
+
 using Kind = Constant::Kind;
 
-constexpr std::string_view kSinglePrecision = "single_precision";
-
 bool isSinglePrecision(const Mistake& mistake) {
-  return mistake.name == kSinglePrecision;
+  return mistake.name == "single_precision";
+}
+
+/// Whether a constant belongs to the method, not to the model.
+bool isCoefficient(const Constant& constant) {
+  return constant.kind == Kind::kWeight || constant.kind == Kind::kFraction;
+}
+
+std::vector<const Constant*> weightsOf(const StudentProgram& program) {
+  std::vector<const Constant*> weights;
+  for (const Constant& constant : fittedConstants()) {
+    if (constant.kind == Kind::kWeight && concerns(constant.stages, program))
+      weights.push_back(&constant);
+  }
+  return weights;
 }
 
 /// The sentence on a fitted constant: "uses g = 10 m/s² instead of 9.81".
@@ -41,6 +56,10 @@ struct MistakeSearch::Candidate {
   void make(const Mistake& mistake) {
     mistake.make(program);
     add(mistake.name, std::string(mistake.sentence));
+  }
+  void makeSinglePrecision() {
+    for (const Mistake& mistake : knownMistakes())
+      if (isSinglePrecision(mistake)) make(mistake);
   }
   void add(std::string_view name, std::string sentence) {
     if (explanation.mistakes.empty() || explanation.mistakes.back() != name)
@@ -69,13 +88,17 @@ std::vector<Explanation> MistakeSearch::singleMistakes(const Method& method) {
 
 std::vector<Explanation> MistakeSearch::search(
     const std::vector<std::vector<const Method*>>& methods) {
+  // The simplest first: numbers of many candidates fit few digits, whatever the mistake is.
   constexpr Level kLevels[] = {&MistakeSearch::tryMistakes,
                                &MistakeSearch::tryConstants,
                                &MistakeSearch::trySinglePrecision,
                                &MistakeSearch::tryTwoMistakes,
                                &MistakeSearch::tryMistakeAndConstant,
+                               &MistakeSearch::tryCoefficients,
                                &MistakeSearch::tryWeights,
-                               &MistakeSearch::trySinglePrecisionAndMistake};
+                               &MistakeSearch::trySinglePrecisionAndMistake,
+                               &MistakeSearch::tryMistakeAndCoefficient,
+                               &MistakeSearch::tryMistakeAndWeights};
   found_.clear();
   std::vector<Explanation> best;
   for (const Level level : kLevels) {
@@ -107,10 +130,7 @@ bool MistakeSearch::isStrong(const Explanation& explanation) const {
 MistakeSearch::Candidate MistakeSearch::rightProgram(const Method& method) const {
   Candidate candidate{
       method.name, StudentProgram(*method.tableau, scenario_), {method.name, {}, {}, 0}};
-  if (frames_.single_precision) {
-    for (const Mistake& mistake : knownMistakes())
-      if (isSinglePrecision(mistake)) candidate.make(mistake);
-  }
+  if (frames_.single_precision) candidate.makeSinglePrecision();
   return candidate;
 }
 
@@ -119,20 +139,25 @@ bool MistakeSearch::isOver() {
   return gave_up_;
 }
 
-void MistakeSearch::tryMistakes(const Candidate& base) {
-  if (frames_.single_precision && explains(base)) return;
+template <typename Function>
+void MistakeSearch::tryWithMistakes(const Candidate& base, const Function& tryOut) {
   for (const Mistake& mistake : knownMistakes()) {
     if (!concerns(mistake.stages, base.program) || isSinglePrecision(mistake) || isOver()) continue;
     Candidate candidate = base;
     candidate.make(mistake);
-    explains(candidate);
+    tryOut(candidate);
   }
+}
+
+void MistakeSearch::tryMistakes(const Candidate& base) {
+  if (frames_.single_precision && explains(base)) return;
+  tryWithMistakes(base, [&](const Candidate& candidate) { explains(candidate); });
 }
 
 void MistakeSearch::tryConstants(const Candidate& base) {
   constexpr double kFactors[] = {1.0, 0.1, 10.0, -1.0};
   for (const Constant& constant : fittedConstants()) {
-    if (constant.kind != Kind::kModel && constant.kind != Kind::kTimeStep) continue;
+    if (isCoefficient(constant)) continue;
     for (const double factor : kFactors) {
       if (isOver() || fit(base, {&constant}, factor)) break;
     }
@@ -140,13 +165,10 @@ void MistakeSearch::tryConstants(const Candidate& base) {
 }
 
 void MistakeSearch::trySinglePrecision(const Candidate& base) {
-  if (frames_.single_precision || frames_.digits >= 9) return;
-  for (const Mistake& mistake : knownMistakes()) {
-    if (!isSinglePrecision(mistake) || isOver()) continue;
-    Candidate candidate = base;
-    candidate.make(mistake);
-    explains(candidate);
-  }
+  if (frames_.single_precision || frames_.digits >= kDigitsOfFloat) return;
+  Candidate candidate = base;
+  candidate.makeSinglePrecision();
+  explains(candidate);
 }
 
 void MistakeSearch::tryTwoMistakes(const Candidate& base) {
@@ -168,15 +190,9 @@ void MistakeSearch::tryTwoMistakes(const Candidate& base) {
 
 void MistakeSearch::tryMistakeAndConstant(const Candidate& base) {
   const std::vector<Constant>& constants = fittedConstants();
-  for (std::size_t first = 0; first < constants.size(); ++first) {
-    if (constants[first].kind != Kind::kModel) continue;
-    for (const Mistake& mistake : knownMistakes()) {
-      if (!concerns(mistake.stages, base.program) || isSinglePrecision(mistake) || isOver())
-        continue;
-      Candidate candidate = base;
-      candidate.make(mistake);
-      fit(candidate, {&constants[first]}, 1.0);
-    }
+  for (const Constant& constant : constants) {
+    if (constant.kind != Kind::kModel) continue;
+    tryWithMistakes(base, [&](const Candidate& candidate) { fit(candidate, {&constant}, 1.0); });
   }
   for (std::size_t first = 0; found_.empty() && first < constants.size(); ++first) {
     for (std::size_t second = first + 1; second < constants.size(); ++second) {
@@ -187,23 +203,45 @@ void MistakeSearch::tryMistakeAndConstant(const Candidate& base) {
   }
 }
 
-void MistakeSearch::tryWeights(const Candidate& base) {
-  std::vector<const Constant*> weights;
+void MistakeSearch::tryCoefficients(const Candidate& base) {
   for (const Constant& constant : fittedConstants()) {
-    const bool is_weight = constant.kind == Kind::kWeight;
-    if (!is_weight && constant.kind != Kind::kFraction) continue;
-    if (!concerns(constant.stages, base.program) || isOver()) continue;
+    if (!isCoefficient(constant) || !concerns(constant.stages, base.program) || isOver()) continue;
     fit(base, {&constant}, 1.0);
-    if (is_weight) weights.push_back(&constant);
   }
-  if (found_.empty() && weights.size() > 1 && !isOver()) fit(base, weights, 1.0);
+}
+
+void MistakeSearch::tryMistakeAndCoefficient(const Candidate& base) {
+  if (base.program.tableau.stages == 1) return;  // the weight of Euler is a time step
+  tryWithMistakes(base, [&](const Candidate& candidate) { tryCoefficients(candidate); });
+  for (const Constant& first : fittedConstants()) {
+    for (const Constant& second : fittedConstants()) {
+      if (isCoefficient(first) || !isCoefficient(second) || isOver()) continue;
+      if (concerns(second.stages, base.program)) fit(base, {&first, &second}, 1.0);
+    }
+  }
+}
+
+void MistakeSearch::tryWeights(const Candidate& base) {
+  const std::vector<const Constant*> weights = weightsOf(base.program);
+  if (weights.size() > 1 && !isOver()) fit(base, weights, 1.0);
+}
+
+void MistakeSearch::tryMistakeAndWeights(const Candidate& base) {
+  tryWithMistakes(base, [&](const Candidate& candidate) { tryWeights(candidate); });
+  std::vector<const Constant*> constants = weightsOf(base.program);
+  if (constants.size() == 1) return;
+  for (const Constant& constant : fittedConstants()) {
+    if (constant.kind != Kind::kModel || isOver()) continue;
+    constants.insert(constants.begin(), &constant);
+    fit(base, constants, 1.0);
+    constants.erase(constants.begin());
+  }
 }
 
 void MistakeSearch::trySinglePrecisionAndMistake(const Candidate& base) {
-  if (frames_.single_precision || frames_.digits >= 9) return;
+  if (frames_.single_precision || frames_.digits >= kDigitsOfFloat) return;
   Candidate candidate = base;
-  candidate.program.single_precision = true;
-  candidate.add(kSinglePrecision, "computes with float instead of double");
+  candidate.makeSinglePrecision();
   tryMistakes(candidate);
   if (found_.empty()) tryConstants(candidate);
 }
@@ -232,6 +270,7 @@ void MistakeSearch::keep(const Candidate& candidate, std::int64_t last_frame) {
 bool MistakeSearch::fit(Candidate candidate, const std::vector<const Constant*>& constants,
                         double factor) {
   StudentProgram start = candidate.program;
+  const std::size_t mistakes = candidate.explanation.sentences.size();
   for (const Constant* constant : constants) constant->of(candidate.program) *= factor;
   Agreement agreement = agreementOf(candidate);
   while (!agreement.complete && !isOver()) {
@@ -245,12 +284,14 @@ bool MistakeSearch::fit(Candidate candidate, const std::vector<const Constant*>&
   if (!isConvincing(agreement)) return false;
   roundConstants(candidate, constants);
   for (const Constant* constant : constants) {
-    constexpr double kSmallestMistake = 1e-6;  // smaller changes are rounding errors
+    // Smaller changes are rounding errors, in few digits those of float.
+    const double smallest_mistake = frames_.digits < kDigitsOfFloat ? 1e-4 : 1e-6;
     const double value = constant->of(candidate.program);
     const double right = constant->of(start);
-    if (std::abs(value - right) <= kSmallestMistake * std::abs(right)) return false;
+    if (std::abs(value - right) <= smallest_mistake * std::abs(right)) continue;
     candidate.add(constant->name, sentenceOn(*constant, value, right));
   }
+  if (candidate.explanation.sentences.size() == mistakes) return false;
   keep(candidate, agreement.last_frame);
   return true;
 }

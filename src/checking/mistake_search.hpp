@@ -37,8 +37,14 @@ class MistakeSearch {
   void trySinglePrecision(const Candidate& base);
   void tryTwoMistakes(const Candidate& base);
   void tryMistakeAndConstant(const Candidate& base);
-  void tryWeights(const Candidate& base);
+  void tryCoefficients(const Candidate& base);
   void trySinglePrecisionAndMistake(const Candidate& base);
+  void tryMistakeAndCoefficient(const Candidate& base);
+  void tryWeights(const Candidate& base);
+  void tryMistakeAndWeights(const Candidate& base);
+  /// Calls a function with each mistake added to the candidate.
+  template <typename Function>
+  void tryWithMistakes(const Candidate& base, const Function& tryOut);
 
   bool isOver();
   /// Whether an explanation reproduces all frames, or many that show the mistake.
