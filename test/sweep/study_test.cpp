@@ -71,6 +71,16 @@ TEST(Study, DurationGivesFramesAndSteps) {
   EXPECT_EQ(maker.make(7).settings.scenario.frames, 21);
 }
 
+TEST(Study, OptionsThatSomeCaseUsesAreAccepted) {
+  const TemporaryFolder folder;
+  for (const char* const text :
+       {"base: {frame_interval: 1, duration: 2}\n",
+        "base: {frame_interval: 1}\naxes: {duration: [1, 2]}\n",
+        "base: {frame_interval: 1, time_step: 1}\naxes: {method: all}\n"}) {
+    EXPECT_NO_THROW(studyOf(folder, text)) << text;
+  }
+}
+
 TEST(Study, LogarithmicValuesAreShort) {
   const TemporaryFolder folder;
   const Study study = studyOf(folder, "axes: {time_step: {log: [1e-4, 1, 5]}}\n");
@@ -121,6 +131,12 @@ TEST(Study, BadInputIsFoundBeforeTheFirstCase) {
       {"base: {time_step: 1, time_step: 2}\n", "time_step: is given twice"},
       {"base: {particles: none.txt}\n", "none.txt: could not be read"},
       {"base: {duration: 1, frames: 2}\n", "duration sets frames"},
+      {"base: {frame_interval: 1}\n",
+       ":1: frame_interval: Runge-Kutta-4 takes fixed steps; use time_step and steps_per_frame"},
+      {"axes: {method: fixed-step, frame_interval: [1, 2]}\n", "frame_interval: Euler takes fixed"},
+      {"base: {tolerance: 1}\naxes: {method: [Euler]}\n", ":1: tolerance: Euler takes fixed steps"},
+      {"base: {time_step: 1}\naxes: {method: [Auto, Radau-9]}\n",
+       ":1: time_step: Auto chooses its own steps; use tolerance and frame_interval"},
       {"axes: {time_step: []}\n", "must be a list with at least one value"},
       {"axes: {time_step: [0.1, x]}\n", "got 'x'"},
       {"axes: {time_step: {log: [0, 1, 3]}}\n", "must be above 0"},

@@ -1,6 +1,7 @@
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "io/files/text_file.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "sweep/study/checksum.hpp"
@@ -169,8 +171,11 @@ class StudyReader {
     readColumns();
     readPlot();
     const bool has_duration = study_.base.duration > 0.0 || given_.count("duration") > 0;
-    if (!has_duration || given_.count("frames") == 0) return std::move(study_);
-    throw InputError(tree_.place + ": duration sets frames and steps_per_frame; leave them out");
+    if (has_duration && given_.count("frames") + given_.count("steps_per_frame") > 0)
+      throw InputError(tree_.place + ": duration sets frames and steps_per_frame; leave them out");
+    if (has_duration) given_.erase("frame_interval");  // for fixed steps, too
+    refuseUnused();
+    return std::move(study_);
   }
 
  private:
@@ -219,6 +224,28 @@ class StudyReader {
     refuse(tree, axis.key,
            fmt::format("must have as many values as {}, {}, got {}", study_.axes.back().key, count,
                        axis.values.size()));
+  }
+
+  /// Refuses an option that no method of the study uses.
+  void refuseUnused() {
+    std::vector<const Method*> methods{&study_.base.scenario.method.get()};
+    for (const Axis& axis : study_.axes) {
+      if (axis.key != "method") continue;
+      methods.clear();
+      for (const std::string& name : axis.values) methods.push_back(&findMethod(name));
+    }
+    const auto is_fixed = [](const Method* method) { return method->hasFixedStep(); };
+    const bool all_fixed = std::all_of(methods.begin(), methods.end(), is_fixed);
+    if (!all_fixed && std::any_of(methods.begin(), methods.end(), is_fixed)) return;
+    for (const Option& option : caseOptions(study_.base)) {
+      const auto given = given_.find(std::string(option.key));
+      if (given == given_.end()) continue;
+      if (option.applies_to != (all_fixed ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep))
+        continue;
+      throw InputError(fmt::format(
+          "{}: {}: {}", given->second, option.key,
+          whyUnused(*methods.front(), [](std::string_view key) { return std::string(key); })));
+    }
   }
 
   void readRandom() {
@@ -315,7 +342,7 @@ class StudyReader {
   }
 
   const Option& take(const OptionSet& options, const std::string& key, const YamlTree& value) {
-    given_.insert(key == "steps_per_frame" ? "frames" : key);
+    given_[key] = value.place;
     return options.find(key, value.place);
   }
 
@@ -336,7 +363,7 @@ class StudyReader {
   std::filesystem::path folder_;
   YamlTree tree_;
   Study study_;
-  std::set<std::string> given_;
+  std::map<std::string, std::string> given_;  ///< key and place
 };
 
 }  // namespace
