@@ -61,6 +61,10 @@ TEST_F(Exercise3Files, InputsAreNeverWritten) {
   }
   EXPECT_EQ(read("particle.txt"), kTwoParticles);
   EXPECT_EQ(read("run.yaml"), yaml);
+  const Result inside = run(command({"--no-frames", "--energy", folder_.path(".")}));
+  EXPECT_EQ(inside.status, 1);
+  EXPECT_THAT(inside.errors, EndsWith(": is a folder with " + folder_.path("particle.txt") +
+                                      " in it; give a file\n"));
 }
 
 TEST_F(Exercise3Files, AParticleFileWithTheNameOfAFrameStays) {

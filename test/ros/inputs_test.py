@@ -175,9 +175,12 @@ class States(unittest.TestCase):
                 self.assertFalse(answer.success, path)
                 self.assertIn(says, answer.message)
                 self.assertNotIn('\n', answer.message)
-            for path in ('/proc/nowhere/state.txt', folder, SCENE):
+            for path, says in (('/proc/nowhere/state.txt', 'could not be written'), (folder, 'is a folder'),
+                               (os.path.dirname(SCENE), 'is a folder with ' + SCENE), (SCENE, 'is an input')):
                 answer = save(path)
                 self.assertFalse(answer.success, path)
+                self.assertIn('%s: ' % path, answer.message)
+                self.assertIn(says, answer.message)
                 self.assertNotIn('\n', answer.message)
             del self.state.messages[:]
             self.state.wait_for(3)

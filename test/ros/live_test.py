@@ -199,6 +199,16 @@ class Hands(LiveTest):
             self.wait_state(lambda m: m.supplied_energy != before, 'the click')
             self.check_energy()
 
+    def test_constants_that_the_run_would_refuse_are_refused_at_once(self):
+        with self.node(method='Auto') as node:
+            self.state.wait_for(5)
+            for name, value in (('gravity', '-1e9'), ('rest_length', '1e9')):
+                answer = self.call('set', Set, name, value)
+                self.assertFalse(answer.success)
+                self.assertIn('tolerance: must be at least', answer.message)
+            rospy.sleep(0.3)
+            self.assertFalse([line for line in node.lines('ERROR') if 'refused' in line])
+
     def test_it_comes_to_rest(self):
         with self.node():
             self.state.wait_for(5)

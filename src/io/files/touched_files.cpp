@@ -65,6 +65,9 @@ bool affects(const Touched& a, const Touched& b) {
   const bool is_frame = a.use == Use::kFrames && isFrameName(b.path.filename().string());
   const std::string& file = is_frame ? b.shown : a.shown;
   const char* const cure = is_frame ? "another folder for the frames" : "another file";
+  if (a.use == Use::kOutput && (b.use == Use::kInput || b.isStream()) && !areSame(a, b)) {
+    throw FileError(fmt::format("{}: is a folder with {} in it; give a file", file, b.shown));
+  }
   if (b.isStream()) {
     throw FileError(fmt::format("{}: is a standard stream of this program; give {}", file, cure));
   }

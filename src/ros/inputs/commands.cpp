@@ -77,7 +77,8 @@ std::string Commands::set(const std::string& name, const std::string& value) {
                                    std::abs(wanted.gravity), wanted.air_drag});
   if (largest > kLargest) throw InputError(tooLarge(name));
   if (!wanted.method.get().hasFixedStep()) {
-    checkTolerance(wanted.tolerance, run_.chain(), run_.isOver() ? run_.start() : run_.state());
+    checkTolerance(wanted.tolerance, wanted.chainOf(run_.chain().masses()),
+                   run_.isOver() ? run_.start() : run_.state());
   }
   holders_.wanted() = wanted;
   return fmt::format("{} is {} from the next state on", name, option.text());
