@@ -34,14 +34,15 @@ void play(Run& run, LiveRun& live, Player& player, Publisher& publisher, RunFile
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
     if (action == Player::Action::kShowBetween) {
-      publisher.publishBetween(run, player.showing());
+      publisher.publishBetween(run, player.showing(live.isGrabbed()));
       continue;
     }
     live.act(action, publisher);
     if (run.wasStopped()) return;  // inside a frame, which is discarded
     files.write(run);
     if (run.isOver()) files.finish();
-    if (const auto header = publisher.publish(run, player.showing())) live.show(*header);
+    if (const auto header = publisher.publish(run, player.showing(live.isGrabbed())))
+      live.show(*header);
     log.note();
   }
 }

@@ -11,7 +11,7 @@ from spring_pendulum.msg import PendulumState, PendulumStatus
 from spring_pendulum.srv import ApplyForce, Set
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit
+from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit, MarkerArray
 
 from pendulum_process import Listener, PendulumNode, project, wait_until
 
@@ -95,6 +95,19 @@ class Hands(LiveTest):
             self.assertAlmostEqual(self.last().positions[0].x, 0.5, places=3)  # P_1 stays
             self.check_energy()
             self.assertIsNone(node.process.poll())
+
+    def test_the_camera_stays_while_a_hand_pulls(self):
+        markers, cameras = Listener('markers', MarkerArray), Listener('/tf_static', TFMessage)
+        with self.node():
+            hand = self.hand()
+            cameras.wait_for(1)
+            self.state.wait_for(5)
+            self.drag(hand, 11, 5.0, 8.0)  # out of the picture
+            self.assertEqual(len(cameras.messages), 1)
+            hand.publish(self.feedback(11, InteractiveMarkerFeedback.MOUSE_UP))
+            cameras.wait_for(2)
+        markers.close()
+        cameras.close()
 
     def test_a_silent_hand_lets_go(self):
         with self.node() as node:

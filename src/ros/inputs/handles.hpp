@@ -36,6 +36,8 @@ class Handles {
 
   /// Releases hands that are silent. Must be called before every state.
   void watch();
+  /// Whether the mouse drags a particle.
+  bool isGrabbed() const { return !hands_.empty(); }
   /// Moves the handles to the particles. Costs nothing without rviz.
   void show();
   /// Lets go of all particles.

@@ -133,7 +133,7 @@ MarkerBuilder::MarkerBuilder(const Run& run, const NodeOptions& options) : optio
 void MarkerBuilder::fitView(const Run& run, const State& state) {
   const bool drawable = run.isFinite() && run.isShown();
   // The other rows keep to the view of the first one.
-  const bool may_widen = drawable && isFirstRow();
+  const bool may_widen = drawable && isFirstRow() && !holds_camera_;
   if (!view_) {
     view_.emplace(run, textLines());
     if (may_widen) view_->widenFor(state);

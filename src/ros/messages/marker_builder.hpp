@@ -38,6 +38,9 @@ class MarkerBuilder {
                                                const std_msgs::Header& header,
                                                const std::string& pace);
 
+  /// Keeps the camera where it is, for example while the mouse drags a particle.
+  void holdCamera(bool hold) { holds_camera_ = hold; }
+
   /// Pose of a camera that shows the whole scene: x forward, z up. Valid after `build`.
   geometry_msgs::TransformStamped camera(const std_msgs::Header& header) const;
   /// Number of camera moves by `build`; always 0 for a chain that is not in the first row of text.
@@ -74,6 +77,7 @@ class MarkerBuilder {
   std::deque<TrailPoint> trail_;
   std::optional<SceneView> view_;  ///< set when the first state is drawn
   int camera_changes_ = 0;
+  bool holds_camera_ = false;
   visualization_msgs::MarkerArray markers_;
 };
 

@@ -27,6 +27,7 @@ class RunMessages {
 
   /// Adds the tip to the trail, also of a state without markers.
   void trackTip(const Run& run) { markers_.trackTip(run); }
+  void holdCamera(bool hold) { markers_.holdCamera(hold); }
   /// Sets the state that `markers` shows, see ShownState::set.
   void show(const Run& run, double share = 1.0) { shown_.set(run, share); }
   const visualization_msgs::MarkerArray& markers(const Run& run, const std_msgs::Header& header,

@@ -26,6 +26,7 @@ class LiveRun {
   void act(Player::Action action, const Publisher& publisher);
   /// Tells subscribers of the inputs that no more will come.
   void end() { log_.ended(run_); }
+  bool isGrabbed() const { return handles_.isGrabbed(); }
   /// Moves the handles to the particles and publishes the forces on holders.
   void show(const std_msgs::Header& header);
 

@@ -51,7 +51,8 @@ class Player {
   void touch() { touched_ = true; }
 
   /// How to show the present state. Must be called once after every action.
-  Showing showing();
+  /// \param grabbed whether the mouse drags a particle
+  Showing showing(bool grabbed);
 
  private:
   using TriggerRequest = std_srvs::Trigger::Request;

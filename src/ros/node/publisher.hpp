@@ -19,6 +19,7 @@ struct Showing {
   std::string pace;     ///< speed of the run, for the text
   double share = 1.0;  ///< slow motion: position between the previous state (0) and the current one
   bool due = true;     ///< false: publish nothing but a changed status
+  bool grabbed = false;  ///< by the mouse, under which the camera must not move
 };
 
 class Publisher {
