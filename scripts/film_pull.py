@@ -2,7 +2,6 @@
 """Films rviz on a virtual display while the mouse pulls the tip of a chain and lets it go.
 
 Usage: devel/env.sh scripts/film_pull.py OUT.gif
-The run and the mouse are ten times slower than in the film, for a slow computer.
 """
 import os
 import re
@@ -27,7 +26,6 @@ from rviz_test import Display, Viewer, is_yellow, pixel_of  # noqa: E402
 from spring_pendulum.msg import PendulumState  # noqa: E402
 from tf2_msgs.msg import TFMessage  # noqa: E402
 
-SLOW = 10
 FPS = 12
 PATH = [(-40, -30), (-90, -80), (-130, -140), (-140, -200), (-60, -260), (60, -270), (130, -230)]  # pixels
 
@@ -41,7 +39,7 @@ def film(out):
     config.flush()
     with Display() as display, \
             Viewer(display, 'view.launch', 'rviz_args:=--fullscreen', 'config:=' + config.name) as viewer, \
-            PendulumNode(frames=100000, real_time_factor=1.0 / SLOW, at_end='hold', start='at_rest', method='Auto',
+            PendulumNode(frames=100000, real_time_factor=1.0, at_end='hold', start='at_rest', method='Auto',
                          stiffness=400.0, particles=project('data/horizontal_11.txt')):
         state, cameras = Listener('state', PendulumState, keep=2), Listener('/tf_static', TFMessage)
 
@@ -53,27 +51,27 @@ def film(out):
         viewer.wait_for_picture('film_tip.png', lambda p: p.near(column, row, is_yellow), 'the tip at %s' % ((column, row),))
         mouse('mousemove', column + 30, row)
         camera = subprocess.Popen(
-            ['ffmpeg', '-v', 'error', '-y', '-f', 'x11grab', '-framerate', str(FPS / SLOW), '-video_size',
+            ['ffmpeg', '-v', 'error', '-y', '-f', 'x11grab', '-framerate', str(FPS), '-video_size',
              '600x460', '-i', display.name, '-c:v', 'libx264rgb', '-crf', '0', out + '.mkv'],
             stdin=subprocess.DEVNULL)
-        time.sleep(3)
+        time.sleep(0.3)
         mouse('mousemove', column, row)
-        time.sleep(2)
+        time.sleep(0.2)
         mouse('mousedown', 1)
         before = (0, 0)
         for after in PATH:
             for k in range(1, 11):
                 mouse('mousemove', *(round(p + a + (b - a) * k / 10)
                                      for p, a, b in zip((column, row), before, after)))
-                time.sleep(0.25)
+                time.sleep(0.04)
             before = after
-        time.sleep(2)
+        time.sleep(0.2)
         mouse('mouseup', 1)
         end = state.messages[-1].time + 4.0
         wait_until(lambda: state.messages[-1].time > end, 'the swing', patience=120)
         camera.send_signal(signal.SIGINT)
         camera.wait()
-    look = 'setpts=PTS/%d,fps=%d,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none' % (SLOW, FPS)
+    look = 'fps=%d,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none' % FPS
     subprocess.run(['ffmpeg', '-v', 'error', '-y', '-i', out + '.mkv', '-filter_complex',
                     look + ':diff_mode=rectangle', out], check=True)
     os.remove(out + '.mkv')
