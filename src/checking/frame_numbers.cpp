@@ -107,7 +107,9 @@ class FrameReader {
       if (after_point) ++decimals;
     }
     if (mantissa < word.size()) {
-      decimals -= static_cast<int>(parseInteger(word.substr(mantissa + 1)).value_or(0));
+      constexpr std::int64_t kMostExponent = 400;  // of a number other than 0
+      decimals -= static_cast<int>(std::clamp(parseInteger(word.substr(mantissa + 1)).value_or(0),
+                                              -kMostExponent, kMostExponent));
     }
     digits_ = std::max(digits_, digits);
     decimals_ = std::max(decimals_, decimals);

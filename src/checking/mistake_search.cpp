@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "checking/program_fit.hpp"
 
@@ -69,13 +70,12 @@ struct MistakeSearch::Candidate {
 };
 
 MistakeSearch::MistakeSearch(const Scenario& scenario, const Particles& particles,
-                             const AllFrames& frames, std::size_t known_frames,
-                             const WorkLimit& limit)
+                             const AllFrames& frames, std::size_t known_frames, WorkLimit limit)
     : scenario_(scenario),
       particles_(particles),
       frames_(frames),
       known_frames_(known_frames),
-      limit_(limit) {}
+      limit_(std::move(limit)) {}
 
 std::vector<Explanation> MistakeSearch::singleMistakes(const Method& method) {
   found_.clear();
@@ -140,12 +140,12 @@ bool MistakeSearch::isOver() {
 }
 
 template <typename Function>
-void MistakeSearch::tryWithMistakes(const Candidate& base, const Function& tryOut) {
+void MistakeSearch::tryWithMistakes(const Candidate& base, const Function& try_one) {
   for (const Mistake& mistake : knownMistakes()) {
     if (!concerns(mistake.stages, base.program) || isSinglePrecision(mistake) || isOver()) continue;
     Candidate candidate = base;
     candidate.make(mistake);
-    tryOut(candidate);
+    try_one(candidate);
   }
 }
 

@@ -14,7 +14,7 @@ class MistakeSearch {
  public:
   /// \param known_frames number of leading frames without a sign of a mistake
   MistakeSearch(const Scenario& scenario, const Particles& particles, const AllFrames& frames,
-                std::size_t known_frames, const WorkLimit& limit);
+                std::size_t known_frames, WorkLimit limit);
 
   /// Returns the mistakes in a method that each explain the frames, without fits: the fast part.
   std::vector<Explanation> singleMistakes(const Method& method);
@@ -44,7 +44,7 @@ class MistakeSearch {
   void tryMistakeAndWeights(const Candidate& base);
   /// Calls a function with each mistake added to the candidate.
   template <typename Function>
-  void tryWithMistakes(const Candidate& base, const Function& tryOut);
+  void tryWithMistakes(const Candidate& base, const Function& try_one);
 
   bool isOver();
   /// Whether an explanation reproduces all frames, or many that show the mistake.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -123,7 +124,8 @@ std::vector<std::string> axisValues(const YamlTree& tree, const Option& option) 
   const YamlTree* const list = tree.find("list");
   const YamlTree* const linear = tree.find("linear");
   const YamlTree* const log = tree.find("log");
-  if ((list != nullptr) + (linear != nullptr) + (log != nullptr) != 1) {
+  const YamlTree* const forms[] = {list, linear, log};
+  if (std::count(std::begin(forms), std::end(forms), nullptr) != 2) {
     refuse(tree, option.key, "must be {list: ...}, {linear: ...} or {log: ...}");
   }
   if (list != nullptr) return listOf(*list, option.key);
@@ -263,8 +265,8 @@ class StudyReader {
     }
     study_.seed = static_cast<std::uint64_t>(seed);
     if (study_.samples == 0) refuse(*random, "random", "samples is missing");
-    if (static_cast<double>(study_.samples) * static_cast<double>(study_.cases() / study_.samples) >
-        kMostCases) {
+    const std::int64_t cases_per_sample = study_.cases() / study_.samples;
+    if (static_cast<double>(study_.samples) * static_cast<double>(cases_per_sample) > kMostCases) {
       refuse(*random, "random", "there are more than 1e9 cases");
     }
     if (study_.mass_factor.kind == Distribution::Kind::kNormal ||
@@ -348,7 +350,7 @@ class StudyReader {
 
   /// Reads a particle file, whose path is relative to the study. \returns the path
   std::string load(const std::string& file, const YamlTree& tree) {
-    const std::string path = (folder_ / file).lexically_normal().string();
+    std::string path = (folder_ / file).lexically_normal().string();
     if (study_.particles.count(path) > 0) return path;
     try {
       study_.hash = hashOf(readTextFile(path), study_.hash);
