@@ -20,7 +20,7 @@ program=$(find "$prefix" -name Exercise3 -path '*/spring_pendulum/*' -o -name Ex
 cd "$folder"
 "$program" Euler "$prefix/share/spring_pendulum/data/particle.txt" --frames 3 --output frames > /dev/null
 [ -s frames/frame_0002.txt ] || die "no frames"
-module=$(find "$prefix" -name '_core.*' -path '*/spring_pendulum/*')
+module=$(find "$prefix" -name '_core.*.so' -path '*/spring_pendulum/*')
 if [ -n "$module" ]; then
   folder_of_python=${module%/spring_pendulum/*}
   [ ! -e "$prefix/setup.bash" ] || folder_of_python=$(set +u; source "$prefix/setup.bash" && echo "$PYTHONPATH")
