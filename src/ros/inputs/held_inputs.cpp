@@ -99,16 +99,53 @@ bool HolderCheck::isAlive(double now) {
   return false;
 }
 
+bool Follower::take(const Target& input, double stamp, double now) {
+  if (!check_.accepts(input.position, input.velocity, stamp, now)) return false;
+  input_ = input;
+  taken_ = now;
+  return true;
+}
+
+std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& here,
+                                         double interval) {
+  const bool alive = check_.isAlive(now);
+  if (!input_) return std::nullopt;
+  Target target = *input_;
+  const double dx = target.position.x - here.x, dy = target.position.y - here.y;
+  const double distance = std::hypot(dx, dy);
+  met_ = met_ || distance < kMet;
+  const double step = kApproachSpeed * std::max(interval, 1e-3);
+  if (!alive) {
+    target.velocity = {};
+  } else if (!met_ && distance > 2.0 * step) {
+    const double share = 2.0 * step / distance;
+    target = {{here.x + share * dx, here.y + share * dy}, {}};
+  } else {
+    // The particle reaches where its holder is now, in a frame that moves with the holder.
+    const double age = now - taken_;
+    target.position.x += age * target.velocity.x;
+    target.position.y += age * target.velocity.y;
+  }
+  return target;
+}
+
+bool Follower::isSilent(double now) const {
+  return !input_ || now - taken_ > kSilence;
+}
+
+void Follower::restart() {
+  input_.reset();
+  met_ = false;
+  check_.restart();
+}
+
 struct HeldInputs::Held {
-  explicit Held(HolderCheck input_check) : check(std::move(input_check)) {}
+  explicit Held(HolderCheck check) : follower(std::move(check)) {}
 
   std::ptrdiff_t particle = 0;
   std::string frame;  ///< empty: topics
-  HolderCheck check;
-  Target target;        ///< of the last input
-  double taken = 0.0;   ///< s, wall-clock time of the last input
+  Follower follower;
   double stamp = -1.0;  ///< s, of the last transform
-  bool met = false;     ///< whether the particle has reached its holder
   bool warned = false;  ///< of a position out of the plane
   ros::Subscriber odometry, pose;
   ros::Publisher wrench;
@@ -159,15 +196,13 @@ HeldInputs::HeldInputs(ros::NodeHandle& node, const Run& run, const NodeOptions&
 
 void HeldInputs::reset() {
   for (const auto& held : held_) {
-    held->met = false;
-    held->taken = 0.0;
-    held->check.restart();
+    held->follower.restart();
     holders_.hold(held->particle);
   }
 }
 
 void HeldInputs::say(Held& held) {
-  const std::string message = held.check.takeMessage();
+  const std::string message = held.follower.takeMessage();
   if (!message.empty()) ROS_WARN_STREAM(message);
 }
 
@@ -185,7 +220,7 @@ void HeldInputs::take(Held& held, const std_msgs::Header& header,
   }
   const PlaneVector<double> at{place.x, place.z};
   const bool accepted =
-      held.check.accepts(at, {speed.x, speed.z}, header.stamp.toSec(), wallTime());
+      held.follower.take({at, {speed.x, speed.z}}, header.stamp.toSec(), wallTime());
   say(held);
   if (!accepted) return;
   if (!held.warned && !(std::abs(place.y - y_) <= kOutOfPlane)) {
@@ -193,8 +228,6 @@ void HeldInputs::take(Held& held, const std_msgs::Header& header,
     ROS_WARN_STREAM("held_" << held.particle + 1 << ": the input is " << std::abs(place.y - y_)
                             << " m out of the plane of the motion: projected into it");
   }
-  held.target = {at, {speed.x, speed.z}};
-  held.taken = wallTime();
 }
 
 void HeldInputs::lookUp(Held& held, double now) {
@@ -208,7 +241,7 @@ void HeldInputs::lookUp(Held& held, double now) {
     header.frame_id.clear();
     take(held, header, transformed(transform.transform, geometry_msgs::Point()), {});
   } catch (const InputError& error) {
-    if (now - held.taken > kSilence) {
+    if (held.follower.isSilent(now)) {
       ROS_WARN_STREAM_THROTTLE(5.0, "held_" << held.particle + 1 << "_frame: " << error.what());
     }
   }
@@ -218,28 +251,11 @@ void HeldInputs::watch() {
   const double now = wallTime();
   for (const auto& held : held_) {
     if (!held->frame.empty()) lookUp(*held, now);
-    const bool alive = held->check.isAlive(now);
-    say(*held);
-    if (held->taken == 0.0) continue;  // no input yet
-    Target target = held->target;
     const PlaneVector<double> here{run_.state().x()[held->particle],
                                    run_.state().y()[held->particle]};
-    const double dx = target.position.x - here.x, dy = target.position.y - here.y;
-    const double distance = std::hypot(dx, dy);
-    held->met = held->met || distance < kMet;
-    const double step = kApproachSpeed * std::max(run_.nextTime() - run_.time(), 1e-3);
-    if (!alive) {
-      target.velocity = {};
-    } else if (!held->met && distance > 2.0 * step) {
-      const double share = 2.0 * step / distance;
-      target = {{here.x + share * dx, here.y + share * dy}, {}};
-    } else {
-      // The particle reaches where its holder is now, in a frame that moves with the holder.
-      const double age = now - held->taken;
-      target.position.x += age * target.velocity.x;
-      target.position.y += age * target.velocity.y;
-    }
-    holders_.hold(held->particle, target);
+    const auto target = held->follower.targetAt(now, here, run_.nextTime() - run_.time());
+    say(*held);
+    if (target) holders_.hold(held->particle, *target);
   }
 }
 

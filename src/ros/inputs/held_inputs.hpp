@@ -55,6 +55,34 @@ class HolderCheck {
   std::string message_;
 };
 
+/// Turns the inputs of one holder into targets of its particle.
+class Follower {
+ public:
+  explicit Follower(HolderCheck check) : check_(std::move(check)) {}
+
+  /// Takes an input that is believable.
+  /// \param stamp of the input, s; not compared with a clock
+  /// \param now   present time of a steady clock, s
+  /// \returns whether it is
+  bool take(const Target& input, double stamp, double now);
+  /// Returns where the particle shall be; nothing before the first input.
+  /// \param here     position of the particle, m
+  /// \param interval until the next state, s
+  std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
+  /// Whether no input came for half a second.
+  bool isSilent(double now) const;
+  /// See HolderCheck.
+  std::string takeMessage() { return check_.takeMessage(); }
+  /// Forgets the inputs, after a reset.
+  void restart();
+
+ private:
+  HolderCheck check_;
+  std::optional<Target> input_;  ///< the last one
+  double taken_ = 0.0;           ///< s, when it came
+  bool met_ = false;             ///< whether the particle has reached its holder
+};
+
 /// All particles held by robots (`~held`).
 class HeldInputs {
  public:
