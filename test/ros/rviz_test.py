@@ -58,6 +58,16 @@ def is_background(color):
     return max(color) < 90
 
 
+def is_marker(color):
+    """Anything but the background."""
+    return max(abs(a - b) for a, b in zip(color, (22, 25, 31))) > 4
+
+
+def is_pale(color):
+    """The true motion, or the text of a chain without a colour."""
+    return tuple(color) == (105, 108, 114) or min(color) > 200
+
+
 def is_like(wanted):
     return lambda color: all(abs(a - b) < 30 for a, b in zip(color, wanted))
 
@@ -149,10 +159,15 @@ def pixel_of(point, camera):
 
 class Rviz(unittest.TestCase):
 
-    def test_the_running_node(self):
+    def test_the_running_node_and_the_next_one(self):
         with Display() as display, \
-                Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer, \
-                PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=1) as node:
+                Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer:
+            self.check_running_node(viewer)
+            self.check_next_node(viewer)
+
+    def check_running_node(self, viewer):
+        with PendulumNode(method='Euler', frames=500, real_time_factor=2.0, wait_for_subscribers=1,
+                          show_reference=True, trail=2.0) as node:
             listener = Listener('state', PendulumState, keep=2)
             cameras = Listener('/tf_static', TFMessage)
             listener.wait_for_any(lambda state: state.frame >= 22)
@@ -166,8 +181,22 @@ class Rviz(unittest.TestCase):
                 'running_node.png',
                 lambda p: all(p.near(*pixel, is_yellow) for pixel in pixels[1:]), 'the chain')
             self.check_chain(picture, pixels)
+            self.assertGreater(picture.count(is_yellow), 1000)  # measured: 6556
+            self.assertGreater(picture.count(is_pale), 500)  # measured: 3421
             listener.close()
             cameras.close()
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
+
+    def check_next_node(self, viewer):
+        viewer.wait_for_picture('ended_node.png', lambda p: p.count(is_marker) == 0,
+                                'a picture without markers of the node that has ended')
+        with PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=1, trail=0.0,
+                          color='#3fb6ff') as node:
+            picture = viewer.wait_for_picture(
+                'next_node.png', lambda p: p.count(is_like((63, 182, 255))) > 1000, 'the next chain')
+            self.assertEqual(picture.count(is_yellow), 0)
+            self.assertEqual(picture.count(is_pale), 0)
             node.interrupt()
             self.assertEqual(node.wait(), 0, node.output())
 
