@@ -1,5 +1,5 @@
 // Starts the page, and gives scripts window.pendulumLab.
-import {Library, LibraryError} from './library.js';
+import {LibraryError, runWithFiles} from './library.js';
 import * as check from './check.js';
 import * as motion from './motion.js';
 import * as own from './own.js';
@@ -100,12 +100,9 @@ function showAll() {
 /** For scripts; docs/lab.md describes it. */
 window.pendulumLab = {
   async run({particles, ...options} = {}) {
-    const library = new Library();
     try {
       const {frames, energy, output, status, messages, kind, text, time, particle, ...end} =
-        await library.call('run', {
-          settings: options, file: fileOf(particles), interval: 0, energies: true, texts: true, room: 1e9,
-        });
+        await runWithFiles(options, fileOf(particles));
       const {largest, largestTime, bound, measuredUntil, energyError, evaluations} = end;
       return {status, messages, output, frames, energy, verdict: {kind, text, time, particle}, evaluations,
               errors: {position: largest, time: largestTime, bound, measuredUntil, energy: energyError}};
@@ -113,8 +110,6 @@ window.pendulumLab = {
       if (!(error instanceof LibraryError)) throw error;
       return {status: error.status, messages: [error.message], output: '', frames: [], energy: '',
               verdict: null, evaluations: 0, errors: null};
-    } finally {
-      library.cancel();
     }
   },
   /** Changes settings of the page and resolves when all runs have ended. */

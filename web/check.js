@@ -4,9 +4,8 @@ import {Cancelled, Library} from './library.js';
 import {seek, showFrames} from './motion.js';
 import {paragraph} from './step.js';
 import {scene} from './runs.js';
-import {methodOf, on, optionsOf, settings} from './state.js';
+import {get, methodOf, on, optionsOf, settings} from './state.js';
 
-const get = (id) => document.getElementById(id);
 const note = get('check-note');
 const MOST_BYTES = 2e8;
 const NAME = /(?:^|\/)(frame[^\d/]*(\d+)\.(?:txt|dat|csv))$/i;

@@ -85,3 +85,13 @@ export class Library {
     this.#end(new Cancelled('cancelled'));
   }
 }
+
+/** One run with all its files, in a worker of its own. */
+export async function runWithFiles(settings, file, report = null) {
+  const library = new Library();
+  try {
+    return await library.call('run', {settings, file, interval: 0, energies: true, texts: true, room: 1e9}, report);
+  } finally {
+    library.cancel();
+  }
+}

@@ -1,6 +1,6 @@
 // The motion on a canvas, its buttons, and the particles as something to drag.
 import {lastTime, scene, tracks, truthTrack} from './runs.js';
-import {colorOf, dashes, methodOf, nameOf, on, settings, tell} from './state.js';
+import {colorOf, css, dashes, methodOf, nameOf, on, settings, tell} from './state.js';
 
 const canvas = document.getElementById('motion');
 const context = canvas.getContext('2d');
@@ -17,8 +17,6 @@ let view = {x: 0, y: 0, scale: 40, fitted: false, own: false};  // own: chosen b
 let dirty = true;
 const touches = new Map();
 let drag = null;
-
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 export const redraw = () => { dirty = true; };
 export function showArrows(list) { arrows = list; redraw(); }

@@ -2,7 +2,7 @@
 import {drawRegion, makeRegionChart} from './stability.js';
 import {formula, fraction} from './step.js';
 import {tools, useOwnMethods} from './runs.js';
-import {MOST_RUNS, defaultOf, described, newRun, on, settings, tell} from './state.js';
+import {MOST_RUNS, defaultOf, described, get, newRun, on, settings, tell} from './state.js';
 
 const kept = {
   'Heun': {a: [[], ['1']], b: ['1/2', '1/2']},
@@ -12,7 +12,6 @@ const kept = {
   'wrong Runge-Kutta-4': {a: [[], ['1/2'], ['0', '1/2'], ['0', '0', '1']], b: ['1/4', '1/4', '1/4', '1/4']},
 };
 const MOST_STAGES = 16;
-const get = (id) => document.getElementById(id);
 const table = get('tableau');
 const note = get('own-note');
 let chart;

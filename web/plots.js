@@ -1,11 +1,10 @@
 // Plots with Chart.js: lines named at their end, colours of the theme, a cursor that follows the time.
 import {play} from './motion.js';
 import {lastTime, tracks} from './runs.js';
-import {colorOf, dashes, nameOf, on, settings} from './state.js';
+import {colorOf, css, dashes, nameOf, on, settings} from './state.js';
 
 /* global Chart */
 const MOST_POINTS = 800;
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const charts = [];
 
 /** Writes the name of each line at its last point. */

@@ -1,14 +1,13 @@
 // Everything needed to repeat the runs elsewhere: commands, a link, files.
 import JSZip from '/usr/share/nodejs/jszip/lib/index.js';
-import {Library} from './library.js';
+import {runWithFiles} from './library.js';
 import {save} from './scene.js';
 import {fillRuns} from './stability.js';
-import {defaultOf, nameOf, on, optionsOf, presets, settings, toAddress} from './state.js';
+import {defaultOf, get, nameOf, on, optionsOf, presets, settings, toAddress} from './state.js';
 
-const get = (id) => document.getElementById(id);
 const note = get('share-note');
 const choice = get('share-run');
-const MOST_PARTICLES_TEXTS = 5e7;  // characters of all frames
+const MOST_CHARACTERS = 2e8;  // of all frames
 
 /** A word for a POSIX shell. */
 const quoted = (text) => (/^[\w./:=@%+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
@@ -64,20 +63,13 @@ function show() {
   }
 }
 
-async function filesOf(run) {
+function filesOf(run) {
   const options = optionsOf(run);
   const size = settings.file.text.split('\n').length * 40 * Number(options.frames);
-  if (size > MOST_PARTICLES_TEXTS * 4) {
+  if (size > MOST_CHARACTERS) {
     throw new Error(`the frames would take ${(size / 1e6).toFixed(0)} MB: use Exercise3 with the command above`);
   }
-  const library = new Library();
-  try {
-    return await library.call('run', {
-      settings: options, file: settings.file, interval: 0, energies: true, texts: true, room: 1e9,
-    }, ({frame}) => { if (frame) note.textContent = `frame ${frame}`; });
-  } finally {
-    library.cancel();
-  }
+  return runWithFiles(options, settings.file, ({frame}) => { if (frame) note.textContent = `frame ${frame}`; });
 }
 
 const nameOfFrame = (index) => `frame_${String(index).padStart(4, '0')}.txt`;

@@ -3,11 +3,10 @@ import {play} from './motion.js';
 import {makeChart, setLines} from './plots.js';
 import {short} from './report.js';
 import {scene, tools, tracks} from './runs.js';
-import {colorOf, methodOf, nameOf, on, optionsOf, settings} from './state.js';
+import {colorOf, css, methodOf, nameOf, on, oneAtATime, optionsOf, settings, theme} from './state.js';
 
 const MOST_PARTICLES = 40;  // the eigenvalues of a longer chain take too long
 const GRID = [240, 200];
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /** Paints the region below the points: ln |R| at most 0. */
 const painter = {
@@ -42,7 +41,6 @@ function pictureOf(growth, [width, height]) {
   context.putImageData(image, 0, 0);
   return picture;
 }
-const theme = () => document.documentElement.dataset.theme;
 
 export function makeRegionChart(id) {
   return makeChart(id, {
@@ -73,8 +71,6 @@ const choice = document.getElementById('stability-run');
 const note = document.getElementById('stability-note');
 const text = document.getElementById('stability-text');
 let chart;
-let busy = false;
-let again = false;
 
 /** Fills a list of the runs, and keeps the chosen one. */
 export function fillRuns(select) {
@@ -89,25 +85,11 @@ export function stateOf(index) {
   return track?.states[track.indexAt(play.time)];
 }
 
-async function update() {
-  if (settings.tab !== 'stability') return;
-  if (busy) {
-    again = true;
-    return;
-  }
-  busy = true;
-  try {
-    await show(Number(choice.value));
-  } catch (error) {
-    text.textContent = error.message;
-  }
-  busy = false;
-  if (!again) return;
-  again = false;
-  update();
-}
+const update = oneAtATime(show, (error) => { text.textContent = error.message; });
 
-async function show(index) {
+async function show() {
+  if (settings.tab !== 'stability') return;
+  const index = Number(choice.value);
   const run = settings.runs[index];
   const method = run && methodOf(run.method);
   const state = stateOf(index);

@@ -1,7 +1,8 @@
 // What the user has set. Everything here goes into the address, so that a link restores the page.
 
 export const MOST_RUNS = 4;
-export const presets = Object.assign(Object.create(null), JSON.parse(document.getElementById('scenes').textContent));
+export const get = (id) => document.getElementById(id);
+export const presets = Object.assign(Object.create(null), JSON.parse(get('scenes').textContent));
 export const constants = ['stiffness', 'damping', 'rest_length', 'gravity'];
 const LONGEST_ADDRESS = 8000;  // characters of a particle file
 
@@ -62,6 +63,7 @@ const colors = {
   dark: ['#5cb3ff', '#ffa14d', '#2fd0a5', '#ef8fd4'],
 };  // after Okabe and Ito, told apart by the colour-blind; lines differ in dashes, too
 export const dashes = [[], [7, 4], [2, 3], [10, 3, 2, 3]];
+export const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 export const theme = () => document.documentElement.dataset.theme;
 export const colorOf = (index) => colors[theme()][index % MOST_RUNS];
 export const nameOf = (run) =>
@@ -98,7 +100,7 @@ export function fromAddress(hash) {
     if (words.has(key)) settings[key] = words.get(key);
   }
   if (['over', 'side'].includes(words.get('layout'))) settings.layout = words.get('layout');
-  if (document.getElementById(`panel-${words.get('tab')}`)) settings.tab = words.get('tab');
+  if (get(`panel-${words.get('tab')}`)) settings.tab = words.get('tab');
   try {
     const own = JSON.parse(words.get('own') ?? 'null');
     if (own && typeof own.name === 'string' && Array.isArray(own.a) && Array.isArray(own.b) &&
@@ -120,4 +122,25 @@ export function on(event, listener) {
 }
 export function tell(event, detail) {
   for (const listener of listeners.get(event) ?? []) listener(detail);
+}
+
+/**
+ * Returns a function that calls `show`, one call after the other. Calls that come meanwhile become one.
+ * @param fail is called with an error of `show`
+ */
+export function oneAtATime(show, fail) {
+  let busy = false;
+  let again = false;
+  return async function update() {
+    again = busy;
+    if (busy) return;
+    busy = true;
+    try {
+      await show();
+    } catch (error) {
+      fail(error);
+    }
+    busy = false;
+    if (again) update();
+  };
 }

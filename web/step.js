@@ -1,8 +1,8 @@
 // One step of a method, written out with the numbers of one particle.
-import {actions, play, redraw, select, showArrows} from './motion.js';
+import {play, select, showArrows} from './motion.js';
 import {fillRuns, stateOf} from './stability.js';
 import {scene, tools, tracks} from './runs.js';
-import {colorOf, methodOf, on, optionsOf, settings} from './state.js';
+import {colorOf, methodOf, on, oneAtATime, optionsOf, settings} from './state.js';
 
 /* global katex */
 const choice = document.getElementById('step-run');
@@ -82,39 +82,21 @@ function otherText(method, step, i) {
 }
 
 function arrowsOf(step, method, i) {
-  const colors = [0, 1, 2, 3].map(colorOf);
   return step.slopes.slice(0, 6).map((slope, stage) => {
     const [x, y] = pick(step.stages[stage], i);
     const [dx, dy] = pick(slope, i);
-    return {x, y, dx, dy, color: colors[stage % 4], label: `k${stage + 1}`};
+    return {x, y, dx, dy, color: colorOf(stage), label: `k${stage + 1}`};
   });
 }
 
-let busy = false;
-let again = false;
-async function update() {
+const update = oneAtATime(show, (error) => output.replaceChildren(paragraph(error.message)));
+
+async function show() {
   if (settings.tab !== 'step') {
     showArrows([]);
     return;
   }
-  if (busy || play.on) {
-    again = busy;
-    return;
-  }
-  busy = true;
-  try {
-    await show();
-  } catch (error) {
-    output.replaceChildren(paragraph(error.message));
-  }
-  busy = false;
-  if (again) {
-    again = false;
-    update();
-  }
-}
-
-async function show() {
+  if (play.on) return;
   const index = Number(choice.value);
   const run = settings.runs[index];
   const method = run && methodOf(run.method);
@@ -146,6 +128,4 @@ export function start() {
   on('runs', () => fillRuns(choice));
   for (const event of ['time', 'run', 'tab']) on(event, update);
   for (const id of ['play', 'step', 'frame']) document.getElementById(id).addEventListener('click', () => setTimeout(update, 50));
-  redraw();
-  return actions;
 }

@@ -2,9 +2,8 @@
 import {Cancelled, Library} from './library.js';
 import {makeChart, setLines} from './plots.js';
 import {short} from './report.js';
-import {on, described, methodOf, optionsOf, newRun, settings, theme} from './state.js';
+import {on, described, get, methodOf, optionsOf, newRun, settings, theme} from './state.js';
 
-const get = (id) => document.getElementById(id);
 const FRAME = 0.4;       // s; the largest step
 const HALVINGS = 9;
 const TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];

@@ -56,10 +56,11 @@ class Checker {
     if (result_.equal) {
       result_.departure.reset();
       doubt();
+      describeEqual();
     } else {
       explain();
+      describeDifferent();
     }
-    describe();
     return result_;
   }
 
@@ -163,7 +164,6 @@ class Checker {
     }
   }
 
-  void describe();
   void describeEqual();
   void describeDifferent();
   std::string comparedText() const;
@@ -187,14 +187,6 @@ std::string listOf(const std::vector<std::string>& words, const char* last) {
     text += words[i];
   }
   return text;
-}
-
-void Checker::describe() {
-  if (result_.equal) {
-    describeEqual();
-  } else {
-    describeDifferent();
-  }
 }
 
 std::string Checker::comparedText() const {

@@ -50,7 +50,6 @@ std::string sentenceOn(const Constant& constant, double value, double right) {
 }  // namespace
 
 struct MistakeSearch::Candidate {
-  std::string method;
   StudentProgram program;
   Explanation explanation;
 
@@ -128,8 +127,7 @@ bool MistakeSearch::isStrong(const Explanation& explanation) const {
 }
 
 MistakeSearch::Candidate MistakeSearch::rightProgram(const Method& method) const {
-  Candidate candidate{
-      method.name, StudentProgram(*method.tableau, scenario_), {method.name, {}, {}, 0}};
+  Candidate candidate{StudentProgram(*method.tableau, scenario_), {method.name, {}, {}, 0}};
   if (frames_.single_precision) candidate.makeSinglePrecision();
   return candidate;
 }

@@ -28,7 +28,6 @@ class MistakeSearch {
 
  private:
   struct Candidate;
-  using Candidates = std::vector<Candidate>;
   using Level = void (MistakeSearch::*)(const Candidate&);
 
   Candidate rightProgram(const Method& method) const;
