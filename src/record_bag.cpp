@@ -50,13 +50,11 @@ int record(int argc, const char* const* argv) {
   printAnswers(run, *integrator, switches);
   if (switches.check) return kDone;
   catchInterruptions();
-  const std::string remarks = remarksOn(run);
+  const std::string remarks = remarksOn(run) + warningLine(replay ? replay->missing() : "");
   const std::string output = recordBag(run, integrator, replay ? &*replay : nullptr, display, bag,
                                        [&] { printError(remarks); });
   printClosingLine(run.closingLine(*integrator, output));
-  if (replay && interruption() == 0 && !replay->remark().empty()) {
-    printError("warning: " + replay->remark() + "\n");
-  }
+  if (replay && interruption() == 0) printError(warningLine(replay->unreached()));
   return conclude(run);
 }
 

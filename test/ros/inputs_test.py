@@ -282,7 +282,8 @@ class Repeated(unittest.TestCase):
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertIn(says, done.stderr)
         self.assertIn(path, done.stderr)
-        self.assertEqual(done.stderr.count('\n'), 1)
+        # A run that is refused at a later input has warned that the closing one is missing.
+        self.assertEqual(len([line for line in done.stderr.splitlines() if not line.startswith('warning: ')]), 1)
         self.assertFalse(os.path.exists(os.path.join(folder, 'out.bag')))
 
     def test_refuses_other_bags(self):
@@ -339,7 +340,8 @@ class Repeated(unittest.TestCase):
             for frames, says, *inputs in ((6, '', start(), change(1, 0.2, **pull), change(2, 0.5, end=True)),
                                           (1, '', start(), change(1, 0.0, end=True)),
                                           (20, 'the last inputs may be missing', start(), change(1, 0.2, **pull)),
-                                          (20, 'ended before input 1 at t = 9 s', start(), change(1, 9.0, **pull))):
+                                          (20, 'ended before input 1 at t = 9 s', start(), change(1, 9.0, **pull),
+                                           change(2, 9.5, end=True))):
                 write_inputs(path, *inputs)
                 done = self.replay(folder, path)
                 self.assertEqual(done.returncode, 0, done.stderr)

@@ -19,10 +19,6 @@ std::string line(const std::string& remark) {
   return remark.empty() ? "" : remark + "\n";
 }
 
-std::string warningLine(const std::string& warning) {
-  return warning.empty() ? "" : line("warning: " + warning);
-}
-
 std::string memoryLine(const Run& run) {
   return line(memoryRemark(run.scenario(), run.chain().size()));
 }
@@ -47,6 +43,10 @@ std::string skippedWork(const Run& run, const Integrator& integrator) {
 }
 
 }  // namespace
+
+std::string warningLine(const std::string& warning) {
+  return warning.empty() ? "" : line("warning: " + warning);
+}
 
 void printClosingLine(const std::string& text) {
   printOutput(onOneLine(text) + "\n");

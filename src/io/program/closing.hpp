@@ -9,6 +9,9 @@
 
 namespace spring_pendulum {
 
+/// Returns a line with a warning; empty if there is none.
+std::string warningLine(const std::string& warning);
+
 /// Prints one line to standard output, before anything that is printed to standard error later.
 /// \throws FileError if it can't be written
 void printClosingLine(const std::string& text);

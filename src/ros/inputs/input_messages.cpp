@@ -239,16 +239,17 @@ bool Replay::isOver(const Run& run) const {
          inputs_.back().time <= run.time();
 }
 
-std::string Replay::remark() const {
-  if (next_ < inputs_.size() && inputs_[next_].end == 0) {
-    return fmt::format("{}: the run ended before input {} at t = {} s", path_, next_,
-                       numberText(inputs_[next_].time));
-  }
+std::string Replay::missing() const {
   if (inputs_.back().end != 0) return "";
-  return fmt::format(
-      "{}: the last inputs may be missing: the node or its recorder was ended before the closing "
-      "one",
-      path_);
+  return path_ +
+         ": the last inputs may be missing: the node or its recorder was ended before the closing "
+         "one";
+}
+
+std::string Replay::unreached() const {
+  if (next_ == inputs_.size() || inputs_[next_].end != 0) return "";
+  return fmt::format("{}: the run ended before input {} at t = {} s", path_, next_,
+                     numberText(inputs_[next_].time));
 }
 
 }  // namespace spring_pendulum

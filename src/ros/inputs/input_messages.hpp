@@ -61,8 +61,10 @@ class Replay {
 
   /// Whether the node had ended at the current time of the run.
   bool isOver(const Run& run) const;
-  /// A sentence if inputs at the end are missing or were not reached; else empty.
-  std::string remark() const;
+  /// A sentence if the last inputs may be missing; else empty.
+  std::string missing() const;
+  /// A sentence if the run ended before all inputs acted; else empty.
+  std::string unreached() const;
 
  private:
   void check(const PendulumInput& input) const;
