@@ -189,14 +189,13 @@ void MistakeSearch::tryTwoMistakes(const Candidate& base) {
 void MistakeSearch::tryMistakeAndConstant(const Candidate& base) {
   const std::vector<Constant>& constants = fittedConstants();
   for (const Constant& constant : constants) {
-    if (constant.kind != Kind::kModel) continue;
+    if (isCoefficient(constant)) continue;
     tryWithMistakes(base, [&](const Candidate& candidate) { fit(candidate, {&constant}, 1.0); });
   }
   for (std::size_t first = 0; found_.empty() && first < constants.size(); ++first) {
     for (std::size_t second = first + 1; second < constants.size(); ++second) {
-      const bool both =
-          constants[first].kind == Kind::kModel && constants[second].kind == Kind::kModel;
-      if (both && !isOver()) fit(base, {&constants[first], &constants[second]}, 1.0);
+      if (isCoefficient(constants[first]) || isCoefficient(constants[second]) || isOver()) continue;
+      fit(base, {&constants[first], &constants[second]}, 1.0);
     }
   }
 }

@@ -85,12 +85,13 @@ def combined(rng):
             return (a, b), both
 
 
-# A mistake or a constant, with coefficients of the method that are not in the list of known mistakes.
-WITH_COEFFICIENTS = [
+# Two mistakes, at least one of them a number that is not in the list of known mistakes.
+WITH_NUMBERS = [
     (('no_damping', 'stage_fraction'), dict(tableau([(), (0.5,), (0, 0.45), (0, 0, 1)], RK4['weights']),
                                             wrong=['no_damping'])),
     (('steps_per_frame', 'weights'), dict(tableau(RK4['start'], (1 / 7, 2 / 7, 2 / 7, 1 / 7)), steps=11)),
     (('k_s', 'weights'), dict(tableau(RK4['start'], (1 / 6, 1 / 3, 1 / 3, 1 / 3)), k_s=51.0)),
+    (('stage_slope', 'time_step'), dict(tableau([(), (0.5,), (0, 0.5), (0, 1)], RK4['weights']), h=0.011)),
 ]
 
 
@@ -138,7 +139,7 @@ def named(names, verdict):
 
 def try_wrong(lab, frames, number):
     singles = [((name,), change) for name, change in single_mistakes(lab.rng)]
-    programs = singles + WITH_COEFFICIENTS
+    programs = singles + WITH_NUMBERS
     right = 0
     for i in range(number):
         # Each of these once, then combinations.
