@@ -38,17 +38,17 @@ Scenario shortScenario(const std::string& method) {
   return scenario;
 }
 
-/// \returns false for an InputError or too little memory
-bool gives(const Action& action) {
+/// \returns the number of results: 1, or 0 for an InputError or too little memory
+int gives(const Action& action) {
   try {
     action();
   } catch (const InputError&) {
-    return false;
+    return 0;
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(std::string(error.what()).rfind("not enough memory", 0), 0U) << error.what();
-    return false;
+    return 0;
   }
-  return true;
+  return 1;
 }
 
 /// Calls the public functions that take a scenario, with a chain of the scenario's springs.
