@@ -100,7 +100,7 @@ std::deque<Method> builtInMethods() {
       {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
        "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
        "symplectic and reversible without damping: for very long undamped runs", nullptr,
-       makeSymplectic<VelocityVerlet>, true, 80},
+       makeSymplectic<VelocityVerlet>, true, 130},
       {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
        "doi:10.1016/0771-050X(80)90013-3",
@@ -114,7 +114,7 @@ std::deque<Method> builtInMethods() {
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
        "the fastest for tolerances down to 1e-6 m, unless particles are very light", nullptr,
-       makeTaylor<TaylorStepper>, false, 690},
+       makeTaylor<TaylorStepper>, false, 850},
       {"Taylor-12", 12, 12, StepControl::kErrorControlled, kTaylor12RealStabilityLimit,
        3.3793773141575327,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
