@@ -46,6 +46,7 @@ class Checker {
 
   FrameCheck check() {
     compareWith(wanted_);
+    if (isStopped()) throw FileError("stopped before the frames were compared");
     if (result_.methods.empty() && !unknown_.empty()) {
       throw FileError(
           fmt::format("frame {}: is the first one, and too late to be compared with {}: "

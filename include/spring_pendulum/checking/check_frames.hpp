@@ -61,7 +61,7 @@ struct FrameCheck {
 struct CheckOptions {
   /// Whether the frames must be those of `Scenario::method`. Otherwise any method is right.
   bool method_is_given = false;
-  /// Asked every few milliseconds; when it returns true, the search for mistakes ends.
+  /// Asked every few milliseconds; when it returns true, the check ends.
   std::function<bool()> stop = {};
 };
 
@@ -71,7 +71,7 @@ struct CheckOptions {
 /// \param frames    in any order, some may be missing
 /// \throws InputError for a value of the scenario out of its range
 /// \throws FileError naming frame and line if there are no frames, or one of them can't be read or
-///   has another number of particles
+///   has another number of particles, and if `CheckOptions::stop` ends the check before a verdict
 FrameCheck checkFrames(const Scenario& scenario, const Particles& particles,
                        const std::vector<FrameText>& frames, const CheckOptions& options = {});
 
