@@ -25,7 +25,7 @@ packages_of() {
            libboost-program-options-dev libgtest-dev libgmock-dev gnuplot-nox help2man ;;
     mpi) echo libopenmpi-dev openmpi-bin ;;
     ros)
-      echo catkin libroscpp-dev librosbag-dev libroslib-dev libvisualization-msgs-dev \
+      echo catkin libroscpp-dev librosbag-dev libconsole-bridge-dev libroslib-dev libvisualization-msgs-dev \
            libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev libtf2-ros-dev \
            libinteractive-markers-dev libnav-msgs-dev ros-visualization-msgs ros-nav-msgs \
            ros-geometry-msgs ros-std-msgs ros-std-srvs ros-message-generation ros-message-runtime \
