@@ -241,9 +241,7 @@ bool Replay::isOver(const Run& run) const {
 
 std::string Replay::missing() const {
   if (inputs_.back().end != 0) return "";
-  return path_ +
-         ": the last inputs may be missing: the node or its recorder was ended before the closing "
-         "one";
+  return path_ + ": has no closing input, so the last inputs may be missing";
 }
 
 std::string Replay::unreached() const {
