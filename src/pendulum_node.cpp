@@ -33,16 +33,16 @@ void play(Run& run, LiveRun& live, Player& player, Publisher& publisher, RunFile
   live.start();
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
+    publisher.holdCamera(live.isGrabbed());  // it must not move under the mouse
     if (action == Player::Action::kShowBetween) {
-      publisher.publishBetween(run, player.showing(live.isGrabbed()));
+      publisher.publishBetween(run, player.showing());
       continue;
     }
     live.act(action, publisher);
     if (run.wasStopped()) return;  // inside a frame, which is discarded
     files.write(run);
     if (run.isOver()) files.finish();
-    if (const auto header = publisher.publish(run, player.showing(live.isGrabbed())))
-      live.show(*header);
+    if (const auto header = publisher.publish(run, player.showing())) live.show(*header);
     log.note();
   }
 }

@@ -116,9 +116,9 @@ bool Player::isAhead() const {
          ros::SteadyTime::now() < pacer_.dueTime(run_.time());
 }
 
-Showing Player::showing(bool grabbed) {
+Showing Player::showing() {
   const bool is_paced = options_.follow.empty() && !paused_ && !run_.isOver() && !isAhead();
-  return {paused_, pace(), shownShare(), !is_paced || pacer_.isShown(run_.time()), grabbed};
+  return {paused_, pace(), shownShare(), !is_paced || pacer_.isShown(run_.time())};
 }
 
 /// Position of the shown state between the previous state of the run (0) and the current one (1).

@@ -51,8 +51,7 @@ class Player {
   void touch() { touched_ = true; }
 
   /// How to show the present state. Must be called once after every action.
-  /// \param grabbed whether the mouse drags a particle
-  Showing showing(bool grabbed);
+  Showing showing();
 
  private:
   using TriggerRequest = std_srvs::Trigger::Request;

@@ -71,7 +71,6 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
 }
 
 std::optional<std_msgs::Header> Publisher::publish(const Run& run, const Showing& showing) {
-  build_.holdCamera(showing.grabbed);
   std::optional<PendulumStatus> status = build_.newStatus(run, showing.paused);
   const bool has_markers = markers_.getNumSubscribers() > 0;
   if (has_markers) build_.show(run, showing.share);
@@ -96,7 +95,6 @@ std::optional<std_msgs::Header> Publisher::publish(const Run& run, const Showing
 
 void Publisher::publishBetween(const Run& run, const Showing& showing) {
   if (markers_.getNumSubscribers() == 0) return;
-  build_.holdCamera(showing.grabbed);
   build_.show(run, showing.share);
   publishMarkers(run, build_.header(run.time()), showing.pace);
 }

@@ -19,7 +19,6 @@ struct Showing {
   std::string pace;     ///< speed of the run, for the text
   double share = 1.0;  ///< slow motion: position between the previous state (0) and the current one
   bool due = true;     ///< false: publish nothing but a changed status
-  bool grabbed = false;  ///< by the mouse, under which the camera must not move
 };
 
 class Publisher {
@@ -31,6 +30,9 @@ class Publisher {
 
   /// Serves callbacks until `wait_for_subscribers` is reached, or `wait_timeout` has passed.
   void waitForSubscribers(const NodeOptions& options);
+
+  /// Keeps the camera where it is, see MarkerBuilder.
+  void holdCamera(bool hold) { build_.holdCamera(hold); }
 
   /// Publishes the state on all topics with subscribers, and the status if it has changed. In slow
   /// motion, the markers are left to `publishBetween`.
