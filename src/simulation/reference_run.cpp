@@ -82,16 +82,13 @@ State moved(const Chain& chain, const State& state, double change) {
   return result;
 }
 
-/// What the errors of a reference run are measured in, m.
-struct Scales {
-  double length;     ///< of the chain
-  double rounding;   ///< smallest distance that can be resolved
-  double tolerance;  ///< of the reference
-};
+double roundingOf(const State& state, double length) {
+  return kRounding * std::max(state.positions().cwiseAbs().maxCoeff(), length);
+}
 
-Scales scalesOf(const Chain& chain, const State& start, double run_tolerance) {
+ReferenceScales scalesOf(const Chain& chain, const State& start, double run_tolerance) {
   const double length = chainLength(chain, start);
-  const double rounding = kRounding * std::max(start.positions().cwiseAbs().maxCoeff(), length);
+  const double rounding = roundingOf(start, length);
   double tolerance = std::min(kTolerance, kRelativeTolerance * length);
   if (run_tolerance > 0.0) tolerance = std::min(tolerance, kToleranceShare * run_tolerance);
   return {length, rounding, std::max(tolerance, rounding)};
@@ -99,17 +96,17 @@ Scales scalesOf(const Chain& chain, const State& start, double run_tolerance) {
 
 }  // namespace
 
-double chainLength(const Chain& chain, const State& start) {
-  requireSize(chain.size(), start.size());
-  const Eigen::Index springs = start.size() - 1;
+double chainLength(const Chain& chain, const State& state) {
+  requireSize(chain.size(), state.size());
+  const Eigen::Index springs = state.size() - 1;
   return std::max(static_cast<double>(springs) * chain.spring().rest_length,
-                  0.1 * springLengths(start, 0, springs));
+                  0.1 * springLengths(state, 0, springs));
 }
 
 /// Reference and companion.
 class ReferenceTrajectories {
  public:
-  ReferenceTrajectories(const Chain& chain, const State& start, const Scales& scales)
+  ReferenceTrajectories(const Chain& chain, const State& start, const ReferenceScales& scales)
       : reference_{makeIntegrator("Auto", chain, {scales.tolerance, false, 1}), start},
         companion_{makeIntegrator(companionMethod(chain), chain,
                                   {kCompanionTolerance * scales.tolerance, false, 1}),
@@ -175,11 +172,8 @@ const ReferenceFrame* SharedReference::frame(std::int64_t index, double allowed_
 ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
     : chain_(chain),
       free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
+      first_(scalesOf(chain, start, options.tolerance)),
       shared_(options.shared) {
-  const Scales scales = scalesOf(chain, start, options.tolerance);
-  believed_ = kBelieved * scales.length;
-  rounding_ = scales.rounding;
-  tolerance_ = scales.tolerance;
   if (shared_) requireSize(chain.size(), shared_->size());
   if (start.size() <= kMostParticles || options.always) start_ = start;
   restart();
@@ -198,7 +192,8 @@ void ReferenceRun::restart() {
   work_at_stop_ = 0.0;
   status_ = Status::kMeasuring;
   distance_ = 0.0;
-  uncertainty_ = rounding_;
+  scales_ = first_;
+  uncertainty_ = scales_.rounding;
   if (start_.size() < chain_.size()) stop(Status::kCostTooMuch);
 }
 
@@ -214,8 +209,7 @@ bool ReferenceRun::advance(double time_step, std::int64_t steps,
     gave_up_ = shared_frame_ == nullptr;
   } else {
     if (!trajectories_) {
-      trajectories_ = std::make_unique<ReferenceTrajectories>(chain_, start_,
-                                                              Scales{0.0, rounding_, tolerance_});
+      trajectories_ = std::make_unique<ReferenceTrajectories>(chain_, start_, first_);
     }
     gave_up_ = !trajectories_->advance(time_step, steps, allowed_work_, stops);
   }
@@ -234,14 +228,19 @@ void ReferenceRun::measure(double run_work) {
   if (gave_up_ || work() >= allowed_work_) return stop(Status::kCostTooMuch);
   allowed_work_ = std::max(free_work_, run_work);
   distance_ = shared_ ? shared_frame_->distance : trajectories_->distance();
-  uncertainty_ = kSafety * distance_ + rounding_;
-  if (std::isnan(uncertainty_)) return stop(Status::kFailed);
-  if (uncertainty_ <= believed_) return;
-  stop(kSensitiveGrowth * rounding_ > believed_ ? Status::kRounded : Status::kSensitive);
+  if (std::isnan(distance_)) return stop(Status::kFailed);
+  scales_.length = std::max(scales_.length, chainLength(chain_, *state()));
+  scales_.rounding = std::max(scales_.rounding, roundingOf(*state(), scales_.length));
+  uncertainty_ = kSafety * distance_ + scales_.rounding;
+  const double believed = kBelieved * scales_.length;
+  if (uncertainty_ <= believed) return;
+  stop(kSensitiveGrowth * scales_.rounding > believed ? Status::kRounded : Status::kSensitive);
 }
 
 bool ReferenceRun::isSensitive() const {
-  return distance_ > kSensitiveError * kCompanionTolerance * tolerance_;
+  // The start and the tolerance do not tell of coordinates that grow during the motion.
+  const double tolerance = std::max(scales_.tolerance, scales_.rounding);
+  return distance_ > kSensitiveError * kCompanionTolerance * tolerance;
 }
 
 const State* ReferenceRun::state() const {

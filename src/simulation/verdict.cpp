@@ -96,7 +96,6 @@ std::string_view toString(VerdictKind kind) {
 Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
     : chain_(chain),
       balance_(chain, start, options.track_dissipation, options.start_time),
-      chain_length_(chainLength(chain, start)),
       symplectic_step_(options.symplectic_step),
       tolerance_(options.tolerance),
       start_time_(options.start_time) {}
@@ -104,7 +103,6 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
 Judge::Judge(Chain piece, EnergyBalance balance, const JudgeOptions& options)
     : chain_(std::move(piece)),
       balance_(std::move(balance)),
-      chain_length_(std::numeric_limits<double>::quiet_NaN()),
       symplectic_step_(options.symplectic_step),
       tolerance_(options.tolerance),
       start_time_(options.start_time) {}
@@ -149,11 +147,14 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
 }
 
 void Judge::noteTolerance(const ReferenceRun& reference) {
-  if (tolerance_ == 0.0 || exceeded_time_ > 0.0) return;
+  if (tolerance_ == 0.0 || sensitive_time_ > 0.0) return;
   const bool unknown = position_error_.uncertainty > kPromise * tolerance_;
   if (!unknown && position_error_.now <= kPromise * tolerance_) return;
-  exceeded_time_ = entry_.time;
-  exceeds_by_itself_ = !unknown && !reference.isSensitive();
+  if (unknown || reference.isSensitive()) {
+    sensitive_time_ = entry_.time;
+  } else if (exceeded_time_ == 0.0) {
+    exceeded_time_ = entry_.time;
+  }
 }
 
 void Judge::change(const Chain& chain, EnergyBalance balance, const JudgeOptions& options) {
@@ -213,13 +214,13 @@ bool Judge::hasEnergyOf(const ReferenceRun* reference) const {
 Verdict Judge::positionVerdict(const ReferenceRun* reference) const {
   const double time = entry_.time;
   if (reference == nullptr || !reference->isMeasuring()) return notMeasured(time, reference);
-  const double error = position_error_.now;
-  if (error <= kInaccurateThreshold * chain_length_) return {VerdictKind::kOk, time, 0, "ok"};
+  const double error = position_error_.now, length = reference->length();
+  if (error <= kInaccurateThreshold * length) return {VerdictKind::kOk, time, 0, "ok"};
   return {
       VerdictKind::kInaccurate, time, 0,
       fmt::format("inaccurate: position error {:.3g} m at t = {:.6g} s, {:.3g} % of the chain's "
                   "length",
-                  error, time, 100.0 * error / chain_length_)};
+                  error, time, 100.0 * error / length)};
 }
 
 bool Judge::isShown(bool continues_after_divergence) const {
@@ -228,7 +229,7 @@ bool Judge::isShown(bool continues_after_divergence) const {
 }
 
 void Judge::restart() {
-  gain_sum_ = residual_sum_ = frames_ = worst_residual_ = exceeded_time_ = 0.0;
+  gain_sum_ = residual_sum_ = frames_ = worst_residual_ = exceeded_time_ = sensitive_time_ = 0.0;
   entry_ = {};
   position_error_ = {};
   latest_ = worst_ = {};
@@ -259,15 +260,17 @@ std::string Judge::measurements() const {
 }
 
 std::string Judge::toleranceRemark() const {
-  if (exceeded_time_ == 0.0) return {};
-  if (exceeds_by_itself_) {
-    return fmt::format("the position error exceeds ten times the tolerance from t = {:.6g} s on",
+  std::string text;
+  if (exceeded_time_ > 0.0) {
+    text = fmt::format("the position error exceeds ten times the tolerance from t = {:.6g} s on",
                        exceeded_time_);
   }
-  return fmt::format(
-      "sensitive from t = {:.6g} s on: small errors grow so much that no method can promise a "
-      "tolerance of {:.3g} m",
-      exceeded_time_, tolerance_);
+  if (sensitive_time_ == 0.0) return text;
+  if (!text.empty()) text += "; ";
+  return text + fmt::format(
+                    "sensitive from t = {:.6g} s on: small errors grow so much that no method can "
+                    "promise a tolerance of {:.3g} m",
+                    sensitive_time_, tolerance_);
 }
 
 }  // namespace spring_pendulum

@@ -23,9 +23,16 @@
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// Length in m to which position errors are related: the sum of the rest lengths, but at least a
-/// tenth of the length of the chain at the start (for springs with rest length 0).
-double chainLength(const Chain& chain, const State& start);
+/// Length in m to which errors in the positions of a state are related: the sum of the rest lengths,
+/// but at least a tenth of the length of the chain (for springs with rest length 0).
+double chainLength(const Chain& chain, const State& state);
+
+/// What the errors of a reference run are measured in, m.
+struct ReferenceScales {
+  double length;     ///< largest `chainLength` so far
+  double rounding;   ///< smallest distance that can be resolved
+  double tolerance;  ///< of the reference
+};
 
 class ReferenceTrajectories;
 
@@ -91,7 +98,7 @@ class ReferenceRun {
     kChanged       ///< stopped: the measured run was changed
   };
 
-  /// An uncertainty above this share of `chainLength` ends the measurement.
+  /// An uncertainty above this share of `length()` ends the measurement.
   static constexpr double kBelieved = 1e-3;
 
   /// Allocates the trajectories in the first `advance`.
@@ -130,6 +137,9 @@ class ReferenceRun {
   /// State of the reference at the time that `advance` has reached; null if it is not known.
   const State* state() const;
 
+  /// Largest `chainLength` of the reference at the start and at the measured frames, m.
+  double length() const { return scales_.length; }
+
   /// Bound on the position error of the reference at the last frame, m; NaN after the measurement has
   /// stopped.
   double uncertainty() const { return uncertainty_; }
@@ -148,9 +158,8 @@ class ReferenceRun {
 
   Chain chain_;
   State start_;
-  double believed_;            ///< m
-  double rounding_;            ///< m
-  double tolerance_;           ///< m
+  ReferenceScales first_;  ///< at the start
+  ReferenceScales scales_;
   double free_work_;           ///< s
   double allowed_work_ = 0.0;  ///< until the next frame, s
   bool gave_up_ = false;       ///< inside a frame

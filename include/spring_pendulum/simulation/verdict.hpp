@@ -22,7 +22,7 @@ enum class VerdictKind {
   kOk,
   kNotChecked,    ///< the position error was not measured, or not to the end
   kSensitive,     ///< perturbations grow so much that the true positions are unknown
-  kInaccurate,    ///< position error above 1 % of `chainLength`
+  kInaccurate,    ///< position error above 1 % of `ReferenceRun::length`
   kDrift,         ///< residual of the energy balance above 1 % of the energy scale
   kGainedEnergy,  ///< energy gain above 1 % of the energy scale
   kDiverged       ///< a number is not finite, or energy gain above the energy scale
@@ -76,7 +76,7 @@ class Judge {
   static constexpr double kDriftThreshold = 0.01;
   static constexpr double kGainThreshold = 0.01;
   static constexpr double kDivergenceThreshold = 1.0;
-  /// In units of `chainLength`. Smaller errors are not visible in a picture of the chain.
+  /// In units of `ReferenceRun::length`. Smaller errors are not visible in a picture of the chain.
   static constexpr double kInaccurateThreshold = 0.01;
 
   /// \throws InputError as EnergyBalance
@@ -134,16 +134,16 @@ class Judge {
 
   Chain chain_;
   EnergyBalance balance_;
-  double chain_length_;
   double symplectic_step_;
   double tolerance_;           ///< m; 0 for fixed steps
   double start_time_;          ///< s
   double gain_sum_ = 0.0;      ///< sum of the relative gains of the judged frames
   double residual_sum_ = 0.0;  ///< sum of the relative residuals of the judged frames
   double frames_ = 0.0;
-  double worst_residual_ = 0.0;    ///< largest relative residual of the energy balance
-  double exceeded_time_ = 0.0;     ///< s, when the error first exceeded ten tolerances; 0: never
-  bool exceeds_by_itself_ = true;  ///< whether other methods keep the tolerance until then
+  double worst_residual_ = 0.0;  ///< largest relative residual of the energy balance
+  // Since when the error has exceeded ten tolerances, s; 0: never.
+  double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance
+  double sensitive_time_ = 0.0;  ///< where none can promise it
   EnergyEntry entry_;
   PositionError position_error_;
   Verdict latest_;

@@ -14,6 +14,7 @@
 #include <ros/init.h>
 
 #include <filesystem>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -101,9 +102,9 @@ void RunLog::note() {
       ROS_WARN_STREAM(method << ": " << verdict.text);
     }
   }
-  if (!said_tolerance_ && !run_.toleranceRemark().empty()) {
-    said_tolerance_ = true;
-    ROS_WARN_STREAM(method << ": " << run_.toleranceRemark());
+  if (std::string remark = run_.toleranceRemark(); remark.size() > said_tolerance_.size()) {
+    ROS_WARN_STREAM(method << ": " << remark);
+    said_tolerance_ = std::move(remark);
   }
   sayChoice();
   if (!run_.isOver() || said_frames_ != 0) return;

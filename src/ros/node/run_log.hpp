@@ -47,7 +47,7 @@ class RunLog {
   VerdictKind said_verdict_ = VerdictKind::kOk;
   std::int64_t said_frames_ = 0;  ///< number of frames at the closing line; 0: not logged yet
   std::string said_choice_;
-  bool said_tolerance_ = false;
+  std::string said_tolerance_;
   int choices_said_ = 0;
   ParameterWatch parameters_;
 };
