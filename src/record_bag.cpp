@@ -21,9 +21,10 @@ namespace spring_pendulum {
 namespace {
 
 int record(int argc, const char* const* argv) {
-  const ProgramText program{"record_bag",
-                            "Writes the messages that pendulum_node publishes straight into a bag.",
-                            "Runge-Kutta-4 particle.txt --bag pendulum.bag"};
+  ProgramText program{"record_bag",
+                      "Writes the messages that pendulum_node publishes straight into a bag.",
+                      "Runge-Kutta-4 particle.txt --bag pendulum.bag"};
+  program.method_from = "inputs";
   Scenario scenario;
   scenario.output.clear();  // frame files only with --output
   NodeOptions display;

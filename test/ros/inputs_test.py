@@ -253,7 +253,7 @@ class Repeated(unittest.TestCase):
                 last = max((message for _, message, _ in recorded.read_messages()), key=lambda m: m.number)
             self.assertTrue(last.end)
             self.assertEqual(last.number + 1, len({m.number for m in inputs.messages}))
-            done = subprocess.run([program('record_bag'), 'Euler', '--inputs', bag, '--bag',
+            done = subprocess.run([program('record_bag'), '--inputs', bag, '--bag',
                                    os.path.join(folder, 'again.bag'), '--output', again],
                                   capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ''))

@@ -19,11 +19,17 @@ std::vector<po::option> splitArguments(int argc, const char* const* argv,
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   namespace style = po::command_line_style;
   try {
-    return po::command_line_parser(arguments)
-        .options(description)
-        .style(style::unix_style & ~style::allow_guessing)
-        .run()
-        .options;
+    const std::vector<po::option> options = po::command_line_parser(arguments)
+                                                .options(description)
+                                                .style(style::unix_style & ~style::allow_guessing)
+                                                .run()
+                                                .options;
+    for (const po::option& option : options) {
+      const std::vector<std::string>& tokens = option.original_tokens;
+      if (option.string_key.empty() || tokens.size() < 2 || tokens[1].rfind("--", 0) != 0) continue;
+      throw InputError(fmt::format("--{}: needs a value, see --help", option.string_key));
+    }
+    return options;
   } catch (const po::unknown_option& error) {
     std::vector<std::string> known;
     for (const auto& option : description.options()) known.push_back("--" + option->long_name());

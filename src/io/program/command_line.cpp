@@ -108,24 +108,50 @@ bool has(const std::vector<po::option>& given, std::string_view name) {
                      [&](const po::option& option) { return option.string_key == name; });
 }
 
-/// Sets METHOD and FILE, which is short for --particles FILE.
-void setPositional(const std::vector<po::option>& given, OptionSet& options) {
-  std::size_t count = 0;
+bool isMethod(const std::string& text) {
+  const auto& methods = methodTable();
+  return std::any_of(methods.begin(), methods.end(),
+                     [&](const Method& method) { return isSameName(method.name, text); });
+}
+
+/// Returns arguments that do not belong to an option.
+/// \throws InputError for an option in the notation of other programs, such as frames=5
+std::vector<std::string> positionals(const std::vector<po::option>& given,
+                                     const OptionSet& options) {
+  std::vector<std::string> texts;
   for (const po::option& argument : given) {
     if (!argument.string_key.empty()) continue;
     const std::string& text = argument.value.front();
-    if (++count == 1) {
-      options.set(options.find(kMethodKey, ""), text, "METHOD");
-      continue;
+    for (const Option& option : options.options()) {
+      if (!isSameName(option.key, text.substr(0, text.find_first_of(":=")))) continue;
+      const std::size_t value = text.find('=');
+      if (value == std::string::npos) continue;
+      throw InputError(fmt::format("{}: write --{} {}", inQuotes(text), optionName(option.key),
+                                   onOneLine(text.substr(value + 1))));
     }
-    for (const Method& method : methodTable()) {
-      if (!isSameName(method.name, text)) continue;
-      throw InputError(fmt::format("{}: give only one METHOD", inQuotes(text)));
+    texts.push_back(text);
+  }
+  return texts;
+}
+
+/// Sets METHOD and FILE, which is short for --particles FILE.
+void setPositional(const std::vector<po::option>& given, const ProgramText& program,
+                   OptionSet& options) {
+  const std::vector<std::string> texts = positionals(given, options);
+  if (texts.empty()) return;
+  if (texts.size() == 2 && !isMethod(texts[0]) && isMethod(texts[1])) {
+    throw InputError(fmt::format("{}: METHOD comes first: {} {} {}", inQuotes(texts[1]),
+                                 program.name, texts[1], onOneLine(texts[0])));
+  }
+  options.set(options.find(kMethodKey, ""), texts[0], "METHOD");
+  for (std::size_t i = 1; i < texts.size(); ++i) {
+    if (isMethod(texts[i])) {
+      throw InputError(fmt::format("{}: give only one METHOD", inQuotes(texts[i])));
     }
-    if (count > 2 || has(given, kParticlesKey)) {
-      throw InputError(fmt::format("{}: give only one particle file", inQuotes(text)));
+    if (i > 1 || has(given, kParticlesKey)) {
+      throw InputError(fmt::format("{}: give only one particle file", inQuotes(texts[i])));
     }
-    options.set(options.find(kParticlesKey, ""), text, "FILE");
+    options.set(options.find(kParticlesKey, ""), texts[i], "FILE");
   }
 }
 
@@ -210,10 +236,12 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   if (program.takesFolders()) {
     switches.folders = foldersIn(given, program);
   } else {
-    setPositional(given, options);
+    setPositional(given, program, options);
   }
   const std::vector<std::string_view> keys = setOptions(given, options);
-  if (!program.takesFolders() && !options.isGiven(kMethodKey)) {
+  const bool knows_method = program.takesFolders() || options.isGiven(kMethodKey) ||
+                            (!program.method_from.empty() && options.isGiven(program.method_from));
+  if (!knows_method) {
     throw InputError(fmt::format("METHOD is missing; try: {} {} (--help lists the options)",
                                  program.name, program.example));
   }

@@ -26,6 +26,9 @@ struct ProgramText {
   /// options. It can read configuration files with other keys.
   std::vector<std::string_view> keys = {};
 
+  /// Key of an option whose file tells the method, so that METHOD may be missing; empty: none.
+  std::string_view method_from = {};
+
   bool takesFolders() const { return !keys.empty(); }
 };
 
