@@ -170,10 +170,15 @@ State equilibrium(const Chain& chain, const State& state) {
   if (hasShrunkSpring(result)) {
     throw InputError(
         "a chain at rest with a spring of length 0 cannot move on: give it a rest length, gravity, "
-        "or "
-        "held particles that are apart");
+        "or held particles that are apart");
   }
-  if (!result.values().allFinite() || !isBalanced(chain, result)) {
+  if (!result.values().allFinite()) {
+    throw InputError(
+        "the length of the chain at rest exceeds the range of a double: the stiffness must be "
+        "larger, "
+        "or gravity, masses and forces smaller");
+  }
+  if (!isBalanced(chain, result)) {
     throw InputError(
         "found no rest position of the chain in which all springs are stretched: move its held "
         "particles apart");

@@ -3,6 +3,7 @@
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/equilibrium.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +13,8 @@
 
 namespace spring_pendulum {
 namespace {
+
+using testing::HasSubstr;
 
 double largestMove(const Chain& chain, const State& start, double duration) {
   State state = start;
@@ -76,6 +79,13 @@ TEST(Equilibrium, RefusesWhatCannotRest) {
   EXPECT_NO_THROW(equilibrium(point.drivenBy({{{3, {}}}, {}}), start));
   EXPECT_THROW(equilibrium(point.drivenBy({{{3, {}}}, {}}), State(4)), InputError);
   EXPECT_EQ(equilibrium(Chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81), State(1)).size(), 1);
+  const Chain softest(Eigen::VectorXd::Ones(4), SpringLaw{1e-320, 1.0, 1.0}, 9.81);
+  try {
+    equilibrium(softest, start);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("stiffness must be larger"));
+  }
 }
 
 }  // namespace
