@@ -33,6 +33,10 @@ Row check(const std::string& folder, const Scenario& scenario, const Particles& 
     if (switches.json) return {status, jsonOf(result, folder)};
     return {status, is_table ? shortReportOf(result) : reportOf(result)};
   } catch (const FileError& error) {
+    if (interruption() != 0) {
+      printError(fmt::format("{}: {}\n", folder, error.what()));
+      return {};
+    }
     if (switches.json) return {kFileFailed, jsonOfError(error.what(), folder)};
     if (!is_table) throw;
     return {kFileFailed, fmt::format("unreadable: {}", error.what())};
@@ -49,10 +53,11 @@ int checkAll(const Scenario& scenario, const OptionSet& options, const Switches&
   for (const std::string& folder : switches.folders) width = std::max(width, folder.size());
   int status = kDone;
   for (const std::string& folder : switches.folders) {
-    if (interruption() != 0) return kSignalled + interruption();
+    if (interruption() != 0) break;
     const Row row =
         check(folder, scenario, particles,
               {options.isGiven("method"), [] { return interruption() != 0; }}, switches);
+    if (row.text.empty()) break;  // interrupted
     const bool is_table = switches.folders.size() > 1 && !switches.json;
     printOutput(is_table ? fmt::format("{:<{}}  {}\n", folder, width, row.text) : row.text);
     flushOutput();

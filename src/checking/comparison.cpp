@@ -46,8 +46,7 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
   std::int64_t index = 0;
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver()) break;
-    motion->advanceTo(index, limit.done);
-    companion->advanceTo(index, limit.done);
+    if (!motion->advanceTo(index, limit) || !companion->advanceTo(index, limit)) break;
     motion->writePositions(positions);
     companion->writePositions(disturbed);
     const double spread = largestDistance(positions, disturbed);
@@ -65,7 +64,7 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
         agreement.distance, (frame->positions - positions).matrix().rowwise().norm().maxCoeff());
     ++frame;
   }
-  agreement.complete = agreement.frames > 0 && !(limit.stop && limit.stop());
+  agreement.complete = agreement.frames > 0 && !limit.isStopped();
   return agreement;
 }
 

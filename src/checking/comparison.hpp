@@ -21,15 +21,6 @@ struct Agreement {
   double scale = 0.0;                  ///< largest coordinate in these, m
 };
 
-/// Limits the work of comparisons and fits.
-struct WorkLimit {
-  double most;                 ///< spring forces of the library; others count more
-  std::function<bool()> stop;  ///< empty: never
-  double done = 0.0;
-
-  bool isOver() const { return done > most || (stop && stop()); }
-};
-
 using MotionMaker = std::function<std::unique_ptr<Motion>()>;
 
 /// Compares until the first frame that differs, or until rounding errors have grown to a thousandth

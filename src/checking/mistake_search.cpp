@@ -273,7 +273,7 @@ bool MistakeSearch::fit(Candidate candidate, const std::vector<const Constant*>&
   while (!agreement.complete && !isOver()) {
     const std::size_t window =
         std::min(frames_.frames.size(), agreement.frames + agreement.frames / 2 + 2);
-    fitConstants(candidate.program, constants, frames_, window, particles_, limit_.done);
+    fitConstants(candidate.program, constants, frames_, window, particles_, limit_);
     const std::size_t before = agreement.frames;
     agreement = agreementOf(candidate);
     if (!agreement.complete && agreement.frames <= before) return false;

@@ -14,6 +14,8 @@ namespace {
 /// Rounding errors of a step, in units of the last digit of the largest number. Measured: at most 3
 /// for Runge-Kutta-4 in other orders of summation.
 constexpr double kRoundingErrors = 16.0;
+/// Work between two questions whether to stop, s; see Integrator::work.
+constexpr double kWorkBetweenStops = 0.05;
 
 /// Adds rounding errors to a column of the state, except to the first particle; nothing if all are
 /// equal, like x in a vertical chain: their differences are exact.
@@ -40,11 +42,16 @@ class MethodMotion : public Motion {
     steps_ = frameSteps(with_method);
   }
 
-  void advanceTo(std::int64_t frame, double& work) override {
+  bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
     const std::int64_t before = integrator_->forceEvaluations();
-    integrator_->advance(state_, steps_.time_step, (frame - frame_) * steps_.steps);
-    work += static_cast<double>((integrator_->forceEvaluations() - before) * state_.size());
+    for (std::int64_t left = (frame - frame_) * steps_.steps; left > 0;) {
+      if (limit.isStopped()) return false;
+      left -= integrator_->advanceWithin(state_, steps_.time_step, left,
+                                         integrator_->work() + kWorkBetweenStops);
+    }
+    limit.done += static_cast<double>((integrator_->forceEvaluations() - before) * state_.size());
     frame_ = frame;
+    return true;
   }
 
   void writePositions(Eigen::ArrayX2d& positions) const override { positions = state_.positions(); }
@@ -96,11 +103,13 @@ class ProgramMotion : public Motion {
     slopes_.assign(program.tableau.stages, Rows(state_.size(), Row::Zero()));
   }
 
-  void advanceTo(std::int64_t frame, double& work) override {
+  bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
     const std::int64_t target = program_.stepOfFrame(frame);
-    work += static_cast<double>(target - step_) * static_cast<double>(program_.tableau.stages) *
-            static_cast<double>(state_.size()) * kWorkOfSpring;
+    limit.done += static_cast<double>(target - step_) *
+                  static_cast<double>(program_.tableau.stages) *
+                  static_cast<double>(state_.size()) * kWorkOfSpring;
     for (; step_ < target; ++step_) {
+      if (limit.isStopped()) return false;
       switch (program_.order) {
         case Program::Order::kForceAfterMove:
           moveFirst();
@@ -113,6 +122,7 @@ class ProgramMotion : public Motion {
           stepStageByStage();
       }
     }
+    return true;
   }
 
   void writePositions(Eigen::ArrayX2d& positions) const override {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <random>
 
@@ -15,14 +16,25 @@
 
 namespace spring_pendulum {
 
+/// Limits the work of comparisons and fits.
+struct WorkLimit {
+  double most;                 ///< spring forces of the library; others count more
+  std::function<bool()> stop;  ///< empty: never
+  double done = 0.0;
+
+  bool isStopped() const { return stop && stop(); }
+  bool isOver() const { return done > most || isStopped(); }
+};
+
 class Motion {
  public:
   virtual ~Motion() = default;
   Motion(const Motion&) = delete;
   Motion& operator=(const Motion&) = delete;
 
-  /// Moves on to a frame. Frames must not decrease. Adds the work in spring forces to `work`.
-  virtual void advanceTo(std::int64_t frame, double& work) = 0;
+  /// Moves on to a frame and counts the work. Frames must not decrease.
+  /// \returns false if `limit` was stopped on the way, after which the motion is of no use
+  virtual bool advanceTo(std::int64_t frame, WorkLimit& limit) = 0;
   /// N×2 positions as the program prints them, m.
   virtual void writePositions(Eigen::ArrayX2d& positions) const = 0;
   /// Changes all numbers by some rounding errors of the steps of a frame.

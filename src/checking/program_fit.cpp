@@ -1,6 +1,5 @@
 #include "checking/program_fit.hpp"
 
-#include "checking/motion.hpp"
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <unsupported/Eigen/NumericalDiff>
 
@@ -20,7 +19,7 @@ struct Differences {
   const AllFrames* frames;
   Eigen::Index window;
   const Particles* particles;
-  double* work;
+  WorkLimit* limit;
 
   Eigen::Index inputs() const { return static_cast<Eigen::Index>(constants->size()); }
   Eigen::Index values() const {
@@ -42,7 +41,7 @@ struct Differences {
     Eigen::Index row = 0;
     for (Eigen::Index n = 0; n < window; ++n) {
       const FrameNumbers& frame = frames->frames[static_cast<std::size_t>(n)];
-      motion->advanceTo(frame.index, *work);
+      if (!motion->advanceTo(frame.index, *limit)) return -1;  // ends the fit
       motion->writePositions(positions);
       const Eigen::ArrayX2d difference =
           (positions - frame.positions) /
@@ -59,10 +58,10 @@ struct Differences {
 
 void fitConstants(StudentProgram& program, const std::vector<const Constant*>& constants,
                   const AllFrames& frames, std::size_t window, const Particles& particles,
-                  double& work) {
+                  WorkLimit& limit) {
   constexpr int kMostEvaluations = 60;
   const Differences differences{&program,   &constants, &frames, static_cast<Eigen::Index>(window),
-                                &particles, &work};
+                                &particles, &limit};
   Eigen::NumericalDiff<Differences> with_slopes(differences);
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Differences>> solver(with_slopes);
   solver.parameters.maxfev = kMostEvaluations;

@@ -8,14 +8,15 @@
 
 #include "checking/frame_numbers.hpp"
 #include "checking/mistakes.hpp"
+#include "checking/motion.hpp"
 
 namespace spring_pendulum {
 
 /// Fits constants of a program to the leading frames by least squares.
 /// \param window number of frames
-/// \param work   spring forces computed so far, increased
+/// \param limit  counts the work; after a stop, the constants are of no use
 void fitConstants(StudentProgram& program, const std::vector<const Constant*>& constants,
                   const AllFrames& frames, std::size_t window, const Particles& particles,
-                  double& work);
+                  WorkLimit& limit);
 
 }  // namespace spring_pendulum

@@ -189,8 +189,8 @@ def try_right(lab, frames, number):
     return accused
 
 
-def late_frames_fail(lab, names):
-    """Whether frames that would take long to compute are refused in one line."""
+def start_with_frames(lab, names, *options):
+    """Starts check_frames with the same frame under several names."""
     scene = PROJECT / 'data' / 'particle.txt'
     lab.count += 1
     folder = lab.folder / f'frames_{lab.count}'
@@ -199,9 +199,32 @@ def late_frames_fail(lab, names):
                         if line and not line.startswith('#'))
     for name in names:
         (folder / name).write_text(positions)
-    done = subprocess.run([lab.check, folder, '--particles', scene], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, universal_newlines=True, check=False)
-    return (done.returncode, done.stdout, done.stderr.count('\n')) == (1, '', 1)
+    return subprocess.Popen([lab.check, folder, '--particles', scene, *options], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, universal_newlines=True)
+
+
+def late_frames_fail(lab, names):
+    """Whether frames that would take long to compute are refused in one line."""
+    process = start_with_frames(lab, names)
+    output, errors = process.communicate()
+    return (process.returncode, output, errors.count('\n')) == (1, '', 1)
+
+
+def stops_inside_a_frame(lab):
+    """Whether a signal ends a frame that would take days."""
+    for method, *interval in (('Runge-Kutta-4', '--steps-per-frame', '2000000000'),
+                              ('Taylor-8', '--frame-interval', '1e6')):
+        process = start_with_frames(lab, ['frame_0000.txt', 'frame_0001.txt'], '--method', method, *interval)
+        try:
+            process.communicate(timeout=1)
+            return False
+        except subprocess.TimeoutExpired:
+            process.terminate()
+        output, errors = process.communicate()
+        if (process.returncode, output, errors.count('\n')) != (143, '', 1):
+            print('signal:', method, process.returncode, output, errors)
+            return False
+    return True
 
 
 def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
@@ -212,6 +235,7 @@ def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
         assert late_frames_fail(lab, ['frame_0000.txt', 'frame_99999999999.txt'])
         assert late_frames_fail(lab, ['frame_99999999999.txt'])
         assert late_frames_fail(lab, ['frame_9999.txt'])  # Euler diverges before
+        assert stops_inside_a_frame(lab)
     print(f'{named_rightly} of {number_wrong} wrong programs named, {accused} of {number_right} right ones accused')
     # Measured: 40 and 0 with these defaults.
     return 0 if named_rightly >= 0.95 * int(number_wrong) and accused == 0 else 1
