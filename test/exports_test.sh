@@ -10,7 +10,7 @@ foreign=$(grep -vE '^((vtable|typeinfo|typeinfo name) for )?spring_pendulum::' <
 [ -z "$foreign" ] || die "foreign symbols:" "$foreign"
 internal=$(grep -E 'Stepper|Kernel|FrameFolder|CheckedIntegrator|parseCommandLine' <<< "$symbols" || true)
 [ -z "$internal" ] || die "internal symbols:" "$internal"
-for name in 'makeIntegrator(' 'registerMethod(' 'Chain::Chain(' 'State::~State(' 'readParticleFile('; do
+for name in 'makeIntegrator(' 'registerMethod(' 'Chain::Chain(' 'State::State(' 'readParticleFile('; do
   grep -qF "spring_pendulum::$name" <<< "$symbols" || die "not exported: $name"
 done
 readelf -d "$1" | grep -qE 'SONAME.*libspring_pendulum\.so\.[0-9]+\.[0-9]+\]' || die "no SONAME with a version"

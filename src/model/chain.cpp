@@ -121,10 +121,4 @@ Chain Chain::behindRest() const {
   return chain;
 }
 
-Chain::Chain(const Chain& other) = default;
-Chain::Chain(Chain&& other) noexcept = default;
-Chain& Chain::operator=(const Chain& other) = default;
-Chain& Chain::operator=(Chain&& other) noexcept = default;
-Chain::~Chain() = default;
-
 }  // namespace spring_pendulum

@@ -20,11 +20,6 @@ class Chain {
   /// \param gravity g in m/s², finite; acts along -y.
   /// \throws InputError naming the value and its allowed range.
   Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity);
-  Chain(const Chain& other);
-  Chain(Chain&& other) noexcept;
-  Chain& operator=(const Chain& other);
-  Chain& operator=(Chain&& other) noexcept;
-  ~Chain();
 
   /// Returns the same chain with this drive instead of its own.
   /// \throws InputError for a particle that does not exist or is held twice, a force on a held

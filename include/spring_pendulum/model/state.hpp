@@ -14,25 +14,20 @@ namespace spring_pendulum {
 /// columns x, y, vx, vy are each contiguous. Plain data without time and without invariants.
 ///
 /// The state owns the numbers. The member functions return Eigen views, which are valid until the
-/// state is destroyed, moved from or assigned a state of another size.
+/// state is destroyed, moved from or assigned a state of another size. An assignment allocates only if
+/// the sizes differ.
 class State {
  public:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 4>;
   using PlaneMatrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
-  State();
+  State() = default;
   /// Places N particles at the origin, at rest.
   /// \throws InputError if `particles` is negative
   explicit State(std::ptrdiff_t particles);
-  State(const State& other);
-  State(State&& other) noexcept;
-  /// Allocates only if the sizes differ.
-  State& operator=(const State& other);
-  State& operator=(State&& other) noexcept;
-  ~State();
 
   /// Number of particles N.
-  std::ptrdiff_t size() const { return size_; }
+  std::ptrdiff_t size() const { return numbers_.size() / 4; }
 
   auto x() { return column(0); }
   auto y() { return column(1); }
@@ -47,9 +42,9 @@ class State {
   auto positions() { return Eigen::Map<PlaneMatrix>(numbers_.data(), rows(), 2); }
   auto positions() const { return Eigen::Map<const PlaneMatrix>(numbers_.data(), rows(), 2); }
   /// N×2: vx and vy.
-  auto velocities() { return Eigen::Map<PlaneMatrix>(numbers_.data() + 2 * size_, rows(), 2); }
+  auto velocities() { return Eigen::Map<PlaneMatrix>(numbers_.data() + 2 * size(), rows(), 2); }
   auto velocities() const {
-    return Eigen::Map<const PlaneMatrix>(numbers_.data() + 2 * size_, rows(), 2);
+    return Eigen::Map<const PlaneMatrix>(numbers_.data() + 2 * size(), rows(), 2);
   }
 
   /// N×4, columns x, y, vx, vy.
@@ -57,14 +52,13 @@ class State {
   auto values() const { return Eigen::Map<const Matrix>(numbers_.data(), rows(), 4); }
 
  private:
-  Eigen::Index rows() const { return static_cast<Eigen::Index>(size_); }
-  AlignedNumbers::View column(int index) { return {numbers_.data() + index * size_, rows()}; }
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(size()); }
+  AlignedNumbers::View column(int index) { return {numbers_.data() + index * size(), rows()}; }
   AlignedNumbers::ConstView column(int index) const {
-    return {numbers_.data() + index * size_, rows()};
+    return {numbers_.data() + index * size(), rows()};
   }
 
-  std::ptrdiff_t size_;
-  AlignedNumbers numbers_;
+  AlignedNumbers numbers_;  ///< column by column
 };
 
 }  // namespace spring_pendulum
