@@ -79,45 +79,34 @@ const ChainKernels& fastestChainKernels(std::ptrdiff_t particles) {
   return prefers_shorter ? *supported[1] : *supported.front();
 }
 
-AlignedNumbers driveColumns(const Chain& chain) {
-  if (!chain.isDriven()) return {};
-  const std::ptrdiff_t pitch = StateBuffer::pitchFor(chain.size());
-  AlignedNumbers columns(2 * pitch);
-  for (std::ptrdiff_t i = 1; i < chain.size(); ++i) {
-    const PlaneVector<double> acceleration = chain.springlessAcceleration(i);
-    columns[i - 1] = acceleration.x;
-    columns[pitch + i - 1] = acceleration.y;
-  }
-  return columns;
-}
-
-AlignedNumbers dragRates(const Chain& chain) {
-  if (chain.airDrag() == 0.0) return {};
-  AlignedNumbers rates(StateBuffer::pitchFor(chain.size()));
-  for (std::ptrdiff_t i = 1; i < chain.size(); ++i) {
-    rates[i - 1] = chain.airDrag() * chain.inverseMasses()[i];
-  }
-  return rates;
-}
-
 KernelConstants::KernelConstants(const Chain& chain) {
   const bool equal = chain.equalMasses() && chain.size() > 1;
   chain_.spring = chain.spring();
   chain_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
-  drive_ = driveColumns(chain);
-  chain_.drive = chain.isDriven() ? drive_.data() : nullptr;
-  drag_rates_ = dragRates(chain);
-  if (chain.airDrag() != 0.0) chain_.drag_rates = drag_rates_.data();
   chain_.mass_stride = equal ? 0 : 1;
   chain_.size = chain.size();
   chain_.pitch = StateBuffer::pitchFor(chain.size());
-  inverse_masses_ = AlignedNumbers(equal ? 8 : chain_.pitch);
-  chain_.inverse_masses = inverse_masses_.data();
   if (equal) {
-    std::fill_n(inverse_masses_.data(), 8, chain.inverseMasses()[1]);
+    inverse_masses_ = AlignedNumbers(Eigen::VectorXd::Constant(8, chain.inverseMasses()[1]));
   } else {
+    inverse_masses_ = AlignedNumbers(chain_.pitch);
     std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, inverse_masses_.data());
   }
+  chain_.inverse_masses = inverse_masses_.data();
+  if (chain.isDriven()) {
+    drive_ = AlignedNumbers(2 * chain_.pitch);
+    chain_.drive = drive_.data();
+    for (std::ptrdiff_t i = 1; i < chain.size(); ++i) {
+      const PlaneVector<double> acceleration = chain.springlessAcceleration(i);
+      drive_[i - 1] = acceleration.x;
+      drive_[chain_.pitch + i - 1] = acceleration.y;
+    }
+  }
+  if (chain.airDrag() == 0.0) return;
+  drag_rates_ = AlignedNumbers(chain_.pitch);
+  chain_.drag_rates = drag_rates_.data();
+  drag_rates_.view().head(chain.size() - 1) =
+      chain.airDrag() * chain.inverseMasses().tail(chain.size() - 1);
 }
 
 KernelChain KernelConstants::piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const {

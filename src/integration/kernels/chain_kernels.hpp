@@ -11,7 +11,6 @@
 // pointers and plain structs, because the layout of Eigen's types depends on the instruction set.
 #pragma once
 
-#include "integration/kernels/taylor_workspace.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
@@ -20,6 +19,9 @@
 #include <vector>
 
 namespace spring_pendulum {
+
+struct TaylorWeights;    // taylor_workspace.hpp
+struct TaylorWorkspace;  // taylor_workspace.hpp
 
 /// Element of the first moving particle in a column of `StateBuffer`. The fixed particle precedes it,
 /// so aligned vectors contain moving particles only: N - 1 particles and N - 1 springs.

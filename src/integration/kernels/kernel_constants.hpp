@@ -26,10 +26,4 @@ class KernelConstants {
   KernelChain chain_;
 };
 
-/// Returns the columns of `KernelChain::drive`, empty if the chain is not driven.
-AlignedNumbers driveColumns(const Chain& chain);
-
-/// Returns the column `KernelChain::drag_rates`, empty without air.
-AlignedNumbers dragRates(const Chain& chain);
-
 }  // namespace spring_pendulum

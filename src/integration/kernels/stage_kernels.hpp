@@ -5,6 +5,7 @@
 #include "integration/kernels/block.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/largest.hpp"
+#include "integration/kernels/taylor_workspace.hpp"
 
 #include <cstddef>
 
@@ -18,14 +19,18 @@ constexpr double kMuch = 0.9;
 /// force; up to this length that makes no difference.
 constexpr double kNoLength = 1e-12;
 
-[[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
-                                                  SlopeSum sum, std::ptrdiff_t block) {
-  Block result = load(placeOf(state, pitch, block));
+[[gnu::always_inline]] inline Block plusSum(Block result, SlopeSum sum, std::ptrdiff_t pitch,
+                                            std::ptrdiff_t block) {
   for (std::ptrdiff_t k = 0; k < sum.count; ++k) {
     const Block slope = load(placeOf(sum.terms[k].slope, pitch, block));
     result = plusWeighted(result, sum.terms[k].weight, slope);
   }
   return result;
+}
+
+[[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
+                                                  SlopeSum sum, std::ptrdiff_t block) {
+  return plusSum(load(placeOf(state, pitch, block)), sum, pitch, block);
 }
 
 /// to += from, for a number of blocks
@@ -114,21 +119,24 @@ void compensatedSum(std::ptrdiff_t pitch, const double* state, const double* cha
   }
 }
 
-LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum) {
+/// Returns the largest absolute values in the blocks of `size` particles.
+template <typename OfBlock>
+[[gnu::always_inline]] inline LargestChange largestOf(std::ptrdiff_t size,
+                                                      const OfBlock& of_block) {
   Largest position;
   Largest velocity;
   for (std::ptrdiff_t block = 0; block < blocksOf(size); ++block) {
-    Block change{};
-    for (std::ptrdiff_t k = 0; k < sum.count; ++k) {
-      const Block slope = load(placeOf(sum.terms[k].slope, pitch, block));
-      change = plusWeighted(change, sum.terms[k].weight, slope);
-    }
+    const Block change = of_block(block);
     position.add(change.x);
     position.add(change.y);
     velocity.add(change.vx);
     velocity.add(change.vy);
   }
   return {position.result(), velocity.result()};
+}
+
+LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum) {
+  return largestOf(size, [&](std::ptrdiff_t block) { return plusSum({}, sum, pitch, block); });
 }
 
 /// Returns the differences of two columns, such as x and y, of the particles of a block from their
@@ -188,9 +196,9 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
   Block change{};
 #pragma GCC unroll 1
   for (std::ptrdiff_t n = weights.count - 1; n >= 0; --n) {
-    const double* row = work.accelerations + n * 2 * work.pitch + block * kLanes;
+    const double* row = work.accelerations + n * 2 * work.chain.pitch + block * kLanes;
     const Pack x = Pack::load(row);
-    const Pack y = Pack::load(row + work.pitch);
+    const Pack y = Pack::load(row + work.chain.pitch);
     const double position = weights.position[n];
     const double velocity = weights.velocity[n];
     change = {fused(position, x, change.x), fused(position, y, change.y),
@@ -203,35 +211,27 @@ void taylorState(const TaylorWorkspace& callers_work, const double* state, const
                  const TaylorWeights& weights, double* out) {
   const TaylorWorkspace work = callers_work;
   const double time = weights.start_velocity;
-  store(load(placeOf(base, work.pitch, -1)), placeOf(out, work.pitch, -1));
-  for (std::ptrdiff_t block = 0; block < blocksOf(work.size); ++block) {
+  store(load(placeOf(base, work.chain.pitch, -1)), placeOf(out, work.chain.pitch, -1));
+  for (std::ptrdiff_t block = 0; block < blocksOf(work.chain.size); ++block) {
     const Block change = weightedSum(work, weights, block);
-    const Block start = load(placeOf(state, work.pitch, block));
-    const Block from = load(placeOf(base, work.pitch, block));
+    const Block start = load(placeOf(state, work.chain.pitch, block));
+    const Block from = load(placeOf(base, work.chain.pitch, block));
     store({from.x + fused(time, start.vx, change.x), from.y + fused(time, start.vy, change.y),
            from.vx + change.vx, from.vy + change.vy},
-          placeOf(out, work.pitch, block));
+          placeOf(out, work.chain.pitch, block));
   }
 }
 
 LargestChange taylorLargestSum(const TaylorWorkspace& work, const TaylorWeights& weights) {
-  Largest position;
-  Largest velocity;
-  for (std::ptrdiff_t block = 0; block < blocksOf(work.size); ++block) {
-    const Block change = weightedSum(work, weights, block);
-    position.add(change.x);
-    position.add(change.y);
-    velocity.add(change.vx);
-    velocity.add(change.vy);
-  }
-  return {position.result(), velocity.result()};
+  return largestOf(work.chain.size,
+                   [&](std::ptrdiff_t block) { return weightedSum(work, weights, block); });
 }
 
 LastCoefficients lastCoefficients(const TaylorWorkspace& work) {
-  const std::ptrdiff_t end = blocksOf(work.size) * kLanes;
+  const std::ptrdiff_t end = blocksOf(work.chain.size) * kLanes;
   const auto size_of = [&](std::ptrdiff_t n) {
-    const double* x = work.accelerations + n * 2 * work.pitch;
-    const double* y = x + work.pitch;
+    const double* x = work.accelerations + n * 2 * work.chain.pitch;
+    const double* y = x + work.chain.pitch;
     Largest largest;
     for (std::ptrdiff_t first = 0; first < end; first += kLanes) {
       largest.add(Pack::load(x + first));

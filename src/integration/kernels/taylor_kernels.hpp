@@ -167,9 +167,9 @@ template <Index n>
       fused(direction.x, newest.x, fused(direction.y, newest.y, sums.length() * inverse_length));
   spring.setLength(n + 1, length);
 
-  const Pack stretch = n == 0 ? spring.length(0) - work.spring.rest_length : spring.length(n);
-  const Pack elastic = fused(work.spring.stiffness, stretch, -sums.quotient) * inverse_length;
-  const Pack damping = (work.spring.damping * static_cast<double>(n + 1)) * inverse_length;
+  const Pack stretch = n == 0 ? spring.length(0) - work.chain.spring.rest_length : spring.length(n);
+  const Pack elastic = fused(work.chain.spring.stiffness, stretch, -sums.quotient) * inverse_length;
+  const Pack damping = (work.chain.spring.damping * static_cast<double>(n + 1)) * inverse_length;
   const Pack quotient = fused(damping, length, elastic);
   spring.setQuotient(n, quotient);
   const PlaneVector<Pack> origin = spring.separation(0);
@@ -196,14 +196,14 @@ template <Index n>
 
 /// Stores d_0, d_1 = w, L_0, 1/L_0 and d_0/L_0 of all springs, from the state.
 inline void beginSeries(const TaylorWorkspace& work, const double* state) {
-  const Index blocks = blocksOf(work.size);
-  Block left = load(placeOf(state, work.pitch, -1));
+  const Index blocks = blocksOf(work.chain.size);
+  Block left = load(placeOf(state, work.chain.pitch, -1));
   for (Index block = 0; block < blocks; ++block) {
-    const Block here = load(placeOf(state, work.pitch, block));
+    const Block here = load(placeOf(state, work.chain.pitch, block));
     const PlaneVector<Pack> separation = separationsOf(left, here);
     const Pack square = squaredLength(separation);
     // 1/L_0 = 0 makes all forces of the springs in the padding 0.
-    const Index springs = work.size - 1 - block * kLanes;
+    const Index springs = work.chain.size - 1 - block * kLanes;
     const Pack inverse = only(inverseSquareRoot(square), springs);
     SpringSeries spring(work, block);
     spring.setSeparation(0, separation);
@@ -224,12 +224,12 @@ template <Index n>
     const PlaneVector<Pack>& here, const PlaneVector<Pack>& right) {
   constexpr double kShare = 1.0 / ((n + 1) * (n + 2));
   const Pack left_inverse_mass = kShare * Pack::load(work.left_inverse_masses + block * kLanes);
-  const Pack inverse_mass = kShare * Pack::load(work.inverse_masses + block * kLanes);
+  const Pack inverse_mass = kShare * Pack::load(work.chain.inverse_masses + block * kLanes);
   const Pack both = left_inverse_mass + inverse_mass;
   PlaneVector<Pack> result{
       fused(inverse_mass, right.x, fused(left_inverse_mass, left.x, -(both * here.x))),
       fused(inverse_mass, right.y, fused(left_inverse_mass, left.y, -(both * here.y)))};
-  if (n == 0 && block == 0) result.y = result.y - only(Pack::all(kShare * work.gravity), 1);
+  if (n == 0 && block == 0) result.y = result.y - only(Pack::all(kShare * work.chain.gravity), 1);
   return result;
 }
 
@@ -240,12 +240,12 @@ template <Index n>
                                                     const PlaneVector<Pack>& here,
                                                     const PlaneVector<Pack>& right) {
   const Index first = block * kLanes;
-  double* accelerations = work.accelerations + n * 2 * work.pitch + first;
-  const Pack inverse_mass = Pack::load(work.inverse_masses + first);
+  double* accelerations = work.accelerations + n * 2 * work.chain.pitch + first;
+  const Pack inverse_mass = Pack::load(work.chain.inverse_masses + first);
   Pack y = (right.y - here.y) * inverse_mass;
-  if (n == 0) y = y - only(Pack::all(work.gravity), work.size - 1 - first);
+  if (n == 0) y = y - only(Pack::all(work.chain.gravity), work.chain.size - 1 - first);
   ((right.x - here.x) * inverse_mass).store(accelerations);
-  y.store(accelerations + work.pitch);
+  y.store(accelerations + work.chain.pitch);
 }
 
 /// Computes coefficient n of all accelerations and, if a later order needs it, n + 2 of all
@@ -254,7 +254,7 @@ template <Index n>
 template <Index n, Index kBlocks>
 [[gnu::always_inline]] inline void addOrder(const TaylorWorkspace& work) {
   const bool wanted = n + 1 < work.order;  // whether another order needs the separations
-  const Index blocks = kBlocks > 0 ? kBlocks : blocksOf(work.size);
+  const Index blocks = kBlocks > 0 ? kBlocks : blocksOf(work.chain.size);
   PlaneVector<Pack> forces{};
   PlaneVector<Pack> left{};  // forces of their left neighbours
   const auto finish = [&](Index block, const PlaneVector<Pack>& next) {
@@ -278,43 +278,20 @@ template <Index n, Index kBlocks>
   finish(blocks - 1, {});
 }
 
-/// Adds the drive to coefficient 0 of the accelerations and, as differences of neighbours, to
-/// coefficient 2 of the separations.
-[[gnu::noinline]] inline void addDrive(const TaylorWorkspace& work) {
-  const double* drive_x = work.drive;
-  const double* drive_y = drive_x + work.pitch;
-  PlaneVector<Pack> left{};
-  for (Index block = 0; block < blocksOf(work.size); ++block) {
-    const Index first = block * kLanes;
-    const PlaneVector<Pack> here{Pack::load(drive_x + first), Pack::load(drive_y + first)};
-    double* accelerations = work.accelerations + first;
-    (Pack::load(accelerations) + here.x).store(accelerations);
-    (Pack::load(accelerations + work.pitch) + here.y).store(accelerations + work.pitch);
-    SpringSeries spring(work, block);
-    const PlaneVector<Pack> separation = spring.separation(2);
-    spring.setSeparation(2, {separation.x + 0.5 * (here.x - leftNeighbours(left.x, here.x)),
-                             separation.y + 0.5 * (here.y - leftNeighbours(left.y, here.y))});
-    left = here;
-  }
-}
-
-/// Adds the drag of the air, -k_air/m times coefficient n of the velocities, to coefficient n of the
-/// accelerations and, as differences of neighbours, to coefficient n + 2 of the separations.
-[[gnu::noinline]] inline void addDrag(const TaylorWorkspace& work, const double* state, Index n) {
-  // Coefficient n of the velocities is coefficient n - 1 of the accelerations, divided by n.
-  const double* from = n == 0 ? placeOf(state, work.pitch, 0).first + 2 * work.pitch
-                              : work.accelerations + (n - 1) * 2 * work.pitch;
-  const double divisor = n == 0 ? -1.0 : -1.0 / static_cast<double>(n);
+/// Adds more accelerations to coefficient n of the accelerations and, as differences of neighbours,
+/// to coefficient n + 2 of the separations.
+/// \param of_block returns those of the particles of a block
+template <typename OfBlock>
+[[gnu::always_inline]] inline void addAccelerations(const TaylorWorkspace& work, Index n,
+                                                    const OfBlock& of_block) {
   const double share = 1.0 / static_cast<double>((n + 1) * (n + 2));
   PlaneVector<Pack> left{};
-  for (Index block = 0; block < blocksOf(work.size); ++block) {
-    const Index first = block * kLanes;
-    const Pack rate = divisor * Pack::load(work.drag_rates + first);
-    const PlaneVector<Pack> here{rate * Pack::load(from + first),
-                                 rate * Pack::load(from + work.pitch + first)};
-    double* accelerations = work.accelerations + n * 2 * work.pitch + first;
-    (Pack::load(accelerations) + here.x).store(accelerations);
-    (Pack::load(accelerations + work.pitch) + here.y).store(accelerations + work.pitch);
+  for (Index block = 0; block < blocksOf(work.chain.size); ++block) {
+    const PlaneVector<Pack> here = of_block(block * kLanes);
+    double* x = work.accelerations + n * 2 * work.chain.pitch + block * kLanes;
+    double* y = x + work.chain.pitch;
+    (Pack::load(x) + here.x).store(x);
+    (Pack::load(y) + here.y).store(y);
     if (n + 1 < work.order) {
       SpringSeries spring(work, block);
       const PlaneVector<Pack> separation = spring.separation(n + 2);
@@ -326,12 +303,34 @@ template <Index n, Index kBlocks>
   }
 }
 
+[[gnu::noinline]] inline void addDrive(const TaylorWorkspace& work) {
+  const double* drive = work.chain.drive;
+  addAccelerations(work, 0, [&](Index first) {
+    return PlaneVector<Pack>{Pack::load(drive + first),
+                             Pack::load(drive + work.chain.pitch + first)};
+  });
+}
+
+/// Adds the drag of the air, -k_air/m times coefficient n of the velocities.
+[[gnu::noinline]] inline void addDrag(const TaylorWorkspace& work, const double* state, Index n) {
+  const Index pitch = work.chain.pitch;
+  // Coefficient n of the velocities is coefficient n - 1 of the accelerations, divided by n.
+  const double* velocities = n == 0 ? placeOf(state, pitch, 0).first + 2 * pitch
+                                    : work.accelerations + (n - 1) * 2 * pitch;
+  const double divisor = n == 0 ? -1.0 : -1.0 / static_cast<double>(n);
+  addAccelerations(work, n, [&](Index first) {
+    const Pack rate = divisor * Pack::load(work.chain.drag_rates + first);
+    return PlaneVector<Pack>{rate * Pack::load(velocities + first),
+                             rate * Pack::load(velocities + pitch + first)};
+  });
+}
+
 /// Acts between order n and order n + 1. A chain of one block is neither driven nor in air here.
 template <Index n, Index kBlocks>
 [[gnu::always_inline]] inline void finishOrder(const TaylorWorkspace& work, const double* state) {
   if constexpr (kBlocks == 0) {
-    if (n == 0 && work.drive != nullptr) addDrive(work);
-    if (work.drag_rates != nullptr) addDrag(work, state, n);
+    if (n == 0 && work.chain.drive != nullptr) addDrive(work);
+    if (work.chain.drag_rates != nullptr) addDrag(work, state, n);
   }
 }
 
@@ -353,8 +352,8 @@ void seriesOf(const TaylorWorkspace& work, const double* state) {
 // chain of one block keeps its coefficients in registers.
 void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
   const TaylorWorkspace work = callers_work;
-  const bool plain = work.drive == nullptr && work.drag_rates == nullptr;
-  if (plain && blocksOf(work.size) == 1) return seriesOf<1>(work, state);
+  const bool plain = work.chain.drive == nullptr && work.chain.drag_rates == nullptr;
+  if (plain && blocksOf(work.chain.size) == 1) return seriesOf<1>(work, state);
   seriesOf<0>(work, state);
 }
 

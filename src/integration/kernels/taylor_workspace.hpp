@@ -1,7 +1,7 @@
 // Input and workspace of the Taylor series kernels. taylor_stepper.hpp derives the method.
 #pragma once
 
-#include <spring_pendulum/model/spring_law.hpp>
+#include "integration/kernels/chain_kernels.hpp"
 
 #include <cstddef>
 
@@ -12,15 +12,10 @@ inline constexpr std::ptrdiff_t kLargestTaylorOrder = 14;
 /// Taylor coefficients of a chain's motion about one state. Spring i joins particles i and i+1. The
 /// columns are padded to `pitch`; the padding holds springs that exert no force.
 struct TaylorWorkspace {
-  SpringLaw spring;
-  double gravity = 0.0;                         ///< m/s²; 0 with a drive
-  const double* drive = nullptr;                ///< as in `KernelChain`
-  const double* drag_rates = nullptr;           ///< as in `KernelChain`
-  const double* inverse_masses = nullptr;       ///< of the moving particles, 1/kg; 0 if padding
-  const double* left_inverse_masses = nullptr;  ///< of their left neighbours, 1/kg; 0 if fixed
-  std::ptrdiff_t size = 0;                      ///< N >= 1 particles
-  std::ptrdiff_t pitch = 0;                     ///< length of a column, as in `StateBuffer`
-  std::ptrdiff_t order = 0;                     ///< K in 2..14, number of force coefficients
+  KernelChain chain;  ///< `mass_stride` is 1, which saves multiplications
+  /// Inverse masses of the left neighbours of the moving particles, 1/kg; 0 if fixed or padding
+  const double* left_inverse_masses = nullptr;
+  std::ptrdiff_t order = 0;  ///< K in 2..14, number of force coefficients
 
   /// Groups of 8 springs, each with `kSpringRows` rows of 4 × 8 doubles. Row n <= 14 holds
   /// coefficient n of the separation (x, y), the length L and the quotient u = T/L. Row 15 holds

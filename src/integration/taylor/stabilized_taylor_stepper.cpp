@@ -66,7 +66,7 @@ StabilizedTaylorStepper::StabilizedTaylorStepper(const Chain& chain, int order, 
       time_of_velocity_error_(timeOfVelocityError(chain, fastest_rate_)),
       polynomials_(stabilizedPolynomials(order)),
       polynomial_(polynomials_.begin()),
-      expansion_(chain, (polynomials_.end() - 1)->terms),
+      expansion_(kernelChain(), (polynomials_.end() - 1)->terms),
       change_(chain.size()),
       inside_(chain.size()) {}
 

@@ -1,8 +1,5 @@
 #include "integration/taylor/taylor_expansion.hpp"
 
-#include "integration/kernels/kernel_constants.hpp"
-
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -20,27 +17,18 @@ constexpr auto kReciprocals = [] {
 
 }  // namespace
 
-TaylorExpansion::TaylorExpansion(const Chain& chain, int order) {
-  work_.spring = chain.spring();
-  work_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
-  drive_ = driveColumns(chain);
-  work_.drive = chain.isDriven() ? drive_.data() : nullptr;
-  drag_rates_ = dragRates(chain);
-  if (chain.airDrag() != 0.0) work_.drag_rates = drag_rates_.data();
-  work_.size = chain.size();
-  work_.pitch = StateBuffer::pitchFor(chain.size());
-  work_.order = order;
-  const std::ptrdiff_t moving = chain.size() - 1;
-  inverse_masses_ = AlignedNumbers(work_.pitch);
-  std::copy_n(chain.inverseMasses().data() + 1, moving, inverse_masses_.data());
-  left_inverse_masses_ = AlignedNumbers(work_.pitch);
-  std::copy_n(chain.inverseMasses().data(), moving, left_inverse_masses_.data());
-  springs_ = AlignedNumbers(TaylorWorkspace::springNumbers(work_.pitch));
-  accelerations_ = AlignedNumbers(TaylorWorkspace::accelerationNumbers(work_.pitch, order));
-  work_.inverse_masses = inverse_masses_.data();
-  work_.left_inverse_masses = left_inverse_masses_.data();
-  work_.springs = springs_.data();
-  work_.accelerations = accelerations_.data();
+TaylorExpansion::TaylorExpansion(const KernelChain& chain, int order)
+    : inverse_masses_(chain.pitch),
+      left_inverse_masses_(chain.pitch),
+      springs_(TaylorWorkspace::springNumbers(chain.pitch)),
+      accelerations_(TaylorWorkspace::accelerationNumbers(chain.pitch, order)),
+      work_{chain, left_inverse_masses_.data(), order, springs_.data(), accelerations_.data()} {
+  for (std::ptrdiff_t i = 0; i + 1 < chain.size; ++i) {
+    inverse_masses_[i] = chain.inverse_masses[chain.mass_stride * i];
+    if (i + 2 < chain.size) left_inverse_masses_[i + 1] = inverse_masses_[i];
+  }
+  work_.chain.inverse_masses = inverse_masses_.data();
+  work_.chain.mass_stride = 1;
 }
 
 TaylorWeights taylorWeights(std::ptrdiff_t count, double time) {

@@ -4,16 +4,16 @@
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/kernels/taylor_workspace.hpp"
-#include <spring_pendulum/model/chain.hpp>
 
 namespace spring_pendulum {
 
-/// Owns the memory to which a `TaylorWorkspace` points. `work().size` and `work().order` may be set
-/// to smaller values, and back up to their initial values.
+/// Owns the coefficients to which a `TaylorWorkspace` points. `work().chain.size` and `work().order` may
+/// be set to smaller values, and back up to their initial values.
 class TaylorExpansion {
  public:
+  /// \param chain points to numbers that must outlive the expansion
   /// \param order K in 2..14, the largest number of coefficients
-  TaylorExpansion(const Chain& chain, int order);
+  TaylorExpansion(const KernelChain& chain, int order);
 
   TaylorWorkspace& work() { return work_; }
   const TaylorWorkspace& work() const { return work_; }
@@ -21,8 +21,6 @@ class TaylorExpansion {
  private:
   AlignedNumbers inverse_masses_;
   AlignedNumbers left_inverse_masses_;
-  AlignedNumbers drive_;
-  AlignedNumbers drag_rates_;
   AlignedNumbers springs_;
   AlignedNumbers accelerations_;
   TaylorWorkspace work_;
@@ -34,7 +32,8 @@ template <typename Middle>
 bool springsChangeMuch(const ChainKernels& kernels, const TaylorWorkspace& work, double h,
                        const StateBuffer& begin, const StateBuffer& end, const Middle& middle) {
   const auto change_until = [&](double time, const StateBuffer& later) {
-    return kernels.springChange(work.size, work.pitch, time, begin.data(), later.data());
+    return kernels.springChange(work.chain.size, work.chain.pitch, time, begin.data(),
+                                later.data());
   };
   const SpringChange change = change_until(h, end);
   if (change != SpringChange::kUnclear) return change == SpringChange::kMuch;

@@ -30,7 +30,8 @@ TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
     : chain_(chain),
       allowed_rate_(kErrorRate * tolerance),
       kernels_(kernels),
-      expansion_(chain, order),
+      constants_(chain),
+      expansion_(constants_.chain(), order),
       work_(expansion_.work()),
       begin_(chain.size()),
       end_(chain.size()),
@@ -40,17 +41,18 @@ void TaylorStepper::start(const State& state) {
   requireSize(chain_.size(), state.size());
   end_.values() = state.values();
   end_.values().row(0).rightCols<2>().setZero();
-  work_.size = chain_.size();
+  work_.chain.size = chain_.size();
 }
 
 // The springs beyond the computed part fell freely in the last step and still do.
 void TaylorStepper::skipFreeEnd() {
   if (!chain_.isPlain()) return;
-  const Eigen::Index first = beginOfFreeFall(begin_, work_.size, work_.spring.rest_length);
+  const Eigen::Index first =
+      beginOfFreeFall(begin_, work_.chain.size, work_.chain.spring.rest_length);
   const Eigen::Index moving = StateBuffer::paddedSize(first + work_.order + 1);
   const Eigen::Index size = std::min<Eigen::Index>(chain_.size(), 1 + moving);
   // A store would delay the kernel, which loads the whole workspace at once.
-  if (size != work_.size) work_.size = size;
+  if (size != work_.chain.size) work_.chain.size = size;
 }
 
 void TaylorStepper::expand() {
@@ -115,7 +117,7 @@ void TaylorStepper::sumSeries(double h, std::ptrdiff_t terms) {
 void TaylorStepper::sumAt(double time, StateBuffer& out) const {
   kernels_.taylorState(work_, begin_.data(), begin_.data(), taylorWeights(terms_, time),
                        out.data());
-  const Eigen::Index falling = chain_.size() - work_.size;
+  const Eigen::Index falling = chain_.size() - work_.chain.size;
   if (falling == 0) return;
   // The arithmetic of the kernel for a free fall, where only the first coefficient is not zero. All
   // these particles fall at the same speed.

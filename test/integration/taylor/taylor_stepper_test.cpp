@@ -137,7 +137,8 @@ TEST(TaylorStepper, LeavingOutTheFreelyFallingEndChangesNoBit) {
   for (const char* name : {"horizontal_11", "light_100", "horizontal_1000"}) {
     const Scene scene = referenceScene(name);
     const Eigen::Index size = scene.start.size();
-    const TaylorExpansion expansion(scene.chain, 8);
+    const KernelConstants constants(scene.chain);
+    const TaylorExpansion expansion(constants.chain(), 8);
     const TaylorWorkspace& work = expansion.work();
     StateBuffer whole(size);
     whole.values() = scene.start.values();
