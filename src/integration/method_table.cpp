@@ -43,37 +43,14 @@ std::unique_ptr<Integrator> makeSymplectic(const Method&, const Chain& chain,
   return std::make_unique<SymplecticMethod>(chain, options.track_dissipation);
 }
 
-template <typename Stepper, typename... Arguments>
-std::unique_ptr<Integrator> makeErrorControlled(const Chain& chain,
-                                                const IntegratorOptions& options,
-                                                Arguments&&... arguments) {
-  const bool measured = options.track_dissipation || chain.isDriven();
+/// \tparam Stepper    made from a chain, arguments and a tolerance
+/// \tparam kArguments a pointer to an embedded pair, or an order
+template <typename Stepper, auto... kArguments>
+std::unique_ptr<Integrator> makeErrorControlled(const Method&, const Chain& chain,
+                                                const IntegratorOptions& options) {
   return std::make_unique<DenseOutputIntegrator>(
-      std::make_unique<Stepper>(chain, std::forward<Arguments>(arguments)..., options.tolerance),
-      measured ? std::make_optional(chain) : std::nullopt);
-}
-
-template <const EmbeddedPair& kPair>
-std::unique_ptr<Integrator> makeEmbeddedPair(const Method&, const Chain& chain,
-                                             const IntegratorOptions& options) {
-  return makeErrorControlled<EmbeddedRungeKuttaStepper>(chain, options, kPair);
-}
-
-/// \tparam Stepper made from a chain, an order and a tolerance
-template <typename Stepper>
-std::unique_ptr<Integrator> makeTaylor(const Method& method, const Chain& chain,
-                                       const IntegratorOptions& options) {
-  return makeErrorControlled<Stepper>(chain, options, method.order);
-}
-
-std::unique_ptr<Integrator> makeRadau(const Method&, const Chain& chain,
-                                      const IntegratorOptions& options) {
-  return makeErrorControlled<RadauStepper>(chain, options);
-}
-
-std::unique_ptr<Integrator> makeAuto(const Method&, const Chain& chain,
-                                     const IntegratorOptions& options) {
-  return makeErrorControlled<AutoStepper>(chain, options);
+      chain, std::make_unique<Stepper>(chain, kArguments..., options.tolerance),
+      options.track_dissipation);
 }
 
 // NOLINTNEXTLINE(readability-function-size): data
@@ -105,43 +82,43 @@ std::deque<Method> builtInMethods() {
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
        "doi:10.1016/0771-050X(80)90013-3",
        "the best-known embedded pair, for comparison", &kDormandPrince5.tableau,
-       makeEmbeddedPair<kDormandPrince5>, false, 430},
+       makeErrorControlled<EmbeddedRungeKuttaStepper, &kDormandPrince5>, false, 430},
       {"Dormand-Prince-8", 8, 12, StepControl::kErrorControlled, 6.3936515228, 5.9603598117,
        "E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, 2nd ed., Springer 1993, section II.10",
        "Hairer's DOP853, for comparison", &kDormandPrince8.tableau,
-       makeEmbeddedPair<kDormandPrince8>, false, 710},
+       makeErrorControlled<EmbeddedRungeKuttaStepper, &kDormandPrince8>, false, 710},
       {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
        "the fastest for tolerances down to 1e-6 m, unless particles are very light", nullptr,
-       makeTaylor<TaylorStepper>, false, 850},
+       makeErrorControlled<TaylorStepper, 8>, false, 850},
       {"Taylor-12", 12, 12, StepControl::kErrorControlled, kTaylor12RealStabilityLimit,
        3.3793773141575327,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
        "the fastest for tighter tolerances, unless particles are very light", nullptr,
-       makeTaylor<TaylorStepper>, false, 880},
+       makeErrorControlled<TaylorStepper, 12>, false, 880},
       {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
        "for light particles (k_d/m of 1e2/s to 1e4/s) and coarse "
        "tolerances",
-       nullptr, makeTaylor<StabilizedTaylorStepper>, false, 980},
+       nullptr, makeErrorControlled<StabilizedTaylorStepper, 4>, false, 980},
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
        "for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there", nullptr,
-       makeTaylor<StabilizedTaylorStepper>, false, 1050},
+       makeErrorControlled<StabilizedTaylorStepper, 8>, false, 1050},
       {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
        "doi:10.1016/S0377-0427(99)00134-X",
        "implicit, with the spring tensions as unknowns: for very light particles (k_d/m beyond "
        "1e4/s), down to 1e-9 kg",
-       nullptr, makeRadau, false, 1190},
+       nullptr, makeErrorControlled<RadauStepper>, false, 1190},
       {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
        "chooses among the Taylor methods and Radau-9 as the motion requires, and reports its "
        "choice",
-       nullptr, makeAuto, false, 2250},
+       nullptr, makeErrorControlled<AutoStepper>, false, 2250},
   };
 }
 

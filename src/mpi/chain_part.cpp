@@ -36,8 +36,8 @@ std::ptrdiff_t borderOf(const Scenario& scenario, std::int64_t particles) {
 
 }  // namespace
 
-SpringwiseIntegrator& ChainPart::Piece::springwise() const {
-  return dynamic_cast<SpringwiseIntegrator&>(*integrator);
+FixedStepIntegrator& ChainPart::Piece::fixedStep() const {
+  return dynamic_cast<FixedStepIntegrator&>(*integrator);
 }
 
 void ChainPart::Piece::advance(double time_step, std::int64_t steps) {
@@ -62,7 +62,7 @@ ChainPart::ChainPart(const Ranks& ranks, const Scenario& scenario, const Part& p
                                               static_cast<unsigned>(ranks.onThisMachine())))) {
   ranks.together([&] {
     checkBorder(scenario, part_, ranks.size(), border_);
-    own_.springwise();
+    own_.fixedStep();
   });
   height_ = own_.state.y()[0];
   ranks.shareFromFirst(&height_, 1);
@@ -148,13 +148,13 @@ void ChainPart::finishStrip(Strip& strip, double time_step, std::int64_t steps) 
   own_.state.values().middleRows(strip.results, border_) =
       strip.piece.state.values().middleRows(strip.result_at, border_);
   if (!track_dissipation_) return;
-  std::copy_n(strip.piece.springwise().dissipated().data() + border_, border_,
-              own_.springwise().dissipated().data() + strip.springs);
+  std::copy_n(strip.piece.fixedStep().dissipated().data() + border_, border_,
+              own_.fixedStep().dissipated().data() + strip.springs);
 }
 
 ChainPart::Totals ChainPart::totals() const {
   const Stopwatch stopwatch(seconds_summing_);
-  const DissipatedEnergy& dissipated = own_.springwise().dissipated();
+  const DissipatedEnergy& dissipated = own_.fixedStep().dissipated();
   const std::ptrdiff_t block = sumBlockSize(part_.particles - 1);
   const std::ptrdiff_t springs = part_.last - part_.first;
   std::vector<double> sums;

@@ -7,7 +7,7 @@
 // explicit_runge_kutta.hpp.
 #pragma once
 
-#include "integration/kernels/dissipated_energy.hpp"
+#include "integration/fixed_step/fixed_step_integrator.hpp"
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/simulation/energy_balance.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
@@ -55,7 +55,7 @@ class ChainPart {
     State state;
     std::unique_ptr<Integrator> integrator;
 
-    SpringwiseIntegrator& springwise() const;
+    FixedStepIntegrator& fixedStep() const;
     void advance(double time_step, std::int64_t steps);
   };
   /// The piece at an end of the part, and where its rows come from and go to.

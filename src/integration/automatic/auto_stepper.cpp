@@ -53,18 +53,9 @@ constexpr double kWorkBeforeFirstRace = 500.0;
 /// Least ratio of the paces for a switch.
 constexpr double kHysteresis = 1.2;
 
-template <int kOrder>
-std::unique_ptr<DenseOutputStepper> makeTaylor(const Chain& chain, double tolerance) {
-  return std::make_unique<TaylorStepper>(chain, kOrder, tolerance);
-}
-
-std::unique_ptr<DenseOutputStepper> makeRadau(const Chain& chain, double tolerance) {
-  return std::make_unique<RadauStepper>(chain, tolerance);
-}
-
-template <int kOrder>
-std::unique_ptr<DenseOutputStepper> makeStabilizedTaylor(const Chain& chain, double tolerance) {
-  return std::make_unique<StabilizedTaylorStepper>(chain, kOrder, tolerance);
+template <typename Stepper, int... kOrder>
+std::unique_ptr<DenseOutputStepper> make(const Chain& chain, double tolerance) {
+  return std::make_unique<Stepper>(chain, kOrder..., tolerance);
 }
 
 bool needsOrder12(const Chain& chain, double tolerance) {
@@ -89,16 +80,17 @@ AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keep
   explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
   const bool implicit_only = fastest_rate_ >= kRateForImplicitOnly;
   successor_is_better_ = !order_12 && !implicit_only;
-  const auto add = [&](std::string_view name, const NominalTime& cost, auto make) {
-    candidates_.push_back({name, cost.of(chain.size()) / kTaylorTime.of(chain.size()), make});
+  const auto add = [&](std::string_view name, const NominalTime& cost, auto make_stepper) {
+    const double relative_cost = cost.of(chain.size()) / kTaylorTime.of(chain.size());
+    candidates_.push_back({name, relative_cost, make_stepper});
   };
   if (!implicit_only) {
     add(order_12 ? "Taylor-12" : "Taylor-8", kTaylorTime,
-        order_12 ? makeTaylor<12> : makeTaylor<8>);
-    add("Stabilized-Taylor-8", kStabilizedTaylor8Time, makeStabilizedTaylor<8>);
-    add("Stabilized-Taylor-4", kStabilizedTaylor4Time, makeStabilizedTaylor<4>);
+        order_12 ? make<TaylorStepper, 12> : make<TaylorStepper, 8>);
+    add("Stabilized-Taylor-8", kStabilizedTaylor8Time, make<StabilizedTaylorStepper, 8>);
+    add("Stabilized-Taylor-4", kStabilizedTaylor4Time, make<StabilizedTaylorStepper, 4>);
   }
-  if (fastest_rate_ >= kRateForImplicit) add("Radau-9", kRadauTime, makeRadau);
+  if (fastest_rate_ >= kRateForImplicit) add("Radau-9", kRadauTime, make<RadauStepper>);
   candidates_[0].stepper = candidates_[0].make(chain_, tolerance_);
 }
 
@@ -199,7 +191,7 @@ AutoStepper::Pace AutoStepper::paceOf(Candidate& candidate, const State& state) 
 
 void AutoStepper::readState() {
   if (state_.size() == 0) state_ = State(chain_.size());
-  active().stepper->interpolate(1.0, state_);
+  state_.values() = stateAt(1.0).values();
 }
 
 void AutoStepper::race() {

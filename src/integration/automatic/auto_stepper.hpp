@@ -43,8 +43,8 @@ class AutoStepper final : public DenseOutputStepper {
 
   void start(const State& state) override;
   double step() override;
-  void interpolate(double fraction, State& state) const override {
-    active().stepper->interpolate(fraction, state);
+  const StateBuffer& stateAt(double fraction) const override {
+    return active().stepper->stateAt(fraction);
   }
   StepStatistics statistics() const override;
 

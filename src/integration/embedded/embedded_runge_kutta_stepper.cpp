@@ -17,12 +17,13 @@ constexpr double kVelocityTime = 0.1;
 
 }  // namespace
 
-EmbeddedRungeKuttaStepper::EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair& pair,
+EmbeddedRungeKuttaStepper::EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair* pair,
                                                      double tolerance, const ChainKernels& kernels)
-    : ErrorEstimatingStepper(chain, pair.share_of_tolerance * tolerance, pair.error_order, kernels),
-      pair_(pair),
+    : ErrorEstimatingStepper(chain, pair->share_of_tolerance * tolerance, pair->error_order,
+                             kernels),
+      pair_(*pair),
       inside_(chain.size()) {
-  for (std::size_t i = 0; i < std::max(pair.dense_slopes, pair.tableau.stages + 1); ++i) {
+  for (std::size_t i = 0; i < std::max(pair_.dense_slopes, pair_.tableau.stages + 1); ++i) {
     slopes_.emplace_back(chain.size());
   }
 }
@@ -70,15 +71,11 @@ void EmbeddedRungeKuttaStepper::makeExtraSlopes() const {
   extra_slopes_known_ = true;
 }
 
-void EmbeddedRungeKuttaStepper::interpolate(double fraction, State& state) const {
-  if (fraction == 1.0) {
-    state.values() = end().values();
-    return;
-  }
+const StateBuffer& EmbeddedRungeKuttaStepper::stateInside(double fraction) const {
   makeExtraSlopes();
   const StageSum sum(statistics().last_step, pair_.denseWeights(fraction), slopes_);
   kernels().combine(begin().pitch(), begin().data(), sum, inside_.data());
-  state.values() = inside_.values();
+  return inside_;
 }
 
 StepStatistics EmbeddedRungeKuttaStepper::statistics() const {

@@ -15,20 +15,20 @@ namespace spring_pendulum {
 class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
  public:
   /// \param pair must outlive the stepper
-  EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair& pair, double tolerance,
+  EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair* pair, double tolerance,
                             const ChainKernels& kernels = fastestChainKernels());
 
-  void interpolate(double fraction, State& state) const override;
   StepStatistics statistics() const override;
 
  private:
   void prepare(bool restarted) override;
   double attempt(double h) override;
+  const StateBuffer& stateInside(double fraction) const override;
   double errorOf(const EmbeddedPair::Weights& weights, double h) const;
   void makeExtraSlopes() const;
 
   const EmbeddedPair& pair_;
-  // `interpolate` computes the extra slopes when they are first needed.
+  // `stateInside` computes the extra slopes when they are first needed.
   mutable std::vector<StateBuffer> slopes_;
   mutable bool extra_slopes_known_ = false;
   mutable std::int64_t extra_evaluations_ = 0;

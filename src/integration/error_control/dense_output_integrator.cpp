@@ -33,20 +33,13 @@ constexpr std::array<QuadraturePoint, 6> kGaussLegendre{
 
 }  // namespace
 
-DenseOutputIntegrator::DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
-                                             const std::optional<Chain>& measured)
-    : stepper_(std::move(stepper)) {
-  if (measured) quadrature_.emplace(*measured);
-}
-
-DenseOutputIntegrator::Quadrature::Quadrature(const Chain& chain)
-    : constants(chain),
-      air_drag(chain.airDrag()),
-      kernels(fastestChainKernels(chain.size())),
-      sample(chain.size()),
-      padded_sample(chain.size()),
-      dissipated(chain.size(), chain.firstSpring()),
-      held_work(chain) {}
+DenseOutputIntegrator::DenseOutputIntegrator(const Chain& chain,
+                                             std::unique_ptr<DenseOutputStepper> stepper,
+                                             bool track_dissipation)
+    : stepper_(std::move(stepper)),
+      constants_(chain),
+      kernels_(fastestChainKernels(chain.size())),
+      energy_flow_(chain, track_dissipation) {}
 
 void DenseOutputIntegrator::restart() {
   started_ = false;
@@ -54,21 +47,15 @@ void DenseOutputIntegrator::restart() {
 }
 
 DenseOutputIntegrator::Energies DenseOutputIntegrator::energiesOf(double fraction) {
-  if (!quadrature_) return {};
-  Quadrature& d = *quadrature_;
-  d.dissipated.reset();
-  d.held_work.reset();
-  const double scale = 0.5 * fraction * step_length_ * d.constants.chain().spring.damping;
-  for (const QuadraturePoint& point : kGaussLegendre) {
-    stepper_->interpolate(0.5 * fraction * (1.0 + point.node), d.sample);
-    d.padded_sample.values() = d.sample.values();
-    d.kernels.addDissipation(d.constants.chain(), d.padded_sample.data(), scale * point.weight,
-                             d.dissipated.data());
-    const double time = 0.5 * fraction * step_length_ * point.weight;
-    d.dissipated.addDrag(d.constants.chain(), d.air_drag, d.padded_sample, time);
-    if (d.held_work.isNeeded()) d.held_work.add(d.padded_sample, time);
+  if (!energy_flow_.isNeeded()) return {};
+  energy_flow_.reset();
+  const KernelChain& chain = constants_.chain();
+  const double half_time = 0.5 * fraction * step_length_;
+  for (const auto& [node, weight] : kGaussLegendre) {
+    energy_flow_.add(kernels_, chain, stepper_->stateAt(0.5 * fraction * (1.0 + node)),
+                     half_time * weight, half_time * chain.spring.damping * weight);
   }
-  return {d.dissipated.total(), d.held_work.total()};
+  return {energy_flow_.dissipated().total(), energy_flow_.supplied()};
 }
 
 void DenseOutputIntegrator::takeStep() {
@@ -90,10 +77,9 @@ void DenseOutputIntegrator::advance(State& state, double time_step, std::int64_t
 
 std::int64_t DenseOutputIntegrator::advanceWithin(State& state, double time_step,
                                                   std::int64_t steps, double most_work) {
-  requireAdvance(started_ ? particles_ : state.size(), state.size(), time_step, steps);
+  requireAdvance(constants_.chain().size, state.size(), time_step, steps);
   if (!started_) {
-    stepper_->start(state);  // checks the size of the state
-    particles_ = state.size();
+    stepper_->start(state);
     started_ = true;
     diverged_ = false;
     shortest_steps_ = 0;
@@ -120,7 +106,7 @@ std::int64_t DenseOutputIntegrator::advanceWithin(State& state, double time_step
     return steps;
   }
   const double fraction = std::min((output_time - step_begin_) / step_length_, 1.0);
-  stepper_->interpolate(fraction, state);
+  state.values() = stepper_->stateAt(fraction).values();
   in_step_ = energiesOf(fraction);
   return steps;
 }

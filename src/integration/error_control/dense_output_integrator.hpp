@@ -8,27 +8,21 @@
 #pragma once
 
 #include "integration/error_control/dense_output_stepper.hpp"
-#include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/dissipated_energy.hpp"
-#include "integration/kernels/held_work.hpp"
+#include "integration/kernels/energy_flow.hpp"
 #include "integration/kernels/kernel_constants.hpp"
-#include "integration/kernels/state_buffer.hpp"
 #include "integration/work.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
 
-#include <cstddef>
 #include <memory>
-#include <optional>
 
 namespace spring_pendulum {
 
 class DenseOutputIntegrator final : public Integrator {
  public:
-  /// \param measured the chain if the dissipated energy is tracked or other particles than P_1 are
-  ///   held, else nothing
-  explicit DenseOutputIntegrator(std::unique_ptr<DenseOutputStepper> stepper,
-                                 const std::optional<Chain>& measured = {});
+  /// \param stepper of the chain
+  DenseOutputIntegrator(const Chain& chain, std::unique_ptr<DenseOutputStepper> stepper,
+                        bool track_dissipation = false);
 
   /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
   /// as often with half the time_step gives the same bits at the common times. If time_step differs
@@ -41,7 +35,9 @@ class DenseOutputIntegrator final : public Integrator {
   /// \returns 0 or `steps`
   std::int64_t advanceWithin(State& state, double time_step, std::int64_t steps,
                              double most_work) override;
-  double work() const override { return kTaylorTime.of(particles_) * statistics().work(); }
+  double work() const override {
+    return kTaylorTime.of(constants_.chain().size) * statistics().work();
+  }
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
   double dissipatedEnergy() const override { return before_step_.dissipated + in_step_.dissipated; }
   double suppliedEnergy() const override { return before_step_.supplied + in_step_.supplied; }
@@ -60,21 +56,10 @@ class DenseOutputIntegrator final : public Integrator {
   Energies energiesOf(double fraction);
 
   std::unique_ptr<DenseOutputStepper> stepper_;
-  /// Workspace for the dissipated and the supplied energy.
-  struct Quadrature {
-    explicit Quadrature(const Chain& chain);
-
-    KernelConstants constants;
-    double air_drag;  ///< N·s/m
-    const ChainKernels& kernels;
-    State sample;
-    StateBuffer padded_sample;
-    DissipatedEnergy dissipated;
-    HeldWork held_work;
-  };
-  std::optional<Quadrature> quadrature_;
+  KernelConstants constants_;
+  const ChainKernels& kernels_;
+  EnergyFlow energy_flow_;  ///< of a part of the last step
   bool started_ = false;
-  std::ptrdiff_t particles_ = 0;  ///< size of the initial state
   bool diverged_ = false;
   int shortest_steps_ = 0;      ///< number of consecutive shortest steps, up to now
   double output_origin_ = 0.0;  ///< s since the start; outputs are n * output_step_ later

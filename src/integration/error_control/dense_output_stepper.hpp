@@ -3,6 +3,7 @@
 // restarts and the dissipated energy. `AutoStepper` is a stepper that owns several steppers.
 #pragma once
 
+#include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstddef>
@@ -45,8 +46,8 @@ class DenseOutputStepper {
   DenseOutputStepper(const DenseOutputStepper&) = delete;
   DenseOutputStepper& operator=(const DenseOutputStepper&) = delete;
 
-  /// Starts at `state`, with the first particle at rest. Keeps only the statistics.
-  /// \throws InputError if the size of the state is not that of the chain
+  /// Starts at `state`, of the size of the chain, with the first particle at rest. Keeps only the
+  /// statistics.
   virtual void start(const State& state) = 0;
 
   /// Takes one step that meets the tolerance, repeating it as needed.
@@ -54,10 +55,9 @@ class DenseOutputStepper {
   ///          finite), after which only `start` may be called
   virtual double step() = 0;
 
-  /// Computes the state inside the last step.
+  /// Returns the state inside the last step, valid until the next call of a function of the stepper.
   /// \param fraction 0 at its beginning, 1 at its end
-  /// \param[out] state must have the size of the chain
-  virtual void interpolate(double fraction, State& state) const = 0;
+  virtual const StateBuffer& stateAt(double fraction) const = 0;
 
   virtual StepStatistics statistics() const = 0;
 

@@ -1,7 +1,5 @@
 #include "integration/error_control/error_estimating_stepper.hpp"
 
-#include "base/checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -33,7 +31,6 @@ ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowe
           kernels) {}
 
 void ErrorEstimatingStepper::start(const State& state) {
-  requireSize(chain_.size(), state.size());
   end_.values() = state.values();
   end_.values().row(0).rightCols<2>().setZero();
   end_carry_.values().setZero();

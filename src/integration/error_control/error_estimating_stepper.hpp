@@ -21,6 +21,9 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
  public:
   void start(const State& state) final;
   double step() final;
+  const StateBuffer& stateAt(double fraction) const final {
+    return fraction < 1.0 ? stateInside(fraction) : end_;
+  }
   StepStatistics statistics() const override { return statistics_; }
 
  protected:
@@ -42,6 +45,9 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   /// Computes `end()` from `begin()` with step size h.
   /// \returns the estimated position error, m; NaN if anything is not finite
   virtual double attempt(double h) = 0;
+
+  /// Returns the state inside the last step, see stateAt; `fraction` is below 1.
+  virtual const StateBuffer& stateInside(double fraction) const = 0;
 
   /// Largest admissible step size, at most h, s.
   virtual double admissible(double h) { return h; }

@@ -21,10 +21,6 @@ Eigen::Index usableBlockSize(Eigen::Index wanted, std::size_t stages) {
                   2 * StateBuffer::paddedSize(static_cast<Eigen::Index>(stages)));
 }
 
-const ChainKernels& kernelsFor(const EngineOptions& options, Eigen::Index particles) {
-  return options.kernels != nullptr ? *options.kernels : fastestChainKernels(particles);
-}
-
 Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index particles) {
   const Eigen::Index blocks = particles / options.block_size;
   if (blocks <= 1) return 1;  // asking for the cores takes as long as 100 steps of a short chain
@@ -37,15 +33,14 @@ Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index p
 
 ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                                        const EngineOptions& options)
-    : SpringwiseIntegrator(options.track_dissipation && chain.spring().damping != 0.0
-                               ? DissipatedEnergy(chain.size())
-                               : DissipatedEnergy()),
+    : FixedStepIntegrator(
+          chain, options.track_dissipation && chain.spring().damping != 0.0,
+          options.kernels != nullptr ? *options.kernels : fastestChainKernels(chain.size())),
       options_(options),
-      constants_(chain),
       stages_(tableau.stages),
-      track_dissipation_(options.track_dissipation && chain.spring().damping != 0.0),
+      track_dissipation_(dissipated().data() != nullptr),
       tableau_(tableau),
-      kernel_(findAdvanceKernel(kernelsFor(options, chain.size()), tableau,
+      kernel_(findAdvanceKernel(kernels(), tableau,
                                 {!skips().damping, !skips().gravity, track_dissipation_})) {
   assert(kernel_ != nullptr);
   options_.block_size = usableBlockSize(options.block_size, stages_);
@@ -66,24 +61,19 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
 }
 
 Skips ExplicitRungeKutta::skips() const {
-  const KernelChain& chain = constants_.chain();
-  Skips skips;
-  skips.damping = chain.spring.damping == 0.0;
-  skips.gravity = chain.gravity == 0.0;
-  skips.masses = chain.mass_stride == 0;
-  return skips;
+  return {chain().spring.damping == 0.0, chain().gravity == 0.0, chain().mass_stride == 0};
 }
 
 void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
-  requireAdvance(constants_.chain().size, state.size(), time_step, steps);
+  requireAdvance(chain().size, state.size(), time_step, steps);
   state.velocities().row(0).setZero();
   for (std::size_t i = 0; i < stages_; ++i) {
     const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
     for (std::size_t j = 0; j <= i; ++j) weights_.after[i][j] = time_step * row[j];
-    weights_.dissipation[i] = time_step * tableau_.b[i] * constants_.chain().spring.damping;
+    weights_.dissipation[i] = time_step * tableau_.b[i] * chain().spring.damping;
   }
   const auto stages = static_cast<std::int64_t>(stages_);
-  force_evaluations_ += steps * stages;
+  countEvaluations(steps * stages);
   if (largest_halo_ == 0) return stepWhole(state, steps);
   // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has at least one stage
   const std::int64_t at_once = largest_halo_ / stages;
@@ -100,20 +90,20 @@ void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t st
 void ExplicitRungeKutta::stepWhole(State& state, std::int64_t steps) {
   Share& share = shares_.front();
   share.block.values() = state.values();
-  kernel_(constants_.chain(), weights_, steps, share.block.data(), dissipated_.data(),
+  kernel_(chain(), weights_, steps, share.block.data(), dissipated().data(),
           share.workspace.data());
   state.values() = share.block.values();
 }
 
 int ExplicitRungeKutta::threadsFor(std::int64_t steps) const {
-  const double work = kFixedStepTime.of(constants_.chain().size) * static_cast<double>(stages_) *
-                      static_cast<double>(steps);
+  const double work =
+      kFixedStepTime.of(chain().size) * static_cast<double>(stages_) * static_cast<double>(steps);
   return static_cast<int>(std::clamp(work / options_.least_work_per_thread, 1.0,
                                      static_cast<double>(workers_->size())));
 }
 
 void ExplicitRungeKutta::divide(int threads) {
-  const Eigen::Index size = constants_.chain().size;
+  const Eigen::Index size = chain().size;
   const Eigen::Index share_size = StateBuffer::paddedSize((size + threads - 1) / threads);
   for (int i = 0; i < threads; ++i) {
     Share& share = shares_[static_cast<std::size_t>(i)];
@@ -148,13 +138,13 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
   if (end < share.end) {
     share.left.topRows(pass_.halo) = state.middleRows(end - pass_.halo, pass_.halo);
   }
-  double* const dissipated = share.dissipated.data();
+  double* const in_block = share.dissipated.data();
   if (track_dissipation_)
-    std::copy_n(dissipated_.data() + begin, end - begin, dissipated + (begin - first));
-  const KernelChain piece = constants_.piece(first, last, share.block.pitch());
-  kernel_(piece, weights_, pass_.steps, share.block.data(), dissipated, share.workspace.data());
+    std::copy_n(dissipated().data() + begin, end - begin, in_block + (begin - first));
+  const KernelChain piece = constants().piece(first, last, share.block.pitch());
+  kernel_(piece, weights_, pass_.steps, share.block.data(), in_block, share.workspace.data());
   if (track_dissipation_)
-    std::copy_n(dissipated + (begin - first), end - begin, dissipated_.data() + begin);
+    std::copy_n(in_block + (begin - first), end - begin, dissipated().data() + begin);
   const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
   state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);
 }

@@ -11,15 +11,9 @@
 // (overlapped tiles).
 #pragma once
 
+#include "integration/fixed_step/fixed_step_integrator.hpp"
 #include "integration/fixed_step/worker_threads.hpp"
-#include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/dissipated_energy.hpp"
-#include "integration/kernels/kernel_constants.hpp"
-#include "integration/kernels/state_buffer.hpp"
-#include "integration/work.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
-#include <spring_pendulum/integration/integrator.hpp>
-#include <spring_pendulum/model/chain.hpp>
 
 #include <memory>
 #include <vector>
@@ -37,19 +31,13 @@ struct EngineOptions {
   bool track_dissipation = false;         ///< integrate the dissipated power as well
 };
 
-/// `advance` sets the velocity of the first particle, which is fixed, to 0.
-class ExplicitRungeKutta final : public SpringwiseIntegrator {
+class ExplicitRungeKutta final : public FixedStepIntegrator {
  public:
   /// \param tableau one that has a kernel (`findAdvanceKernel`)
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                      const EngineOptions& options = {});
 
   void advance(State& state, double time_step, std::int64_t steps) override;
-  double work() const override {
-    return kFixedStepTime.of(constants_.chain().size) * static_cast<double>(force_evaluations_);
-  }
-  std::int64_t forceEvaluations() const override { return force_evaluations_; }
-  void restart() override { dissipated_.reset(); }
   Skips skips() const override;
 
  private:
@@ -79,7 +67,6 @@ class ExplicitRungeKutta final : public SpringwiseIntegrator {
   void stepBlock(Share& share, Eigen::Index begin, Eigen::Index end);
 
   EngineOptions options_;
-  KernelConstants constants_;
   std::size_t stages_;
   bool track_dissipation_;
   const ButcherTableau& tableau_;
@@ -89,7 +76,6 @@ class ExplicitRungeKutta final : public SpringwiseIntegrator {
   Pass pass_;
   std::vector<Share> shares_;
   std::unique_ptr<WorkerThreads> workers_;
-  std::int64_t force_evaluations_ = 0;
 };
 
 }  // namespace spring_pendulum

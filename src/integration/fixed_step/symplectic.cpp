@@ -7,59 +7,29 @@
 namespace spring_pendulum {
 
 SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
-    : SpringwiseIntegrator(DissipatedEnergy(chain.size(), chain.firstSpring())),
-      chain_(chain),
-      track_dissipation_(track_dissipation),
-      constants_(chain_),
-      kernels_(fastestChainKernels()),
-      current_(chain.size()),
-      held_work_(chain) {}
-
-void SymplecticMethod::restart() {
-  dissipated_.reset();
-  held_work_.reset();
-  forget();
-}
+    : FixedStepIntegrator(chain, track_dissipation, fastestChainKernels()),
+      current_(chain.size()) {}
 
 void SymplecticMethod::advance(State& state, double time_step, std::int64_t steps) {
-  requireAdvance(chain_.size(), state.size(), time_step, steps);
+  requireAdvance(chain().size, state.size(), time_step, steps);
   state.velocities().row(0).setZero();
   current_.values() = state.values();
   for (std::int64_t n = 0; n < steps; ++n) {
-    addPowers(0.5 * time_step);
+    addPowers(current_, 0.5 * time_step);
     step(time_step);
-    addPowers(0.5 * time_step);
+    addPowers(current_, 0.5 * time_step);
   }
   state.values() = current_.values();
 }
 
-void SymplecticMethod::addPowers(double time) {
-  if (held_work_.isNeeded() || chain_.airDrag() != 0.0) addWorkAndDrag(time);
-  if (!track_dissipation_) return;
-  kernels_.addDissipation(constants_.chain(), current_.data(), time * chain_.spring().damping,
-                          dissipated_.data());
-}
-
-void SymplecticMethod::addWorkAndDrag(double time) {
-  if (held_work_.isNeeded()) held_work_.add(current_, time);
-  if (track_dissipation_) {
-    dissipated_.addDrag(constants_.chain(), chain_.airDrag(), current_, time);
-  }
-}
-
-void SymplecticMethod::evaluate(const StateBuffer& state, StateBuffer& slope) {
-  kernels_.stageSlope(constants_.chain(), state.data(), {}, slope.data());
-  ++force_evaluations_;
-}
-
 void SymplecticMethod::kick(StateBuffer& state, double weight, const StateBuffer& slope) const {
   const Eigen::Index velocities = 2 * state.pitch();
-  kernels_.addWeighted(velocities, weight, slope.data() + velocities, state.data() + velocities);
+  kernels().addWeighted(velocities, weight, slope.data() + velocities, state.data() + velocities);
 }
 
 void SymplecticMethod::drift(StateBuffer& state, double weight) const {
   const Eigen::Index positions = 2 * state.pitch();
-  kernels_.addWeighted(positions, weight, state.data() + positions, state.data());
+  kernels().addWeighted(positions, weight, state.data() + positions, state.data());
 }
 
 SemiImplicitEuler::SemiImplicitEuler(const Chain& chain, bool track_dissipation)
@@ -73,15 +43,16 @@ void SemiImplicitEuler::step(double time_step) {
 
 VelocityVerlet::VelocityVerlet(const Chain& chain, bool track_dissipation)
     : SymplecticMethod(chain, track_dissipation),
+      damped_(chain.isDissipative()),
       begin_slope_(chain.size()),
       end_slope_(chain.size()),
       predicted_(chain.size()) {}
 
 void VelocityVerlet::step(double time_step) {
-  if (damped() || !begin_slope_known_) evaluate(current(), begin_slope_);
+  if (damped_ || !begin_slope_known_) evaluate(current(), begin_slope_);
   kick(current(), 0.5 * time_step, begin_slope_);
   drift(current(), time_step);
-  if (damped()) {
+  if (damped_) {
     predicted_.values() = current().values();
     kick(predicted_, 0.5 * time_step, begin_slope_);
     evaluate(predicted_, end_slope_);

@@ -20,61 +20,30 @@
 // doi:10.1017/S0962492902000144.
 #pragma once
 
-#include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/dissipated_energy.hpp"
-#include "integration/kernels/held_work.hpp"
-#include "integration/kernels/kernel_constants.hpp"
-#include "integration/kernels/state_buffer.hpp"
-#include "integration/work.hpp"
-#include <spring_pendulum/integration/integrator.hpp>
-#include <spring_pendulum/model/chain.hpp>
-
-#include <cstdint>
+#include "integration/fixed_step/fixed_step_integrator.hpp"
 
 namespace spring_pendulum {
 
-/// Base class with workspace, counters, and the dissipated and supplied energies, which are integrated
-/// with the trapezoidal rule over each step.
-class SymplecticMethod : public SpringwiseIntegrator {
+/// Base class with the current state. The dissipated and supplied energies are integrated with the
+/// trapezoidal rule over each step.
+class SymplecticMethod : public FixedStepIntegrator {
  public:
   void advance(State& state, double time_step, std::int64_t steps) final;
-  double work() const final {
-    return kFixedStepTime.of(chain_.size()) * static_cast<double>(force_evaluations_);
-  }
-  std::int64_t forceEvaluations() const final { return force_evaluations_; }
-  double suppliedEnergy() const final { return held_work_.total(); }
-  void restart() final;
 
  protected:
   SymplecticMethod(const Chain& chain, bool track_dissipation);
 
   /// Advances `current()` by one step.
   virtual void step(double time_step) = 0;
-  /// Discards what was kept from the last step, because the next step starts from another state.
-  virtual void forget() {}
 
-  bool damped() const { return chain_.isDissipative(); }
   StateBuffer& current() { return current_; }
-  /// Writes the accelerations of a state to the columns vx and vy of `slope`.
-  void evaluate(const StateBuffer& state, StateBuffer& slope);
   /// state velocities += weight * slope accelerations
   void kick(StateBuffer& state, double weight, const StateBuffer& slope) const;
   /// positions += weight * velocities
   void drift(StateBuffer& state, double weight) const;
 
  private:
-  /// Adds the current powers, dissipated and supplied, times `time` s.
-  void addPowers(double time);
-  /// The part of `addPowers` that most chains do not need.
-  void addWorkAndDrag(double time);
-
-  Chain chain_;
-  bool track_dissipation_;
-  KernelConstants constants_;
-  const ChainKernels& kernels_;
   StateBuffer current_;
-  HeldWork held_work_;
-  std::int64_t force_evaluations_ = 0;
 };
 
 /// Order 1. R. de Vogelaere 1956 (unpublished); Hairer, Lubich, Wanner, section 1.3.
@@ -94,10 +63,15 @@ class VelocityVerlet final : public SymplecticMethod {
  public:
   VelocityVerlet(const Chain& chain, bool track_dissipation);
 
+  void restart() override {
+    FixedStepIntegrator::restart();
+    begin_slope_known_ = false;
+  }
+
  private:
   void step(double time_step) override;
-  void forget() override { begin_slope_known_ = false; }
 
+  bool damped_;
   StateBuffer begin_slope_;
   StateBuffer end_slope_;
   StateBuffer predicted_;

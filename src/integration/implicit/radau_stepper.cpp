@@ -48,13 +48,9 @@ void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]
 
 }  // namespace
 
-double RadauStepper::workPerEvaluation(Eigen::Index particles) {
-  return kRadauTime.of(particles) / kTaylorTime.of(particles);
-}
-
 StepStatistics RadauStepper::statistics() const {
   StepStatistics statistics = ErrorEstimatingStepper::statistics();
-  const double cost = workPerEvaluation(chain().size());
+  const double cost = kRadauTime.of(chain().size()) / kTaylorTime.of(chain().size());
   statistics.extra_work = (cost - 1.0) * static_cast<double>(statistics.force_evaluations) -
                           cost * statistics.leftOut(chain().size());
   return statistics;
@@ -379,21 +375,19 @@ void RadauStepper::setEndFromLastStage() {
   setEnd(change_, {});
 }
 
-void RadauStepper::interpolate(double fraction, State& state) const {
-  if (fraction >= 1.0) {
-    state.values() = end().values();
-    return;
-  }
+const StateBuffer& RadauStepper::stateInside(double fraction) const {
   const Row weights = radau::lagrangeWeights(fraction, true);
-  state.values() = begin().values();
+  auto values = change_.values();
+  values = begin().values();
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
     const Increments& stage = stages_.particles[std::min(i, active_ - 1)];
     const auto row = static_cast<Eigen::Index>(i);
-    state.x()[row] += radau::dot(weights, stage.x);
-    state.y()[row] += radau::dot(weights, stage.y);
-    state.vx()[row] += radau::dot(weights, stage.vx);
-    state.vy()[row] += radau::dot(weights, stage.vy);
+    values(row, 0) += radau::dot(weights, stage.x);
+    values(row, 1) += radau::dot(weights, stage.y);
+    values(row, 2) += radau::dot(weights, stage.vx);
+    values(row, 3) += radau::dot(weights, stage.vy);
   }
+  return change_;
 }
 
 }  // namespace spring_pendulum

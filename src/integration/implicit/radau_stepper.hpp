@@ -42,12 +42,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
   RadauStepper(const Chain& chain, double tolerance,
                const ChainKernels& kernels = fastestChainKernels());
 
-  void interpolate(double fraction, State& state) const override;
   StepStatistics statistics() const override;
-
-  /// Returns the cost of a force evaluation with its share of the linear algebra, in force
-  /// evaluations of Taylor-8.
-  static double workPerEvaluation(Eigen::Index particles);
 
  private:
   using Row = radau::Row;
@@ -109,6 +104,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
 
   void prepare(bool restarted) override;
   double attempt(double h) override;
+  const StateBuffer& stateInside(double fraction) const override;
 
   static Ends endsOf(std::size_t spring, const StateBuffer& state);
   Ends endsOf(std::size_t spring, const Ends& start, std::size_t stage) const;
@@ -176,7 +172,8 @@ class RadauStepper final : public ErrorEstimatingStepper {
   std::vector<LinearSpring> springs_;
   System<double> real_;
   std::array<System<Complex>, 2> pairs_;
-  StateBuffer change_;  ///< change of the state in the step, or the estimated error
+  /// Change of the state in the step, or the estimated error; after the step, the state inside it.
+  mutable StateBuffer change_;
 };
 
 }  // namespace spring_pendulum

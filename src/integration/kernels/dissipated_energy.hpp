@@ -5,12 +5,11 @@
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "model/block_sums.hpp"
-#include <spring_pendulum/integration/integrator.hpp>
+#include <spring_pendulum/model/chain.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
 
 namespace spring_pendulum {
 
@@ -18,11 +17,11 @@ namespace spring_pendulum {
 class DissipatedEnergy {
  public:
   DissipatedEnergy() = default;
-  /// \param first_spring springs before do not count
-  explicit DissipatedEnergy(Eigen::Index particles, Eigen::Index first_spring = 0)
-      : springs_(particles - 1),
-        first_spring_(first_spring),
-        numbers_(StateBuffer::pitchFor(particles)) {}
+  explicit DissipatedEnergy(const Chain& chain)
+      : springs_(chain.size() - 1),
+        first_spring_(chain.firstSpring()),
+        air_drag_(chain.airDrag()),
+        numbers_(StateBuffer::pitchFor(chain.size())) {}
 
   double* data() { return numbers_.data(); }
   void reset() {
@@ -31,8 +30,8 @@ class DissipatedEnergy {
   }
 
   /// Adds what the air dissipates at the velocities of a state in `time` s.
-  void addDrag(const KernelChain& chain, double drag, const StateBuffer& state, double time) {
-    if (drag == 0.0) return;
+  void addDrag(const KernelChain& chain, const StateBuffer& state, double time) {
+    if (air_drag_ == 0.0) return;
     double sum = 0.0;
     for (Eigen::Index i = 0; i < springs_; ++i) {
       const double* velocity = state.particle(i + 1) + 2 * state.pitch();
@@ -40,7 +39,7 @@ class DissipatedEnergy {
           velocity[0] * velocity[0] + velocity[state.pitch()] * velocity[state.pitch()];
       if (chain.drag_rates[i] != 0.0) sum += square;  // not held
     }
-    air_ += time * drag * sum;
+    air_ += time * air_drag_ * sum;
   }
 
   /// Sum over the springs first <= i < last, J.
@@ -65,22 +64,10 @@ class DissipatedEnergy {
 
  private:
   Eigen::Index springs_ = 0;
-  Eigen::Index first_spring_ = 0;
+  Eigen::Index first_spring_ = 0;  ///< springs before do not count
+  double air_drag_ = 0.0;          ///< N·s/m
   AlignedNumbers numbers_;
   double air_ = 0.0;  ///< J
-};
-
-/// An integrator that knows the dissipated energy of each spring: one with a fixed step.
-class SpringwiseIntegrator : public Integrator {
- public:
-  double dissipatedEnergy() const final { return dissipated_.total(); }
-  /// Empty if the energy is not tracked.
-  DissipatedEnergy& dissipated() { return dissipated_; }
-
- protected:
-  explicit SpringwiseIntegrator(DissipatedEnergy dissipated) : dissipated_(std::move(dissipated)) {}
-
-  DissipatedEnergy dissipated_;  // NOLINT(*-non-private-member-variables-in-classes)
 };
 
 }  // namespace spring_pendulum

@@ -101,10 +101,7 @@ double StabilizedTaylorStepper::attempt(double h) {
                         change_.data());
   setEnd(change_, {});
   // The series is invalid once the ends of a spring meet; see TaylorStepper::step.
-  const auto middle = [&]() -> const StateBuffer& {
-    sumAt(0.5 * h);
-    return inside_;
-  };
+  const auto middle = [&]() -> const StateBuffer& { return sumAt(0.5 * h); };
   if (h > kShortestStep && springsChangeMuch(kernels(), work, h, begin(), end(), middle)) {
     return std::numeric_limits<double>::infinity();
   }
@@ -113,18 +110,10 @@ double StabilizedTaylorStepper::attempt(double h) {
          std::max(1.0, least_time_per_error_ / std::max(h, kLeastVibration));
 }
 
-void StabilizedTaylorStepper::sumAt(double time) const {
+const StateBuffer& StabilizedTaylorStepper::sumAt(double time) const {
   kernels().taylorState(expansion_.work(), begin().data(), begin().data(),
                         sumOf(*polynomial_, time), inside_.data());
-}
-
-void StabilizedTaylorStepper::interpolate(double fraction, State& state) const {
-  const StateBuffer* result = &end();
-  if (fraction < 1.0) {
-    sumAt(fraction * statistics().last_step);
-    result = &inside_;
-  }
-  state.values() = result->values();
+  return inside_;
 }
 
 }  // namespace spring_pendulum

@@ -44,15 +44,16 @@ class StabilizedTaylorStepper final : public ErrorEstimatingStepper {
   StabilizedTaylorStepper(const Chain& chain, int order, double tolerance,
                           const ChainKernels& kernels = fastestChainKernels());
 
-  void interpolate(double fraction, State& state) const override;
-
  private:
   void prepare(bool restarted) override;
   /// Also selects the number of terms for the step.
   double admissible(double h) override;
   double attempt(double h) override;
-  /// Sets `inside_` to the state `time` s after `begin()`.
-  void sumAt(double time) const;
+  const StateBuffer& stateInside(double fraction) const override {
+    return sumAt(fraction * statistics().last_step);
+  }
+  /// Returns the state `time` s after `begin()`.
+  const StateBuffer& sumAt(double time) const;
 
   double least_time_per_error_;    ///< s; shorter steps limit the error per time
   double fastest_rate_;            ///< upper bound of |λ| of the damped modes, 1/s

@@ -1,6 +1,5 @@
 #include "integration/taylor/taylor_stepper.hpp"
 
-#include "base/checks.hpp"
 #include "integration/error_control/free_fall.hpp"
 #include "integration/error_control/step_size_controller.hpp"
 
@@ -38,7 +37,6 @@ TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
       inside_(chain.size()) {}
 
 void TaylorStepper::start(const State& state) {
-  requireSize(chain_.size(), state.size());
   end_.values() = state.values();
   end_.values().row(0).rightCols<2>().setZero();
   work_.chain.size = chain_.size();
@@ -131,13 +129,10 @@ void TaylorStepper::sumAt(double time, StateBuffer& out) const {
   to.col(3).array() = from.col(3).array() + speed;
 }
 
-void TaylorStepper::interpolate(double fraction, State& state) const {
-  const StateBuffer* result = &end_;
-  if (fraction < 1.0) {
-    sumAt(fraction * statistics_.last_step, inside_);
-    result = &inside_;
-  }
-  state.values() = result->values();
+const StateBuffer& TaylorStepper::stateAt(double fraction) const {
+  if (fraction >= 1.0) return end_;
+  sumAt(fraction * statistics_.last_step, inside_);
+  return inside_;
 }
 
 }  // namespace spring_pendulum

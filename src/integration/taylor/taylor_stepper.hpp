@@ -52,7 +52,7 @@ class TaylorStepper final : public DenseOutputStepper {
 
   void start(const State& state) override;
   double step() override;
-  void interpolate(double fraction, State& state) const override;
+  const StateBuffer& stateAt(double fraction) const override;
   StepStatistics statistics() const override { return statistics_; }
 
   /// Takes a step of size h whatever its error. Tests measure the order with it.
@@ -64,14 +64,15 @@ class TaylorStepper final : public DenseOutputStepper {
   void skipFreeEnd();
   void expand();
   void sumSeries(double h, std::ptrdiff_t terms);
+  /// Computes the state `time` s after `begin_`.
   void sumAt(double time, StateBuffer& out) const;
   double longestAccurateStep();
 
   Chain chain_;
   double allowed_rate_;  ///< allowed growth rate of the velocity error, m/s²
   const ChainKernels& kernels_;
-  TaylorExpansion expansion_;
   KernelConstants constants_;
+  TaylorExpansion expansion_;
   TaylorWorkspace& work_;     ///< its size excludes the end that falls freely
   std::ptrdiff_t terms_ = 0;  ///< number of terms summed in the last step
   StateBuffer begin_;

@@ -139,8 +139,8 @@ TEST(Auto, HasTheSameBitsIfItForgetsMethods) {
         ASSERT_EQ(forgets.step(), h) << name << " at " << time;
         time += h;
       }
-      keeps.interpolate(0.5, kept);
-      forgets.interpolate(0.5, forgotten);
+      kept.values() = keeps.stateAt(0.5).values();
+      forgotten.values() = forgets.stateAt(0.5).values();
       EXPECT_EQ(kept.values(), forgotten.values()) << name;
     }
     EXPECT_EQ(keeps.report(), forgets.report());

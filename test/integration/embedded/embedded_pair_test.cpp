@@ -131,17 +131,17 @@ TEST(EmbeddedPair, StabilityLimitsAreThoseOfTheTable) {
 
 TEST(EmbeddedPair, ExtraSlopesCostOnlyAtOutputTimes) {
   const Scene scene = referenceScene("two_masses_45deg");
-  EmbeddedRungeKuttaStepper stepper(scene.chain, kDormandPrince8, 1e-6);
+  EmbeddedRungeKuttaStepper stepper(scene.chain, &kDormandPrince8, 1e-6);
   stepper.start(scene.start);
   while (stepper.statistics().accepted < 3) ASSERT_GT(stepper.step(), 0.0);
   const std::int64_t before = stepper.statistics().force_evaluations;
   const std::int64_t attempts = stepper.statistics().accepted + stepper.statistics().rejected;
   EXPECT_EQ(before, 1 + 12 * attempts);
   State state(3);
-  stepper.interpolate(1.0, state);
+  state.values() = stepper.stateAt(1.0).values();
   EXPECT_EQ(stepper.statistics().force_evaluations, before);
-  stepper.interpolate(0.5, state);
-  stepper.interpolate(0.7, state);
+  state.values() = stepper.stateAt(0.5).values();
+  state.values() = stepper.stateAt(0.7).values();
   EXPECT_EQ(stepper.statistics().force_evaluations, before + 3);
 }
 

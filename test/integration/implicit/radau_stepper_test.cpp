@@ -78,7 +78,7 @@ ErrorAndStep runPendulum(double tolerance) {
   exact.x()[1] = 1.0;
   State state = exact;
   makeIntegrator("Taylor-12", chain, {1e-13})->advance(exact, 1.0, 1);
-  DenseOutputIntegrator integrator(std::make_unique<RadauStepper>(chain, tolerance));
+  DenseOutputIntegrator integrator(chain, std::make_unique<RadauStepper>(chain, tolerance));
   integrator.advance(state, 1.0, 1);
   return {test::positionError(state, exact),
           1.0 / static_cast<double>(integrator.statistics().accepted)};
@@ -112,7 +112,7 @@ TEST(Radau, DissipatedEnergyClosesTheBalance) {
 // Pendulum of two particles, let go level.
 StepStatistics pendulum(double mass, double tolerance, State& state, const SpringLaw& law = {}) {
   const Chain chain(Eigen::Vector2d(1.0, mass), law, 9.81);
-  DenseOutputIntegrator integrator(std::make_unique<RadauStepper>(chain, tolerance));
+  DenseOutputIntegrator integrator(chain, std::make_unique<RadauStepper>(chain, tolerance));
   state = State(2);
   state.x()[1] = 1.0;
   integrator.advance(state, 10.0, 1);

@@ -35,7 +35,7 @@ std::unique_ptr<DenseOutputStepper> makeStabilized(const Chain& chain, double to
 template <const EmbeddedPair& kPair>
 std::unique_ptr<DenseOutputStepper> makePair(const Chain& chain, double tolerance,
                                              const ChainKernels& kernels) {
-  return std::make_unique<EmbeddedRungeKuttaStepper>(chain, kPair, tolerance, kernels);
+  return std::make_unique<EmbeddedRungeKuttaStepper>(chain, &kPair, tolerance, kernels);
 }
 
 std::unique_ptr<DenseOutputStepper> makeRadau(const Chain& chain, double tolerance,
@@ -56,7 +56,7 @@ State stateAfterSteps(const test::Scene& scene, const Maker& maker, const ChainK
   stepper->start(scene.start);
   for (int n = 0; n < 100; ++n) EXPECT_GT(stepper->step(), 0.0);
   State state(scene.start.size());
-  stepper->interpolate(0.3, state);
+  state.values() = stepper->stateAt(0.3).values();
   return state;
 }
 

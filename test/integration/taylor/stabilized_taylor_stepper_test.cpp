@@ -93,7 +93,8 @@ TEST(StabilizedTaylorStepper, TableOfMethodsStatesTheLargestLimitAndTheLeastTerm
 }
 
 DenseOutputIntegrator stabilized(const Chain& chain, int order, double tolerance) {
-  return DenseOutputIntegrator(std::make_unique<StabilizedTaylorStepper>(chain, order, tolerance));
+  return DenseOutputIntegrator(chain,
+                               std::make_unique<StabilizedTaylorStepper>(chain, order, tolerance));
 }
 
 struct Measured {

@@ -26,7 +26,7 @@ State afterFixedSteps(TaylorStepper& series, const Scene& scene, int seconds,
   series.start(scene.start);
   for (int n = 0; n < seconds * steps_per_second; ++n) series.stepBy(1.0 / steps_per_second);
   State state(scene.start.size());
-  series.interpolate(1.0, state);
+  state.values() = series.stateAt(1.0).values();
   return state;
 }
 
@@ -65,10 +65,10 @@ TEST(TaylorStepper, DenseOutputHasTheOrderToo) {
       series.stepBy(h);
       State inside(3), exact(3);
       for (const double fraction : {0.3, 0.7, 1.0}) {
-        series.interpolate(fraction, inside);
+        inside.values() = series.stateAt(fraction).values();
         fine.start(scene.start);
         for (int n = 0; n < 4; ++n) fine.stepBy(0.25 * fraction * h);
-        fine.interpolate(1.0, exact);
+        exact.values() = fine.stateAt(1.0).values();
         errors[halvings] = std::max(
             errors[halvings], (inside.velocities() - exact.velocities()).cwiseAbs().maxCoeff());
       }
@@ -87,10 +87,10 @@ TEST(TaylorStepper, DenseOutputJoinsTheStepsWithoutAGap) {
   State begin(scene.start.size());
   for (int n = 0; n < 5; ++n) {
     series.stepBy(0.05);
-    series.interpolate(0.0, begin);
+    begin.values() = series.stateAt(0.0).values();
     EXPECT_EQ(begin.values(), end.values());
-    series.interpolate(1.0, end);
-    series.interpolate(1.0 - 1e-12, begin);
+    end.values() = series.stateAt(1.0).values();
+    begin.values() = series.stateAt(1.0 - 1e-12).values();
     EXPECT_LT((begin.values() - end.values()).cwiseAbs().maxCoeff(), 1e-11);  // measured: 5e-13
   }
 }
@@ -106,7 +106,7 @@ TEST(TaylorStepper, BeginsWithTheAccelerationsOfTheModel) {
   const double h = 1e-6;
   series.stepBy(h);
   State after(state.size());
-  series.interpolate(1.0, after);
+  after.values() = series.stateAt(1.0).values();
   const State::PlaneMatrix measured = (after.velocities() - state.velocities()) / h;
   EXPECT_LT((measured - slope.velocities()).cwiseAbs().maxCoeff(), 1e-3);  // measured: 6e-5, of 14
 }
@@ -151,7 +151,7 @@ TEST(TaylorStepper, LeavingOutTheFreelyFallingEndChangesNoBit) {
       fastestChainKernels().taylorSeries(work, whole.data());
       fastestChainKernels().taylorState(work, whole.data(), whole.data(), taylorWeights(8, h),
                                         whole.data());
-      series.interpolate(1.0, state);
+      state.values() = series.stateAt(1.0).values();
       ASSERT_EQ(state.values(), State::Matrix(whole.values())) << name << " " << n;
     }
   }
@@ -175,7 +175,7 @@ TEST(TaylorStepper, StopsWhereASpringHasNoLength) {
       const double h = series.step();
       ASSERT_GT(h, 0.0);
       time += h;
-      series.interpolate(1.0, state);
+      state.values() = series.stateAt(1.0).values();
       if (below * state.y()[1] < 0.0) ++crossings;
     }
     EXPECT_GT(crossings, 1) << sideways;

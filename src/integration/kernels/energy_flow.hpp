@@ -1,6 +1,7 @@
-// The work that holders of particles do on a chain, integrated along with the motion.
+// The energy that a chain loses and receives, integrated along with its motion.
 #pragma once
 
+#include "integration/kernels/dissipated_energy.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include <spring_pendulum/model/chain.hpp>
 
@@ -49,6 +50,41 @@ class HeldWork {
   Eigen::Index first_spring_;
   std::vector<Eigen::Index> held_;
   double work_ = 0.0;
+};
+
+/// Sums the dissipated energy, if that is tracked, and the work of holders.
+class EnergyFlow {
+ public:
+  EnergyFlow(const Chain& chain, bool track_dissipation)
+      : track_dissipation_(track_dissipation),
+        dissipated_(track_dissipation ? DissipatedEnergy(chain) : DissipatedEnergy()),
+        held_work_(chain) {}
+
+  bool isNeeded() const { return track_dissipation_ || held_work_.isNeeded(); }
+  /// Empty if the energy is not tracked.
+  DissipatedEnergy& dissipated() { return dissipated_; }
+  const DissipatedEnergy& dissipated() const { return dissipated_; }
+  double supplied() const { return held_work_.total(); }  ///< J
+  void reset() {
+    dissipated_.reset();
+    held_work_.reset();
+  }
+
+  /// Adds the powers at a state times `time` s.
+  /// \param weight `time` times k_d, kg
+  void add(const ChainKernels& kernels, const KernelChain& chain, const StateBuffer& state,
+           double time, double weight) {
+    if (held_work_.isNeeded()) held_work_.add(state, time);
+    if (!track_dissipation_) return;
+    dissipated_.addDrag(chain, state, time);
+    if (chain.spring.damping == 0.0) return;
+    kernels.addDissipation(chain, state.data(), weight, dissipated_.data());
+  }
+
+ private:
+  bool track_dissipation_;
+  DissipatedEnergy dissipated_;
+  HeldWork held_work_;
 };
 
 }  // namespace spring_pendulum
