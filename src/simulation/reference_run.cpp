@@ -96,11 +96,11 @@ ReferenceScales scalesOf(const Chain& chain, const State& start, double run_tole
 
 }  // namespace
 
-double chainLength(const Chain& chain, const State& state) {
-  requireSize(chain.size(), state.size());
-  const Eigen::Index springs = state.size() - 1;
+double chainLength(const Chain& chain, const State& start) {
+  requireSize(chain.size(), start.size());
+  const Eigen::Index springs = start.size() - 1;
   return std::max(static_cast<double>(springs) * chain.spring().rest_length,
-                  0.1 * springLengths(state, 0, springs));
+                  0.1 * springLengths(start, 0, springs));
 }
 
 /// Reference and companion.
@@ -229,7 +229,7 @@ void ReferenceRun::measure(double run_work) {
   allowed_work_ = std::max(free_work_, run_work);
   distance_ = shared_ ? shared_frame_->distance : trajectories_->distance();
   if (std::isnan(distance_)) return stop(Status::kFailed);
-  scales_.length = std::max(scales_.length, chainLength(chain_, *state()));
+  scales_.length = std::max(scales_.length, 0.01 * springLengths(*state(), 0, chain_.size() - 1));
   scales_.rounding = std::max(scales_.rounding, roundingOf(*state(), scales_.length));
   uncertainty_ = kSafety * distance_ + scales_.rounding;
   const double believed = kBelieved * scales_.length;

@@ -178,7 +178,7 @@ TEST(Run, ErrorsAreRelatedToTheLengthThatTheChainReaches) {
   State start(2);
   start.x()[1] = 1e-10;
   const test::Scene scene{"", Chain(Eigen::Vector2d::Ones(), {300.0, 1.0, 0.0}, 9.81), start};
-  for (const std::string_view method : {"Auto", "Taylor-8", "Radau-9", "Runge-Kutta-4"}) {
+  for (const std::string_view method : {"Auto", "Taylor-8", "Radau-9"}) {
     const test::ProgramRun run = runAfter(scenarioOf(method), scene, 10.0);
     EXPECT_EQ(run.verdict().text, "ok") << method;
     EXPECT_EQ(run.toleranceRemark(), "") << method;
@@ -186,6 +186,11 @@ TEST(Run, ErrorsAreRelatedToTheLengthThatTheChainReaches) {
   }
   EXPECT_EQ(runAfter(scenarioOf("Velocity-Verlet"), scene, 1.0).verdict().kind,
             VerdictKind::kInaccurate);  // 0.07 mm where the chain is 37 mm long
+  // An error of 11 mm is large for a chain that was 5 m long, although it stretches to 12 m.
+  Scenario coarse = scenarioOf("Runge-Kutta-2");
+  coarse.time_step = 0.015;
+  const test::Scene soft = test::horizontalChain("soft", 6, 2.0, {50.0, 1.0, 0.0});
+  EXPECT_EQ(runAfter(coarse, soft, 7.5).verdict().kind, VerdictKind::kInaccurate);
 }
 
 // Verdict, errors and remarks depend neither on the display rate nor on how often a run may stop.

@@ -23,13 +23,13 @@
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// Length in m to which errors in the positions of a state are related: the sum of the rest lengths,
-/// but at least a tenth of the length of the chain (for springs with rest length 0).
-double chainLength(const Chain& chain, const State& state);
+/// Length in m to which position errors are related at the start: the sum of the rest lengths, but at
+/// least a tenth of the length of the chain (for springs with rest length 0).
+double chainLength(const Chain& chain, const State& start);
 
 /// What the errors of a reference run are measured in, m.
 struct ReferenceScales {
-  double length;     ///< largest `chainLength` so far
+  double length;     ///< to which position errors are related
   double rounding;   ///< smallest distance that can be resolved
   double tolerance;  ///< of the reference
 };
@@ -137,7 +137,8 @@ class ReferenceRun {
   /// State of the reference at the time that `advance` has reached; null if it is not known.
   const State* state() const;
 
-  /// Largest `chainLength` of the reference at the start and at the measured frames, m.
+  /// Length to which position errors are related, m: `chainLength`, but at least a hundredth of the
+  /// largest length of the reference at the measured frames (for particles that start close together).
   double length() const { return scales_.length; }
 
   /// Bound on the position error of the reference at the last frame, m; NaN after the measurement has
