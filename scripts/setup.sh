@@ -9,6 +9,7 @@
 #   test-ros   packages for the tests of the node: rostest, a virtual display
 #   film       packages for scripts/film.sh
 #   lab        emscripten, the JavaScript libraries of the page, and a browser for its tests
+#   cache      ccache, for .ci/run
 #   lint       clang-format, clang-tidy, catkin_lint
 #   sanitize   clang's sanitizers and fuzzer, valgrind, coverage
 #   compilers  clang, for scripts/compilers.sh
@@ -43,6 +44,7 @@ packages_of() {
     lab)
       echo emscripten cmake ninja-build libeigen3-dev libfmt-dev esbuild libjs-chart.js libjs-katex node-jszip \
            python3-selenium chromium chromium-driver ;;
+    cache) echo ccache ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev valgrind gcovr ;;
     compilers) echo clang ;;
