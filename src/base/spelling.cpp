@@ -47,16 +47,45 @@ bool abbreviates(const std::string& name, const std::string& known) {
 
 }  // namespace
 
+std::size_t characterLength(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  if (length == 0 || length > text.size()) return 0;
+  char32_t code = first & (0x7fU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    const auto next = static_cast<unsigned char>(text[i]);
+    if ((next & 0xc0) != 0x80) return 0;
+    code = code << 6 | (next & 0x3fU);
+  }
+  const bool is_overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
+  return is_overlong || is_surrogate || first > 0xf4 || code > 0x10ffff ? 0 : length;
+}
+
 std::string onOneLine(std::string_view text) {
-  std::string line(text);
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  std::string line;
+  while (!text.empty()) {
+    const std::size_t length = characterLength(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    if (length == 0 || first < 0x20 || first == 0x7f) {
+      line += '?';
+    } else {
+      line += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
   return line;
 }
 
 std::string inQuotes(std::string_view text) {
-  const bool is_long = text.size() > kLongestQuote;
-  return "'" + onOneLine(text.substr(0, kLongestQuote)) + (is_long ? "...'" : "'");
+  if (text.size() <= kLongestQuote) return "'" + onOneLine(text) + "'";
+  std::size_t end = 0;  // not inside a character
+  for (std::size_t next = 0; next <= kLongestQuote;) {
+    end = next;
+    next += std::max<std::size_t>(characterLength(text.substr(next)), 1);
+  }
+  return "'" + onOneLine(text.substr(0, end)) + "...'";
 }
 
 bool isSameName(std::string_view a, std::string_view b) {

@@ -1,16 +1,20 @@
 // Error messages: quoted text, and suggestions for names that are not known.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace spring_pendulum {
 
-/// Returns text with '?' for each control character.
+/// Returns the length in bytes of the UTF-8 character at the begin of a text; 0 if it is none.
+std::size_t characterLength(std::string_view text);
+
+/// Returns text with '?' for each control character and each byte that is not UTF-8.
 std::string onOneLine(std::string_view text);
 
-/// Returns text in quotes for a message of one line: without control characters, truncated if long.
+/// Returns text in quotes for a message of one line, as onOneLine does, truncated if long.
 std::string inQuotes(std::string_view text);
 
 /// Whether two names differ at most in case and punctuation: "runge_kutta4" and "Runge-Kutta-4".

@@ -1,6 +1,7 @@
 #include "checking/check_report.hpp"
 
 #include "base/numbers.hpp"
+#include "base/spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -14,22 +15,6 @@
 
 namespace spring_pendulum {
 namespace {
-
-/// Returns the length of the UTF-8 character at the begin of a text; 0 if it is none.
-std::size_t characterLength(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xC2 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
 
 std::string inJson(std::string_view text) {
   std::string quoted = "\"";

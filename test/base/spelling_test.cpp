@@ -67,6 +67,20 @@ TEST(Spelling, QuotesOnOneLine) {
   EXPECT_EQ(inQuotes("a\tb\nc\x7f"), "'a?b?c?'");
   EXPECT_EQ(inQuotes(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
   EXPECT_EQ(inQuotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+  EXPECT_EQ(inQuotes(std::string(39, 'x') + "²x"), "'" + std::string(39, 'x') + "...'");
+}
+
+TEST(Spelling, PrintsNoByteThatIsNotUtf8) {
+  EXPECT_EQ(onOneLine("g = 9.81 m/s², jörg, 重力, 🙂"),
+            "g = 9.81 m/s², jörg, 重力, 🙂");
+  EXPECT_EQ(onOneLine("\xff\xfe"
+                      "0"),
+            "??0");                                       // UTF-16
+  EXPECT_EQ(onOneLine("j\xf6rg"), "j?rg");                // Latin-1
+  EXPECT_EQ(onOneLine("\xc0\xaf\xe0\x80\x80"), "?????");  // too many bytes
+  EXPECT_EQ(onOneLine("\xed\xa0\x80"), "???");            // a surrogate
+  EXPECT_EQ(onOneLine("\xf4\x90\x80\x80"), "????");       // beyond the last character
+  EXPECT_EQ(onOneLine("a\xe9\x87"), "a??");               // cut off
 }
 
 TEST(Spelling, TellsTheKnownNames) {
