@@ -66,9 +66,11 @@ int runNode() {
   Player player(node, private_node, run, options);
   LiveRun live(node, private_node, run, integrator, options, player);
   const MasterRegistration registration;
-  for (const std::string& rival : registration.rivals()) {
-    ROS_WARN_STREAM(rival << " as well: start one of the nodes in a namespace, for example with "
-                             "ROS_NAMESPACE=second");
+  for (const auto& [node_name, topics] : registration.rivals()) {
+    ROS_WARN_STREAM(
+        node_name << " publishes " << fmt::format("{}", fmt::join(topics, ", "))
+                  << " as well: start one of the nodes in a namespace, for example with "
+                     "ROS_NAMESPACE=second");
   }
   RunFiles files(run);  // last, because it removes the frames of earlier runs
   logStart(run, options, files);

@@ -10,8 +10,6 @@
 #include <ros/time.h>
 #include <ros/xmlrpc_manager.h>
 
-#include <map>
-
 namespace spring_pendulum {
 namespace {
 
@@ -63,15 +61,18 @@ void MasterRegistration::record() {
   XmlRpcValue state = ask("getSystemState"), typed = ask("getTopicTypes");
   if (!state.valid() || !typed.valid()) return;
   std::map<std::string, std::string> types;
-  for (int i = 0; i < typed.size(); ++i) types[typed[i][0]] = std::string(typed[i][1]);
+  const int number_typed = typed.size();
+  for (int i = 0; i < number_typed; ++i) types[typed[i][0]] = std::string(typed[i][1]);
   const char* const methods[] = {"registerPublisher", "registerSubscriber", "registerService"};
   for (int kind = 0; kind < 3; ++kind) {
     for (int i = 0; i < state[kind].size(); ++i) {
       const std::string name = state[kind][i][0];
       std::vector<std::string> others;
       bool is_ours = false;
-      for (int n = 0; n < state[kind][i][1].size(); ++n) {
-        const std::string node = state[kind][i][1][n];
+      XmlRpcValue& nodes = state[kind][i][1];
+      const int number_of_nodes = nodes.size();
+      for (int n = 0; n < number_of_nodes; ++n) {
+        const std::string node = nodes[n];
         is_ours = is_ours || node == ros::this_node::getName();
         if (node != ros::this_node::getName()) others.push_back(node);
       }
@@ -81,7 +82,7 @@ void MasterRegistration::record() {
                           is_service ? std::string(ask("lookupService", {name})) : types[name]});
       const bool is_shared = name == "/rosout" || name == "/tf_static" || kind != 0;
       for (const std::string& node : others) {
-        if (!is_shared) rivals_.push_back(fmt::format("{} publishes {}", node, name));
+        if (!is_shared) rivals_[node].push_back(name);
       }
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,8 +20,8 @@ class MasterRegistration {
   MasterRegistration(const MasterRegistration&) = delete;
   MasterRegistration& operator=(const MasterRegistration&) = delete;
 
-  /// Returns the other nodes that published one of this node's topics at the start.
-  const std::vector<std::string>& rivals() const { return rivals_; }
+  /// Returns the other nodes that published topics of this node at the start, with these topics.
+  const std::map<std::string, std::vector<std::string>>& rivals() const { return rivals_; }
 
  private:
   struct Entry {
@@ -34,7 +35,7 @@ class MasterRegistration {
   void renew() const;
 
   std::vector<Entry> entries_;
-  std::vector<std::string> rivals_;
+  std::map<std::string, std::vector<std::string>> rivals_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

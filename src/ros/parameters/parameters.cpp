@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <ros/master.h>
+#include <ros/names.h>
 #include <ros/param.h>
 #include <ros/this_node.h>
 
@@ -95,6 +96,15 @@ std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& place) 
   }
 }
 
+/// A node that follows itself would wait for ever.
+void refuseToFollowItself(const std::string& follow, const std::string& where) {
+  const std::string own = ros::names::resolve("state");
+  if (follow.empty() || ros::names::resolve(follow) != own) return;
+  throw InputError(
+      fmt::format("{}: follow: {} is the topic of this node; give the state topic of another node",
+                  where, own));
+}
+
 NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where) {
   NodeConfiguration configuration;
   OptionSet options = nodeOptions(configuration);
@@ -114,6 +124,7 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
     }
   }
   checkScenario(configuration.scenario);
+  refuseToFollowItself(configuration.options.follow, where);
   for (const std::string_view key : unusedKeys(configuration.scenario, options)) {
     configuration.unused.emplace_back(key);
   }
