@@ -48,7 +48,11 @@ std::string pathText(const py::object& value) {
   if (py::isinstance<py::bytes>(path)) return path.cast<std::string>();
   const auto bytes = py::reinterpret_steal<py::bytes>(PyUnicode_EncodeFSDefault(path.ptr()));
   if (!bytes) throw py::error_already_set();
-  return bytes;
+  std::string text = bytes;
+  if (text.find('\0') != std::string::npos) {
+    throw InputError(fmt::format("{}: a path must not have a null character", reprOf(value)));
+  }
+  return text;
 }
 
 /// Whether Python converts a value to a number without parsing text.

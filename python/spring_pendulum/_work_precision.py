@@ -5,7 +5,7 @@ import time
 import warnings
 from typing import Any, Iterable, List, NamedTuple, Optional
 
-from ._core import Chain, Integrator, Method, State, find_method, make_integrator, methods as all_methods
+from ._core import Chain, InputError, Integrator, Method, State, find_method, make_integrator, methods as all_methods
 from ._functions import simulate
 
 TIME_STEPS = tuple(0.05 / 2**k for k in range(8))
@@ -71,7 +71,11 @@ def work_precision(particles: Any, methods: Optional[Iterable[str]] = None, *, d
     Raises:
         InputError, FileError: as simulate
     """
-    chosen = all_methods() if methods is None else [find_method(name) for name in methods]
+    names = [methods] if isinstance(methods, str) else methods
+    chosen = all_methods() if names is None else [find_method(name) for name in names]
     time_steps, tolerances = list(time_steps), list(tolerances)
+    for key, value in [('duration', duration), *(('time_steps', step) for step in time_steps)]:
+        if not 0 < value < float('inf'):
+            raise InputError(f'{key}: must be above 0 s and finite, got {value}')
     return [_measure(particles, method, value, duration, options) for method in chosen
             for value in (time_steps if method.fixed_step else tolerances)]

@@ -67,7 +67,7 @@ class Misuse(unittest.TestCase):
     def test_files(self):
         self.refused('nowhere.txt', sp.simulate, 'nowhere.txt', error=sp.FileError)
         self.refused('nowhere.txt', sp.simulate, pathlib.Path('nowhere.txt'), error=OSError)
-        self.refused('.', sp.simulate, 'a\0b', error=(sp.InputError, sp.FileError))
+        self.refused(r"'a\\x00b': a path must not have a null character", sp.simulate, 'a\0b')
         self.refused('.', sp.simulate, '', error=sp.FileError)
         self.refused('.', sp.simulate, SCENE, output='/proc/none', error=sp.FileError)
         with tempfile.TemporaryDirectory() as folder:
@@ -104,6 +104,13 @@ class Misuse(unittest.TestCase):
         with self.assertRaises(ValueError):
             chain.masses[1] = 5
         self.assertEqual(state.x.tolist(), [0, 1, 2])
+
+    def test_work_precision(self):
+        for key, value in [('duration', NAN), ('duration', -1), ('duration', float('inf')), ('time_steps', [0.1, 0]),
+                           ('time_steps', [NAN])]:
+            with self.subTest(key=key, value=value):
+                self.refused('^%s: must be above 0 s' % key, sp.work_precision, SCENE, ['Euler'], **{key: value})
+        self.refused("unknown method 'Oiler'", sp.work_precision, SCENE, 'Oiler')
 
     def test_methods(self):
         good = {'a': [[], [1]], 'b': [.5, .5]}
