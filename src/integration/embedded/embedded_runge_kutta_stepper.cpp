@@ -61,27 +61,19 @@ double EmbeddedRungeKuttaStepper::errorOf(const EmbeddedPair::Weights& weights, 
          0.0 * (change.position + change.velocity);
 }
 
-void EmbeddedRungeKuttaStepper::makeExtraSlopes() const {
-  if (extra_slopes_known_) return;
-  for (std::size_t i = pair_.tableau.stages + 1; i < pair_.dense_slopes; ++i) {
-    const StageSum sum(statistics().last_step, pair_.tableau.a[i], slopes_);
-    kernels().stageSlope(kernelChain(), begin().data(), sum, slopes_[i].data());
-    ++extra_evaluations_;
-  }
-  extra_slopes_known_ = true;
-}
-
 const StateBuffer& EmbeddedRungeKuttaStepper::stateInside(double fraction) const {
-  makeExtraSlopes();
-  const StageSum sum(statistics().last_step, pair_.denseWeights(fraction), slopes_);
-  kernels().combine(begin().pitch(), begin().data(), sum, inside_.data());
+  const double h = statistics().last_step;
+  if (!extra_slopes_known_) {
+    for (std::size_t i = pair_.tableau.stages + 1; i < pair_.dense_slopes; ++i) {
+      kernels().stageSlope(kernelChain(), begin().data(), StageSum(h, pair_.tableau.a[i], slopes_),
+                           slopes_[i].data());
+      ++counters().force_evaluations;
+    }
+    extra_slopes_known_ = true;
+  }
+  kernels().combine(begin().pitch(), begin().data(),
+                    StageSum(h, pair_.denseWeights(fraction), slopes_), inside_.data());
   return inside_;
-}
-
-StepStatistics EmbeddedRungeKuttaStepper::statistics() const {
-  StepStatistics statistics = ErrorEstimatingStepper::statistics();
-  statistics.force_evaluations += extra_evaluations_;
-  return statistics;
 }
 
 }  // namespace spring_pendulum

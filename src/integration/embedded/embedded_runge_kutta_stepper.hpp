@@ -18,20 +18,16 @@ class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
   EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair* pair, double tolerance,
                             const ChainKernels& kernels = fastestChainKernels());
 
-  StepStatistics statistics() const override;
-
  private:
   void prepare(bool restarted) override;
   double attempt(double h) override;
   const StateBuffer& stateInside(double fraction) const override;
   double errorOf(const EmbeddedPair::Weights& weights, double h) const;
-  void makeExtraSlopes() const;
 
   const EmbeddedPair& pair_;
   // `stateInside` computes the extra slopes when they are first needed.
   mutable std::vector<StateBuffer> slopes_;
   mutable bool extra_slopes_known_ = false;
-  mutable std::int64_t extra_evaluations_ = 0;
   mutable StateBuffer inside_;
 };
 

@@ -63,7 +63,8 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   const StateBuffer& carry() const { return begin_carry_; }
   /// end() = begin() + (change + sum), where change contains `carry()`.
   void setEnd(const StateBuffer& change, SlopeSum sum);
-  StepStatistics& counters() { return statistics_; }
+  /// The dense output may need evaluations, too.
+  StepStatistics& counters() const { return statistics_; }
 
  private:
   Chain chain_;
@@ -77,7 +78,7 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   StateBuffer end_carry_;
   bool restarted_ = true;
   double next_step_ = 0.0;
-  StepStatistics statistics_;
+  mutable StepStatistics statistics_;
 };
 
 }  // namespace spring_pendulum
