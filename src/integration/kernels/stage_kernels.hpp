@@ -4,10 +4,12 @@
 
 #include "integration/kernels/block.hpp"
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/largest.hpp"
+#include "integration/kernels/instruction_sets/pack.hpp"
 #include "integration/kernels/taylor_workspace.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 namespace spring_pendulum {
 namespace {
@@ -18,6 +20,29 @@ constexpr double kMuch = 0.9;
 /// Length of a spring, m, that counts as much if its length was 0. A spring of length 0 exerts no
 /// force; up to this length that makes no difference.
 constexpr double kNoLength = 1e-12;
+
+/// A maximum of absolute values that becomes NaN if a value is not finite. It compares the bits of
+/// the numbers as integers: those of infinity and NaN are larger than those of finite numbers. A
+/// comparison of the numbers would ignore NaN.
+class Largest {
+ public:
+  [[gnu::always_inline]] void add(Pack value) {
+    const Pack::Bits bits = absoluteBits(value);
+    largest_ = bits > largest_ ? bits : largest_;
+  }
+  [[gnu::always_inline]] double result() const {
+    std::int64_t largest = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (largest_[lane] > largest) largest = largest_[lane];
+    }
+    double result = 0.0;
+    std::memcpy(&result, &largest, sizeof(result));
+    return result + (result - result);
+  }
+
+ private:
+  Pack::Bits largest_{};
+};
 
 [[gnu::always_inline]] inline Block plusSum(Block result, SlopeSum sum, std::ptrdiff_t pitch,
                                             std::ptrdiff_t block) {
