@@ -32,7 +32,7 @@ ROOMS = {
 # Files directly in the folder of a layer come before its rooms, in these layers after them ...
 AFTER_THE_ROOMS = {'integration': 5, 'ros': 5}
 # ... except for these, and for these, which come between two rooms.
-BETWEEN_ROOMS = {'run': 2, 'run_report': 2}
+BETWEEN_ROOMS = {'run': 2}
 BEFORE_THE_ROOMS = ('integrator', 'butcher_tableau', 'smallest_tolerance', 'work')
 
 

@@ -1,4 +1,5 @@
 #include "base/checks.hpp"
+#include "integration/work.hpp"
 #include "model/chain_modes.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
@@ -35,10 +36,8 @@ constexpr double kSensitiveError = 0.3;
 /// Growth of rounding errors above which the motion and not the rounding is to blame.
 constexpr double kSensitiveGrowth = 100.0;
 
-/// Work that is always allowed, and work between two questions whether to stop, s; see
-/// Integrator::work.
+/// Work that is always allowed, s; see Integrator::work.
 constexpr double kFreeWork = 0.12;
-constexpr double kWorkBetweenStops = 0.005;
 /// Longer chains are measured only on request, because a reference run would need much memory.
 constexpr Eigen::Index kMostParticles = 100'000;
 

@@ -1,12 +1,15 @@
 #include "base/checks.hpp"
+#include "base/numbers.hpp"
 #include "base/stopwatch.hpp"
-#include "simulation/expected_work.hpp"
-#include "simulation/memory.hpp"
+#include "integration/work.hpp"
+#include "simulation/expected_cost.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include "simulation/sleep.hpp"
 #include <spring_pendulum/integration/smallest_tolerance.hpp>
 #include <spring_pendulum/model/equilibrium.hpp>
 #include <spring_pendulum/simulation/run.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +18,6 @@
 namespace spring_pendulum {
 namespace {
 
-/// Work between two questions whether to stop, see Integrator::work.
-constexpr double kWorkBetweenStops = 0.005;  // s
 /// Work of a run whose energy balance is always computed; it takes less than the run.
 constexpr double kCheapWork = 0.05;  // s
 /// Number of particles from which on the kernels of explicit Runge-Kutta methods track the dissipated
@@ -26,10 +27,10 @@ constexpr Eigen::Index kLongChain = 100;
 constexpr double kMostParts = 1024.0;
 constexpr std::int64_t kMostThreads = 1024;
 
-bool dissipationIsCheap(const Scenario& scenario, const Chain& chain) {
-  const Method& method = scenario.method;
+bool dissipationIsCheap(const Method& method, const Chain& chain, const FrameSteps& frame,
+                        std::int64_t frames) {
   if (method.hasFixedStep() && method.tableau != nullptr && chain.size() >= kLongChain) return true;
-  return expectedWork(scenario, chain) <= kCheapWork;
+  return expectedWork(method, chain, frame, frames) <= kCheapWork;
 }
 
 /// Tolerance of an error-controlled method, m; 0 for fixed steps.
@@ -73,8 +74,10 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
       first_frame_(particles.frame),
       state_(start_),
       frame_steps_(frameSteps(scenario)),
-      track_dissipation_(chain_.isDissipative() &&
-                         (options.track_dissipation || dissipationIsCheap(scenario, chain_))),
+      track_dissipation_(
+          chain_.isDissipative() &&
+          (options.track_dissipation ||
+           dissipationIsCheap(scenario.method, chain_, frame_steps_, scenario.frames))),
       judge_(chain_, start_, judgeOptions(first_frame_)),
       frame_(first_frame_) {
   checkMemory(scenario, chain_.size());
@@ -284,6 +287,22 @@ PositionError Run::positionError() const {
 
 const State* Run::referenceState() const {
   return reference_ ? reference_->state() : nullptr;
+}
+
+std::string Run::closingLine(const Integrator& integrator, const std::string& output) const {
+  const Method& method = scenario_.method;
+  const std::string report = integrator.report();
+  return fmt::format(
+      "{}{}: {}, {}{}, {}{}, {} integrating{}, {} reference run, {}, verdict: {}", method.name,
+      report.empty() ? "" : " (" + report + ")", counted(chain_.size(), "particle"),
+      counted(totals_.frames, "frame"),
+      totals_.slept_frames > 0 ? fmt::format(" ({} at rest, not integrated)", totals_.slept_frames)
+                               : "",
+      method.hasFixedStep() ? counted(totals_.integrated_frames * frame_steps_.steps, "step") + ", "
+                            : "",
+      counted(evaluations_before_ + integrator.forceEvaluations(), "force evaluation"),
+      durationText(totals_.seconds), output, durationText(totals_.reference_seconds),
+      measurements(), toString(verdict().kind));
 }
 
 std::int64_t Run::stepOfPart(std::int64_t part) const {

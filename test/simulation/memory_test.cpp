@@ -1,7 +1,6 @@
 // What a run says about its memory before it starts. That the figures are true is tested with
 // Exercise3 (process_exercise3_memory_test).
-#include "simulation/memory.hpp"
-
+#include "simulation/expected_cost.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>

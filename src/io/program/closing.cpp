@@ -5,7 +5,7 @@
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
-#include "simulation/memory.hpp"
+#include "simulation/expected_cost.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 

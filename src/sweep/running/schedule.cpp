@@ -1,6 +1,6 @@
 #include "sweep/running/schedule.hpp"
 
-#include "simulation/expected_work.hpp"
+#include "simulation/expected_cost.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
@@ -39,7 +39,9 @@ void forecast(const Study& study, std::int64_t begin, std::int64_t end, CaseMake
     const auto n = static_cast<std::size_t>(i);
     try {
       const Run run(scenario, made.particles);
-      result.work[n] = kWorkOfCase + static_cast<float>(expectedWork(scenario, run.chain()));
+      result.work[n] =
+          kWorkOfCase + static_cast<float>(expectedWork(scenario.method, run.chain(),
+                                                        frameSteps(scenario), scenario.frames));
     } catch (const InputError& error) {
       throw InputError("case " + std::to_string(i) + ": " + error.what());
     }

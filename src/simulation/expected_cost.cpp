@@ -1,10 +1,12 @@
-#include "simulation/memory.hpp"
+#include "simulation/expected_cost.hpp"
 
-#include <spring_pendulum/integration/method_table.hpp>
+#include "integration/work.hpp"
+#include "model/chain_modes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -25,7 +27,26 @@ std::string needOf(const Scenario& scenario, Eigen::Index particles) {
                      particles);
 }
 
+/// Expected number of steps of an error-controlled method: about twenty per second, and more if
+/// springs vibrate or stability limits the step size.
+double expectedSteps(const Chain& chain, double duration) {
+  const double mode = largestSpringMode(chain);  // 1/kg
+  const double per_second =
+      20.0 + 0.5 * std::sqrt(chain.spring().stiffness * mode) + 0.1 * largestDampingRate(chain);
+  return per_second * duration;
+}
+
 }  // namespace
+
+double expectedWork(const Method& method, const Chain& chain, const FrameSteps& frame,
+                    std::int64_t frames) {
+  const double intervals = static_cast<double>(frames - 1) * static_cast<double>(frame.steps);
+  if (method.hasFixedStep()) {
+    return intervals * method.stages * kFixedStepTime.of(chain.size());
+  }
+  return expectedSteps(chain, intervals * frame.time_step) * method.stages *
+         kTaylorTime.of(chain.size());
+}
 
 double expectedMemory(const Scenario& scenario, Eigen::Index particles) {
   const double reference = scenario.reference == ReferenceUse::kAlways ? kBytesOfReference : 0.0;

@@ -1,13 +1,19 @@
-// Estimates the memory of a run before it starts.
+// Estimates the memory and the work of a run before it starts.
 #pragma once
 
+#include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <string>
 
 namespace spring_pendulum {
+
+/// Returns the expected work of a run without its reference run, s; see Integrator::work.
+double expectedWork(const Method& method, const Chain& chain, const FrameSteps& frame,
+                    std::int64_t frames);
 
 /// Returns an upper estimate of the memory of a run, B. Measured with Exercise3; the messages of
 /// the node and a bag need more.
