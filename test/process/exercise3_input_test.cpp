@@ -166,7 +166,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"FlagWithValue",
                  {"Euler", "--no-frames=1"},
                  2,
-                 "option '--no-frames' does not take any arguments\n"},
+                 "--no-frames: takes no value, see --help\n"},
+        BadInput{
+            "UnknownOptionWithoutValue", {"Euler", "--framse="}, 2, "unknown option '--framse'"},
+        BadInput{
+            "NamelessOption", {"Euler", "--=", "--=3"}, 2, "unknown option ''; known options: "},
+        BadInput{"ValueOfASwitchMissing",
+                 {"Euler", "--no-frames="},
+                 2,
+                 "--no-frames: takes no value, see --help\n"},
         BadInput{"MoreStepsThanCounted",
                  {"Euler", "--frames", "9223372036854775807", "--steps-per-frame", "2"},
                  2,

@@ -14,16 +14,26 @@ namespace spring_pendulum {
 
 namespace po = boost::program_options;
 
+namespace {
+
+std::string unknownOption(const std::string& name, const po::options_description& description) {
+  std::vector<std::string> known;
+  for (const auto& option : description.options()) known.push_back("--" + option->long_name());
+  return unknownName("option", name, known);
+}
+
+}  // namespace
+
 std::vector<po::option> splitArguments(int argc, const char* const* argv,
                                        const po::options_description& description) {
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   namespace style = po::command_line_style;
   try {
-    const std::vector<po::option> options = po::command_line_parser(arguments)
-                                                .options(description)
-                                                .style(style::unix_style & ~style::allow_guessing)
-                                                .run()
-                                                .options;
+    std::vector<po::option> options = po::command_line_parser(arguments)
+                                          .options(description)
+                                          .style(style::unix_style & ~style::allow_guessing)
+                                          .run()
+                                          .options;
     for (const po::option& option : options) {
       const std::vector<std::string>& tokens = option.original_tokens;
       if (option.string_key.empty() || tokens.size() < 2 || tokens[1].rfind("--", 0) != 0) continue;
@@ -31,14 +41,16 @@ std::vector<po::option> splitArguments(int argc, const char* const* argv,
     }
     return options;
   } catch (const po::unknown_option& error) {
-    std::vector<std::string> known;
-    for (const auto& option : description.options()) known.push_back("--" + option->long_name());
-    throw InputError(unknownName("option", error.get_option_name(), known));
+    throw InputError(unknownOption(error.get_option_name(), description));
   } catch (const po::invalid_command_line_syntax& error) {
-    const bool lacks_value = error.kind() == po::invalid_syntax::missing_parameter ||
-                             error.kind() == po::invalid_syntax::empty_adjacent_parameter;
-    if (!lacks_value) throw InputError(error.what());
-    throw InputError(fmt::format("{}: needs a value, see --help", error.get_option_name()));
+    const std::string name = error.get_option_name();
+    const std::size_t begin = name.find_first_not_of('-');
+    const po::option_description* const option =
+        begin < name.size() ? description.find_nothrow(name.substr(begin), false) : nullptr;
+    if (option == nullptr) throw InputError(unknownOption(name, description));
+    const bool takes_value = option->semantic()->max_tokens() > 0;
+    throw InputError(
+        fmt::format("{}: {} value, see --help", name, takes_value ? "needs a" : "takes no"));
   } catch (const po::error& error) {
     throw InputError(fmt::format("{}, see --help", error.what()));
   }
