@@ -158,6 +158,18 @@ class Launch(unittest.TestCase):
                 self.assertEqual(done.stderr, "film.sh: %s is '0.0': must be above 0\n" % option)
                 self.assertEqual(done.returncode, 1)
 
+    def test_film_sh_refuses_what_it_cannot_write_before_it_films(self):
+        with Folder() as folder:
+            with open(folder + '/one.bag', 'w'):
+                pass
+            os.mkdir(folder + '/a.gif')
+            for name, reason in (('nowhere/a.gif', 'film.sh: the folder of \'%s\' does not exist\n'),
+                                 ('a.gif', 'film.sh: \'%s\' cannot be written\n')):
+                out = folder + '/' + name
+                done = subprocess.run([project('scripts/film.sh'), folder + '/one.bag', out],
+                                      capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stderr), (1, reason % os.path.realpath(out)))
+
     def test_rviz_without_a_display_says_so(self):
         environment = dict(os.environ)
         for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM'):
