@@ -192,8 +192,9 @@ AllFrames readFrames(const std::vector<FrameText>& texts, std::ptrdiff_t particl
   all.single_precision = reader.areFloats() && reader.digits() >= 9;
   for (const std::string& remark :
        {missingFrames(all.frames), fewDigits(all.digits),
-        std::string(reader.hasCommas() ? "commas separate the columns; the exercise wants blanks"
-                                       : "")}) {
+        std::string(reader.hasCommas()
+                        ? "commas or semicolons separate the columns; the exercise wants blanks"
+                        : "")}) {
     if (!remark.empty()) all.remarks.push_back(remark);
   }
   return all;
