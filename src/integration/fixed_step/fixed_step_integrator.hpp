@@ -44,7 +44,6 @@ class FixedStepIntegrator : public Integrator {
   }
   /// Adds the powers at a state, dissipated and supplied, times `time` s.
   void addPowers(const StateBuffer& state, double time) {
-    if (!energy_flow_.isNeeded()) return;
     energy_flow_.add(kernels_, chain(), state, time, time * chain().spring.damping);
   }
 

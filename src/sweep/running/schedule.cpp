@@ -59,7 +59,7 @@ Forecast forecastAll(const Study& study, int threads) {
   std::exception_ptr failure;
   const auto work = [&] {
     CaseMaker maker(study);
-    for (std::int64_t begin; (begin = next.fetch_add(kCasesAtOnce)) < cases;) {
+    for (std::int64_t begin = 0; (begin = next.fetch_add(kCasesAtOnce)) < cases;) {
       try {
         forecast(study, begin, std::min(cases, begin + kCasesAtOnce), maker, result);
       } catch (...) {
