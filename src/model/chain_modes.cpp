@@ -9,50 +9,35 @@ namespace {
 constexpr double kPrecision = 1e-4;            ///< relative precision of the largest eigenvalue
 constexpr Eigen::Index kSwingingSprings = 10;  ///< number of springs that swing as a rigid body
 
-/// The tridiagonal matrix B M^-1 B^T.
-class SpringMatrix {
- public:
-  explicit SpringMatrix(const Chain& chain) : inverse_masses_(chain.inverseMasses()) {}
+using InverseMasses = AlignedNumbers::ConstView;
 
-  double diagonal(Eigen::Index i) const { return inverse_masses_[i] + inverse_masses_[i + 1]; }
+/// Diagonal entry of the tridiagonal matrix A = B M^-1 B^T. Beside it are the negative inverse masses.
+double diagonal(const InverseMasses& inverse_masses, Eigen::Index i) {
+  return inverse_masses[i] + inverse_masses[i + 1];
+}
 
-  /// Whether all eigenvalues lie below `bound`: all pivots of bound·I - A are positive.
-  bool isBelow(double bound) const {
-    double pivot = bound - diagonal(0);
-    for (Eigen::Index i = 1; i + 1 < inverse_masses_.size() && pivot > 0.0; ++i) {
-      pivot = bound - diagonal(i) - inverse_masses_[i] * inverse_masses_[i] / pivot;
-    }
-    return pivot > 0.0;
+/// Whether all eigenvalues lie below `bound`: all pivots of bound·I - A are positive.
+bool isBelow(const InverseMasses& inverse_masses, double bound) {
+  double pivot = bound - diagonal(inverse_masses, 0);
+  for (Eigen::Index i = 1; i + 1 < inverse_masses.size() && pivot > 0.0; ++i) {
+    pivot = bound - diagonal(inverse_masses, i) - inverse_masses[i] * inverse_masses[i] / pivot;
   }
-
-  double largestDiagonal() const {
-    double largest = 0.0;
-    for (Eigen::Index i = 0; i + 1 < inverse_masses_.size(); ++i) {
-      largest = std::max(largest, diagonal(i));
-    }
-    return largest;
-  }
-
-  /// Bisects between the largest diagonal entry and twice this value, which bounds the eigenvalues
-  /// because A is diagonally dominant after scaling by M.
-  double largestEigenvalue() const {
-    double least = largestDiagonal();
-    double most = 2.0 * least;
-    while (most - least > kPrecision * least) {
-      const double middle = 0.5 * (least + most);
-      (isBelow(middle) ? most : least) = middle;
-    }
-    return most;
-  }
-
- private:
-  AlignedNumbers::ConstView inverse_masses_;
-};
+  return pivot > 0.0;
+}
 
 }  // namespace
 
+// Bisects between the largest diagonal entry and twice this value, which bounds the eigenvalues
+// because A is diagonally dominant after scaling by M.
 double largestSpringMode(const Chain& chain) {
-  return chain.size() < 2 ? 0.0 : SpringMatrix(chain).largestEigenvalue();
+  if (chain.size() < 2) return 0.0;
+  double least = stiffestSpring(chain);
+  double most = 2.0 * least;
+  while (most - least > kPrecision * least) {
+    const double middle = 0.5 * (least + most);
+    (isBelow(chain.inverseMasses(), middle) ? most : least) = middle;
+  }
+  return most;
 }
 
 double largestDampingRate(const Chain& chain) {
@@ -62,7 +47,11 @@ double largestDampingRate(const Chain& chain) {
 }
 
 double stiffestSpring(const Chain& chain) {
-  return SpringMatrix(chain).largestDiagonal();
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i + 1 < chain.size(); ++i) {
+    largest = std::max(largest, diagonal(chain.inverseMasses(), i));
+  }
+  return largest;
 }
 
 double slowSwing(const Chain& chain) {
