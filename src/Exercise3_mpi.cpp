@@ -113,17 +113,21 @@ int simulate(const Ranks& ranks, const Scenario& scenario, const Switches& switc
   Totals totals;
   int signal = 0;
   for (std::int64_t frame = first; frame < scenario.frames && signal == 0; ++frame) {
+    bool complete = true;
     if (frame > first) {
       const Stopwatch stopwatch(totals.seconds);
-      part.advance(steps.time_step, steps.steps);
-      totals.steps += steps.steps;
+      complete = part.advance(steps.time_step, steps.steps, [] { return interruption() != 0; });
     }
+    // What any rank gave up, all discard.
+    const auto agreed = ranks.largest({interruption(), complete ? 0 : 1});
+    signal = static_cast<int>(agreed[0]);
+    if (agreed[1] != 0) break;
+    if (frame > first) totals.steps += steps.steps;
     const auto [energy, dissipated] = part.totals();
     judge.judge(steps.timeOfFrame(frame), energy, dissipated);
     if (!judge.isShown(scenario.on_divergence == OnDivergence::kContinue)) break;
     files.write(frame, part, judge.entry());
     ++totals.frames;
-    signal = static_cast<int>(ranks.largest({interruption()}).front());
   }
   files.finish(part);
   ranks.together([&] {

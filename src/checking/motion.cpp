@@ -1,5 +1,6 @@
 #include "checking/motion.hpp"
 
+#include "integration/work.hpp"
 #include <spring_pendulum/simulation/frame_steps.hpp>
 
 #include <array>
@@ -14,8 +15,6 @@ namespace {
 /// Rounding errors of a step, in units of the last digit of the largest number. Measured: at most 3
 /// for Runge-Kutta-4 in other orders of summation.
 constexpr double kRoundingErrors = 16.0;
-/// Work between two questions whether to stop, s; see Integrator::work.
-constexpr double kWorkBetweenStops = 0.05;
 
 /// Adds rounding errors to a column of the state, except to the first particle; nothing if all are
 /// equal, like x in a vertical chain: their differences are exact.

@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "base/stopwatch.hpp"
+#include "integration/work.hpp"
 #include "model/block_sums.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
@@ -40,11 +41,17 @@ FixedStepIntegrator& ChainPart::Piece::fixedStep() const {
   return dynamic_cast<FixedStepIntegrator&>(*integrator);
 }
 
-void ChainPart::Piece::advance(double time_step, std::int64_t steps) {
+bool ChainPart::Piece::advance(double time_step, std::int64_t steps,
+                               const std::function<bool()>& stop) {
   // Velocity-Verlet keeps accelerations, which are wrong at the ends of a piece. It keeps them only
   // without damping, and then there is no dissipated energy that this could reset.
   if (chain.spring().damping == 0.0) integrator->restart();
-  integrator->advance(state, time_step, steps);
+  while (steps > 0) {
+    if (stop()) return false;
+    steps -=
+        integrator->advanceWithin(state, time_step, steps, integrator->work() + kWorkBetweenStops);
+  }
+  return true;
 }
 
 ChainPart::ChainPart(const Ranks& ranks, const Scenario& scenario, const Part& part,
@@ -123,7 +130,7 @@ std::vector<MPI_Request> ChainPart::exchange(std::ptrdiff_t count) {
   return requests;
 }
 
-void ChainPart::advance(double time_step, std::int64_t steps) {
+bool ChainPart::advance(double time_step, std::int64_t steps, const std::function<bool()>& stop) {
   for (Strip& strip : strips_) {
     strip.outgoing = own_.state.values().middleRows(strip.sent, border_);
     strip.piece.state.values().middleRows(strip.copy_at, 2 * border_ + 1) =
@@ -134,22 +141,27 @@ void ChainPart::advance(double time_step, std::int64_t steps) {
     const Stopwatch stopwatch(seconds_exchanging_);
     requests = exchange(4 * border_);
   }
-  own_.advance(time_step, steps);
+  bool complete = own_.advance(time_step, steps, stop);
   {
     const Stopwatch stopwatch(seconds_exchanging_);
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   }
-  for (Strip& strip : strips_) finishStrip(strip, time_step, steps);
+  for (Strip& strip : strips_) {
+    complete = complete && finishStrip(strip, time_step, steps, stop);
+  }
+  return complete;
 }
 
-void ChainPart::finishStrip(Strip& strip, double time_step, std::int64_t steps) {
+bool ChainPart::finishStrip(Strip& strip, double time_step, std::int64_t steps,
+                            const std::function<bool()>& stop) {
   strip.piece.state.values().middleRows(strip.halo_at, border_) = strip.incoming;
-  strip.piece.advance(time_step, steps);
+  if (!strip.piece.advance(time_step, steps, stop)) return false;
   own_.state.values().middleRows(strip.results, border_) =
       strip.piece.state.values().middleRows(strip.result_at, border_);
-  if (!track_dissipation_) return;
+  if (!track_dissipation_) return true;
   std::copy_n(strip.piece.fixedStep().dissipated().data() + border_, border_,
               own_.fixedStep().dissipated().data() + strip.springs);
+  return true;
 }
 
 ChainPart::Totals ChainPart::totals() const {

@@ -13,6 +13,7 @@
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,7 +28,10 @@ class ChainPart {
   /// \throws RankFailure if the method has no border, or a part is shorter than two borders
   ChainPart(const Ranks& ranks, const Scenario& scenario, const Part& part, bool track_dissipation);
 
-  void advance(double time_step, std::int64_t steps);
+  /// \param stop asked every few milliseconds whether to give up, after which only the files may be
+  ///   finished; the other ranks need not give up
+  /// \returns false if `stop` returned true
+  bool advance(double time_step, std::int64_t steps, const std::function<bool()>& stop);
 
   /// Energy of the whole chain, and the energy dissipated so far, J.
   struct Totals {
@@ -56,7 +60,7 @@ class ChainPart {
     std::unique_ptr<Integrator> integrator;
 
     FixedStepIntegrator& fixedStep() const;
-    void advance(double time_step, std::int64_t steps);
+    bool advance(double time_step, std::int64_t steps, const std::function<bool()>& stop);
   };
   /// The piece at an end of the part, and where its rows come from and go to.
   struct Strip {
@@ -79,7 +83,8 @@ class ChainPart {
   void addStrips();
   /// Starts to exchange `count` numbers of `outgoing` and `incoming` of each strip.
   std::vector<MPI_Request> exchange(std::ptrdiff_t count);
-  void finishStrip(Strip& strip, double time_step, std::int64_t steps);
+  bool finishStrip(Strip& strip, double time_step, std::int64_t steps,
+                   const std::function<bool()>& stop);
 
   const Ranks& ranks_;
   const Scenario& scenario_;

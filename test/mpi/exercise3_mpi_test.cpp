@@ -235,6 +235,22 @@ TEST_F(Exercise3Mpi, AKilledRankEndsTheJob) {
   }
 }
 
+// The frame would take hours.
+TEST_F(Exercise3Mpi, ASignalEndsALongFrame) {
+  Command ended = command(0, {});
+  ended.arguments = {"bash", "-c",
+                     fmt::format("'{}' Runge-Kutta-4 -o long --steps-per-frame 2000000000 "
+                                 "--time-step 1e-4 --save-state state.txt & job=$!; "
+                                 "until [ -e long/frame_0000.txt ]; do sleep 0.02; done; "
+                                 "kill $job; wait $job",
+                                 EXERCISE3_MPI)};
+  const Result result = run(ended);
+  EXPECT_EQ(result.status, 143) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("1 frame, 0 steps,"));
+  EXPECT_EQ(listFolder(folder_.path("long")), std::vector<std::string>{"frame_0000.txt"});
+  EXPECT_THAT(read("state.txt"), HasSubstr("frame 0"));
+}
+
 TEST_F(Exercise3Mpi, Exercise3IsNotStartedSeveralTimes) {
   const Result result = run(command(2, {"Euler", "-o", "shared"}, EXERCISE3));
   EXPECT_EQ(result.status, 2);
