@@ -93,8 +93,7 @@ TEST(StabilizedTaylorStepper, TableOfMethodsStatesTheLargestLimitAndTheLeastTerm
 }
 
 DenseOutputIntegrator stabilized(const Chain& chain, int order, double tolerance) {
-  return DenseOutputIntegrator(chain,
-                               std::make_unique<StabilizedTaylorStepper>(chain, order, tolerance));
+  return {chain, std::make_unique<StabilizedTaylorStepper>(chain, order, tolerance)};
 }
 
 struct Measured {
