@@ -118,7 +118,7 @@ int simulate(const Ranks& ranks, const Scenario& scenario, const Switches& switc
       const Stopwatch stopwatch(totals.seconds);
       complete = part.advance(steps.time_step, steps.steps, [] { return interruption() != 0; });
     }
-    // What any rank gave up, all discard.
+    // All ranks discard a frame that one of them gave up.
     const auto agreed = ranks.largest({interruption(), complete ? 0 : 1});
     signal = static_cast<int>(agreed[0]);
     if (agreed[1] != 0) break;

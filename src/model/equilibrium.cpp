@@ -174,9 +174,7 @@ State equilibrium(const Chain& chain, const State& state) {
   }
   if (!result.values().allFinite()) {
     throw InputError(
-        "the length of the chain at rest exceeds the range of a double: the stiffness must be "
-        "larger, "
-        "or gravity, masses and forces smaller");
+        "the chain at rest is longer than a double can hold: the stiffness must be larger");
   }
   if (!isBalanced(chain, result)) {
     throw InputError(

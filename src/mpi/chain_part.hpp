@@ -28,9 +28,8 @@ class ChainPart {
   /// \throws RankFailure if the method has no border, or a part is shorter than two borders
   ChainPart(const Ranks& ranks, const Scenario& scenario, const Part& part, bool track_dissipation);
 
-  /// \param stop asked every few milliseconds whether to give up, after which only the files may be
-  ///   finished; the other ranks need not give up
-  /// \returns false if `stop` returned true
+  /// \param stop asked every few milliseconds whether to give up; another rank may still complete
+  /// \returns false if `stop` returned true; the state is of no use then
   bool advance(double time_step, std::int64_t steps, const std::function<bool()>& stop);
 
   /// Energy of the whole chain, and the energy dissipated so far, J.

@@ -33,6 +33,8 @@ constexpr double kRounding = 3e-14;
 /// scenes with tolerances above 1e-10 m: at most 0.34 while perturbations had grown up to 100 times; at
 /// least 0.3 in 99 % of 1031 runs that were over ten tolerances off after they had grown more.
 constexpr double kSensitiveError = 0.3;
+/// Least length to which errors are related, relative to the largest length of the chain so far.
+constexpr double kShareOfLength = 0.01;
 /// Growth of rounding errors above which the motion and not the rounding is to blame.
 constexpr double kSensitiveGrowth = 100.0;
 
@@ -170,8 +172,8 @@ const ReferenceFrame* SharedReference::frame(std::int64_t index, double allowed_
 
 ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
     : chain_(chain),
-      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
       first_(scalesOf(chain, start, options.tolerance)),
+      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
       shared_(options.shared) {
   if (shared_) requireSize(chain.size(), shared_->size());
   if (start.size() <= kMostParticles || options.always) start_ = start;
@@ -228,7 +230,8 @@ void ReferenceRun::measure(double run_work) {
   allowed_work_ = std::max(free_work_, run_work);
   distance_ = shared_ ? shared_frame_->distance : trajectories_->distance();
   if (std::isnan(distance_)) return stop(Status::kFailed);
-  scales_.length = std::max(scales_.length, 0.01 * springLengths(*state(), 0, chain_.size() - 1));
+  scales_.length =
+      std::max(scales_.length, kShareOfLength * springLengths(*state(), 0, chain_.size() - 1));
   scales_.rounding = std::max(scales_.rounding, roundingOf(*state(), scales_.length));
   uncertainty_ = kSafety * distance_ + scales_.rounding;
   const double believed = kBelieved * scales_.length;

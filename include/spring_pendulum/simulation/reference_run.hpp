@@ -159,8 +159,8 @@ class ReferenceRun {
 
   Chain chain_;
   State start_;
-  ReferenceScales first_;  ///< at the start
-  ReferenceScales scales_;
+  ReferenceScales first_;      ///< at the start
+  ReferenceScales scales_;     ///< at the last frame
   double free_work_;           ///< s
   double allowed_work_ = 0.0;  ///< until the next frame, s
   bool gave_up_ = false;       ///< inside a frame

@@ -14,7 +14,7 @@ namespace spring_pendulum {
 
 class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
  public:
-  /// \param pair must outlive the stepper
+  /// \param pair not null, must outlive the stepper
   EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair* pair, double tolerance,
                             const ChainKernels& kernels = fastestChainKernels());
 

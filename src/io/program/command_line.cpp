@@ -114,22 +114,22 @@ bool isMethod(const std::string& text) {
                      [&](const Method& method) { return isSameName(method.name, text); });
 }
 
-/// Returns arguments that do not belong to an option.
-/// \throws InputError for an option in the notation of other programs, such as frames=5
+/// Returns the arguments that do not belong to an option.
+/// \throws InputError for an option in the notation of ROS or without dashes: _frames:=5, frames=5
 std::vector<std::string> positionals(const std::vector<po::option>& given,
                                      const OptionSet& options) {
   std::vector<std::string> texts;
   for (const po::option& argument : given) {
     if (!argument.string_key.empty()) continue;
     const std::string& text = argument.value.front();
-    for (const Option& option : options.options()) {
-      if (!isSameName(option.key, text.substr(0, text.find_first_of(":=")))) continue;
-      const std::size_t value = text.find('=');
-      if (value == std::string::npos) continue;
-      throw InputError(fmt::format("{}: write --{} {}", inQuotes(text), optionName(option.key),
-                                   onOneLine(text.substr(value + 1))));
-    }
     texts.push_back(text);
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos) continue;
+    for (const Option& option : options.options()) {
+      if (!isSameName(option.key, text.substr(0, sign))) continue;
+      throw InputError(fmt::format("{}: write --{} {}", inQuotes(text), optionName(option.key),
+                                   onOneLine(text.substr(sign + 1))));
+    }
   }
   return texts;
 }
