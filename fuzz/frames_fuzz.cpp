@@ -2,15 +2,14 @@
 // `@NAME` of the input begins the next file.
 #include "io/files/frame_folder_reader.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/checking/check_frames.hpp>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <unistd.h>
 
-#include "checking/check_report.hpp"
-#include "checking/frame_numbers.hpp"
+#include "check/check_frames.hpp"
+#include "check/frame_numbers.hpp"
 #include "fuzz_target.hpp"
 
 namespace {

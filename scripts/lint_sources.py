@@ -17,15 +17,15 @@ MOST_LINES = 400
 MOST_FILES = 15  # in a folder of the library
 
 # A layer includes itself and layers of a lower rank. Inside a layer the rooms, its folders, rank too.
-LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'checking': 4, 'io': 5, 'mpi': 6, 'ros': 6}
+LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'io': 4, 'check': 5, 'mpi': 5, 'ros': 5}
 ROOMS = {
     'base': {},
     'model': {},
     'integration': {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3,
                     'implicit': 3, 'automatic': 4},
     'simulation': {'options': 1, 'advice': 3},
-    'checking': {},
     'io': {'files': 1, 'formats': 2, 'program': 3},
+    'check': {},
     'mpi': {},
     'ros': {'parameters': 1, 'messages': 2, 'inputs': 3, 'node': 4},
 }

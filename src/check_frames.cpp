@@ -1,4 +1,6 @@
 // Says what is wrong with the frames of another program for the exercise.
+#include "check/check_frames.hpp"
+
 #include "io/files/frame_folder_reader.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
@@ -11,8 +13,6 @@
 
 #include <algorithm>
 #include <string>
-
-#include "checking/check_report.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-#include "checking/check_report.hpp"
+#include "check/check_frames.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <spring_pendulum/base/aligned_numbers.hpp>
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/checking/check_frames.hpp>
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/integration/method_table.hpp>

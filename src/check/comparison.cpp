@@ -1,4 +1,4 @@
-#include "checking/comparison.hpp"
+#include "check/comparison.hpp"
 
 #include <limits>
 #include <random>

@@ -1,4 +1,4 @@
-#include "checking/frame_numbers.hpp"
+#include "check/frame_numbers.hpp"
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"

@@ -1,6 +1,6 @@
 // One line per mistake, roughly in the order in which they are likely: if several reproduce the same
 // frames, the first is reported first.
-#include "checking/mistakes.hpp"
+#include "check/mistakes.hpp"
 
 #include <utility>
 

@@ -1,13 +1,13 @@
 // The numbers in the text of frames, and how exactly they were printed.
 #pragma once
 
-#include <spring_pendulum/checking/check_frames.hpp>
-
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "check/check_frames.hpp"
 
 namespace spring_pendulum {
 

@@ -12,7 +12,7 @@
 #include <memory>
 #include <random>
 
-#include "checking/mistakes.hpp"
+#include "check/mistakes.hpp"
 
 namespace spring_pendulum {
 

@@ -1,4 +1,4 @@
-#include "checking/motion.hpp"
+#include "check/motion.hpp"
 
 #include "integration/work.hpp"
 #include <spring_pendulum/simulation/frame_steps.hpp>

@@ -1,5 +1,3 @@
-#include "checking/check_report.hpp"
-
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
 
@@ -11,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "checking/mistakes.hpp"
+#include "check/check_frames.hpp"
+#include "check/mistakes.hpp"
 
 namespace spring_pendulum {
 namespace {

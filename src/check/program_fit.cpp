@@ -1,4 +1,4 @@
-#include "checking/program_fit.hpp"
+#include "check/program_fit.hpp"
 
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <unsupported/Eigen/NumericalDiff>

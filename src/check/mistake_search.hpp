@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "checking/comparison.hpp"
-#include "checking/mistakes.hpp"
+#include "check/comparison.hpp"
+#include "check/mistakes.hpp"
 
 namespace spring_pendulum {
 

@@ -6,6 +6,7 @@
 // run, disturbed by a few rounding errors in every frame, measures the latter.
 #pragma once
 
+#include "io/files/frame_folder_reader.hpp"
 #include <spring_pendulum/model/particles.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
@@ -15,15 +16,7 @@
 #include <string>
 #include <vector>
 
-#pragma GCC visibility push(default)
 namespace spring_pendulum {
-
-/// The text of one frame: a line `x y` per particle. Columns are separated by blanks or a comma.
-struct FrameText {
-  std::int64_t index = 0;  ///< NNNN of frame_NNNN.txt
-  std::string name;        ///< for error messages: "frame_0007.txt"
-  std::string text;
-};
 
 /// Where frames depart from a motion.
 struct Departure {
@@ -75,5 +68,20 @@ struct CheckOptions {
 FrameCheck checkFrames(const Scenario& scenario, const Particles& particles,
                        const std::vector<FrameText>& frames, const CheckOptions& options = {});
 
+/// Returns the result and the remarks, each on a line of its own.
+std::string reportOf(const FrameCheck& check);
+
+/// Returns the result on one line without its details: "equal to Euler", "heun + g".
+std::string shortReportOf(const FrameCheck& check);
+
+/// Returns a JSON object on one line.
+/// \param folder name of the frames
+std::string jsonOf(const FrameCheck& check, const std::string& folder);
+
+/// Returns a JSON object on one line for frames that can't be read.
+std::string jsonOfError(const std::string& message, const std::string& folder);
+
+/// Returns a line for each known mistake: its name and its sentence.
+std::string listOfMistakes();
+
 }  // namespace spring_pendulum
-#pragma GCC visibility pop

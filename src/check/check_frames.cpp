@@ -1,7 +1,8 @@
+#include "check/check_frames.hpp"
+
 #include "base/numbers.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/checking/check_frames.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
 
 #include <fmt/format.h>
@@ -10,9 +11,9 @@
 #include <cmath>
 #include <utility>
 
-#include "checking/comparison.hpp"
-#include "checking/frame_numbers.hpp"
-#include "checking/mistake_search.hpp"
+#include "check/comparison.hpp"
+#include "check/frame_numbers.hpp"
+#include "check/mistake_search.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "checking/frame_numbers.hpp"
-#include "checking/mistakes.hpp"
-#include "checking/motion.hpp"
+#include "check/frame_numbers.hpp"
+#include "check/mistakes.hpp"
+#include "check/motion.hpp"
 
 namespace spring_pendulum {
 

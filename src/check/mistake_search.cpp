@@ -1,4 +1,4 @@
-#include "checking/mistake_search.hpp"
+#include "check/mistake_search.hpp"
 
 #include "base/numbers.hpp"
 
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "checking/program_fit.hpp"
+#include "check/program_fit.hpp"
 
 namespace spring_pendulum {
 namespace {

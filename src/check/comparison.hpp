@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "checking/frame_numbers.hpp"
-#include "checking/motion.hpp"
+#include "check/frame_numbers.hpp"
+#include "check/motion.hpp"
 
 namespace spring_pendulum {
 
