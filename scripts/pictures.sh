@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Makes the pictures of the documents: docs/pendulum.gif, docs/compare.gif and docs/run_time_error.png.
+# Makes the pictures of the documents: docs/pendulum.gif, docs/compare.gif, docs/run_time_error.png and
+# docs/verification.png.
 # docs/pull.gif and docs/rviz_window.png need a virtual display: scripts/pictures.sh rviz
 # The plots of results are drawn from benchmark/results, so run scripts/benchmark.sh for new ones.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-"$project/scripts/setup.sh" core ros
+"$project/scripts/setup.sh" core python ros
 configure "$build"
-compile "$build" Exercise3
+compile "$build" Exercise3 spring_pendulum_python
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 docs=$project/docs
@@ -36,6 +37,7 @@ compare() {
 plots() {
   "$project/benchmark/reports/plot_run_time_error.py" "$project/benchmark/results/work_precision.csv" \
     horizontal_11 "$docs/run_time_error"
+  PYTHONPATH=$(devel_of "$build")/lib/python3/dist-packages "$docs/plots/verification.py"
 }
 
 # A chain with visible waves: stiffer springs, heavier and lighter particles.

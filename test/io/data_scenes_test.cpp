@@ -58,6 +58,7 @@ constexpr EulerGain kEulerGains[] = {
     {"hanging_plucked.txt", 1000.0, 3000.0},  // 1693
     {"heavy_bob.txt", kExploded, kInfinity},
     {"random_masses.txt", kExploded, kInfinity},
+    {"folded_20.txt", kExploded, kInfinity},
 };
 
 TEST(DataScenes, EulerGainsEnergyOnEachOfThem) {

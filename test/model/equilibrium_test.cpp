@@ -51,21 +51,6 @@ TEST(Equilibrium, StaysAtRestBetweenHeldParticles) {
   }
 }
 
-TEST(Equilibrium, OfASlackStiffCableIsTheCatenary) {
-  const Eigen::Index size = 401;
-  const Chain chain(Eigen::VectorXd::Constant(size, 0.01), SpringLaw{1e7, 0.0, 0.01}, 9.81);
-  State state(size);
-  state.x()[size - 1] = 2.0;  // length 4 m
-  const State rest = equilibrium(chain.drivenBy({{{size - 1, {}}}, {}}), state);
-  // y = a cosh(x/a) with 2 a sinh(1/a) = 4: a = 0.459189, sag = a (cosh(1/a) - 1).
-  double a = 0.5;
-  for (int i = 0; i < 50; ++i) {
-    const double error = a * std::sinh(1.0 / a) - 2.0;
-    a -= error / (std::sinh(1.0 / a) - std::cosh(1.0 / a) / a);
-  }
-  EXPECT_NEAR(rest.y()[200], -a * (std::cosh(1.0 / a) - 1.0), 1e-3);
-}
-
 TEST(Equilibrium, RefusesWhatCannotRest) {
   const State start = test::straightLine(4, 0.1, 0.0);
   const Chain soft(Eigen::VectorXd::Ones(4), SpringLaw{0.0, 1.0, 1.0}, 9.81);
