@@ -38,11 +38,17 @@
 #include "integration/taylor/taylor_expansion.hpp"
 #include <spring_pendulum/model/chain.hpp>
 
+#include <cstddef>
+
 namespace spring_pendulum {
 
 /// Stability limits h|λ| for λ on the negative real axis: the zeros of |sum_{n<=K} z^n/n!| - 1.
 constexpr double kTaylor8RealStabilityLimit = 4.313627227774381;
 constexpr double kTaylor12RealStabilityLimit = 5.8227790681937215;
+
+/// Returns the longest step whose first omitted term is small enough, s; 0 if a coefficient is not finite.
+/// \param allowed_rate allowed growth rate of the velocity error, m/s²
+double longestAccurateStep(const LastCoefficients& last, std::ptrdiff_t order, double allowed_rate);
 
 class TaylorStepper final : public DenseOutputStepper {
  public:
@@ -66,7 +72,6 @@ class TaylorStepper final : public DenseOutputStepper {
   void sumSeries(double h, std::ptrdiff_t terms);
   /// Computes the state `time` s after `begin_`.
   void sumAt(double time, StateBuffer& out) const;
-  double longestAccurateStep();
 
   Chain chain_;
   double allowed_rate_;  ///< allowed growth rate of the velocity error, m/s²

@@ -52,6 +52,24 @@ TEST(TaylorStepper, OrderIsTheSlopeOfTheErrorFromBothSides) {
   }
 }
 
+// The coefficients A g^n grow by g. Zeros and rounding errors in any places must not lengthen the step.
+TEST(TaylorStepper, GapsInTheSeriesDoNotLengthenTheStep) {
+  for (const double growth : {0.1, 12.0, 1e3}) {
+    LastCoefficients whole{};
+    for (int i = 0; i < 4; ++i) whole.size[i] = 10.0 * std::pow(growth, 7 - i);
+    const double step = longestAccurateStep(whole, 8, 1e-8);
+    for (const double filler : {0.0, 1e-16}) {
+      for (int gaps = 1; gaps < 15; ++gaps) {
+        LastCoefficients last = whole;
+        for (int i = 0; i < 4; ++i) {
+          if ((gaps & (1 << i)) != 0) last.size[i] *= filler * (1 + i);
+        }
+        EXPECT_LT(longestAccurateStep(last, 8, 1e-8), 2.0 * step) << growth << " " << gaps;
+      }
+    }
+  }
+}
+
 // The local error of the dense output is of order K + 1 in the velocities everywhere in the step.
 TEST(TaylorStepper, DenseOutputHasTheOrderToo) {
   const Scene scene = referenceScene("two_masses_45deg");
