@@ -236,7 +236,7 @@ py::tuple check(const py::object& particles, const py::dict& options) {
   return py::make_tuple(report.text,
                         report.tried ? tupleOf(report.verdict) : py::object(py::none()),
                         report.tried ? orNone(report.position_error.largest) : py::none(),
-                        orNone(report.limits.stable), orNone(report.limits.accurate));
+                        orNone(report.stable.step), orNone(report.accurate_step));
 }
 
 }  // namespace

@@ -7,9 +7,10 @@
 #include "io/program/closing.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/standard_streams.hpp"
-#include "simulation/advice/eigenvalues.hpp"
 #include "simulation/advice/linear_stability.hpp"
 #include <spring_pendulum/spring_pendulum.hpp>
+
+#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <cstdint>
@@ -222,10 +223,7 @@ class LabRun {
 double stableStep(const val& settings) {
   const Scenario scenario = scenarioOf(settings);
   const Run run(scenario, readParticleFile(scenario.particles));
-  const double interval = frameSteps(scenario).timeOfFrame(1);
-  return findStepLimits(scenario.method, run.chain(), run.start(), scenario.time_step,
-                        frameSteps(scenario).timeOfFrame(scenario.frames - 1), interval)
-      .stable;
+  return largestStableStep(run.chain(), run.start(), scenario).step;
 }
 
 ButcherTableau tableauOf(const val& rows, const val& b) {
@@ -263,14 +261,30 @@ val growthGrid(const val& method, double left, double right, double top, int wid
   return numbers(values);
 }
 
-/// Returns real and imaginary parts of the eigenvalues in 1/s of the motion at a state.
+/// Returns real and imaginary parts of the eigenvalues in 1/s of the motion at a state, from its
+/// numerical Jacobian without the first particle, which is fixed.
 val eigenvaluesAt(const val& settings, const val& masses, const val& values) {
-  const Scenario scenario = scenarioOf(settings);
+  constexpr double kStep = 1e-5;  // m and m/s
+  const Chain chain = chainOf(scenarioOf(settings), masses);
+  const State state = stateOf(values);
+  const Eigen::Index moving = state.size() - 1;
+  Eigen::MatrixXd jacobian(4 * moving, 4 * moving);
+  for (Eigen::Index j = 0; j < 4 * moving; ++j) {
+    State before = state, after = state, slope_before, slope_after;
+    before.values()(1 + j % moving, j / moving) -= kStep;
+    after.values()(1 + j % moving, j / moving) += kStep;
+    computeSlope(chain, before, slope_before);
+    computeSlope(chain, after, slope_after);
+    const Eigen::MatrixXd change =
+        (slope_after.values() - slope_before.values()).bottomRows(moving) / (2.0 * kStep);
+    jacobian.col(j) = Eigen::Map<const Eigen::VectorXd>(change.data(), 4 * moving);
+  }
   std::vector<double> parts;
-  const Chain chain = chainOf(scenario, masses);
-  for (const std::complex<double>& value : eigenvalues(chain, stateOf(values))) {
-    parts.push_back(value.real());
-    parts.push_back(value.imag());
+  if (moving == 0) return numbers(parts);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(jacobian, false);
+  for (Eigen::Index j = 0; j < 4 * moving; ++j) {
+    parts.push_back(solver.eigenvalues()[j].real());
+    parts.push_back(solver.eigenvalues()[j].imag());
   }
   return numbers(parts);
 }

@@ -64,7 +64,7 @@ TEST(Misuse, RunsFromStatesOfAnotherSize) {
     EXPECT_THROW(EnergyBalance(chain(), wrong, true), InputError) << size;
     EXPECT_THROW(Judge(chain(), wrong, JudgeOptions{true}), InputError) << size;
     EXPECT_THROW(checkStability(chain(), wrong, Scenario{}), InputError) << size;
-    EXPECT_THROW(findStepLimits(findMethod("Euler"), chain(), wrong, 0.01, 1.0, 0.1), InputError);
+    EXPECT_THROW(largestStableStep(chain(), wrong, Scenario{}), InputError) << size;
   }
 }
 
@@ -73,11 +73,7 @@ TEST(Misuse, TimesOfRuns) {
   EXPECT_THROW(reference.advance(kNan, 1), InputError);
   EXPECT_THROW(reference.advance(0.1, -1), InputError);
   for (const double time : {0.0, -1.0, kNan, kInfinity}) {
-    const Method& euler = findMethod("Euler");
-    EXPECT_THROW(findStepLimits(euler, chain(), horizontal(), time, 1.0, 0.1), InputError);
-    EXPECT_THROW(findStepLimits(euler, chain(), horizontal(), 0.01, time, 0.1), InputError);
-    EXPECT_THROW(findStepLimits(euler, chain(), horizontal(), 0.01, 1.0, time), InputError);
-    EXPECT_THROW(linearStepLimit(euler, chain(), time), InputError);
+    EXPECT_THROW(linearStepLimit(findMethod("Euler"), chain(), time), InputError);
   }
 }
 

@@ -1,6 +1,5 @@
-#include "simulation/advice/trial.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/simulation/reference_run.hpp>
+#include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
@@ -10,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <regex>
 #include <string>
 
 #include "support/random_scenes.hpp"
@@ -25,8 +23,21 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr double kDuration = 5.0;       // s
-constexpr double kFrameInterval = 0.1;  // s
+constexpr double kDuration = 5.0;  // s
+
+Scenario scenarioOf(const Scene& scene, const Method& method, double step) {
+  Scenario scenario;
+  scenario.method = method;
+  scenario.time_step = step;
+  scenario.steps_per_frame = std::max<std::int64_t>(1, std::llround(0.1 / step));
+  scenario.frames =
+      std::llround(kDuration / (step * static_cast<double>(scenario.steps_per_frame))) + 1;
+  scenario.stiffness = scene.chain.spring().stiffness;
+  scenario.damping = scene.chain.spring().damping;
+  scenario.rest_length = scene.chain.spring().rest_length;
+  scenario.gravity = scene.chain.gravity();
+  return scenario;
+}
 
 bool isStable(const Scene& scene, const Method& method, double step) {
   const auto kind = VerdictKind::kGainedEnergy;
@@ -39,7 +50,7 @@ TEST(StabilityAdvice, LargestStableStepIsThatOfRealRuns) {
     SCOPED_TRACE(scene.name);
     forEachFixedStepMethod([&](const Method& method) {
       const double step =
-          findStepLimits(method, scene.chain, scene.start, 0.01, kDuration, kFrameInterval).stable;
+          largestStableStep(scene.chain, scene.start, scenarioOf(scene, method, 0.01)).step;
       ASSERT_GT(step, 0.0);
       EXPECT_TRUE(isStable(scene, method, 0.9 * step)) << step;
       EXPECT_TRUE(isStable(scene, method, 0.95 * step)) << step;
@@ -49,21 +60,63 @@ TEST(StabilityAdvice, LargestStableStepIsThatOfRealRuns) {
   }
 }
 
+// Twice the damping over the stiffness: 2 * 0.5 / 50.
+TEST(StabilityAdvice, OneStepIsNamedEverywhere) {
+  const Chain chain(Eigen::Vector2d::Ones(), {50.0, 1.0, 1.0}, 9.81);
+  State start(2);
+  start.y()[1] = -1.3;
+  Scenario scenario;
+  scenario.method = findMethod("Euler");
+  scenario.time_step = 0.1;
+  scenario.steps_per_frame = 1;
+  EXPECT_DOUBLE_EQ(largestStableStep(chain, start, scenario).step, 0.02);
+  EXPECT_THAT(checkStability(chain, start, scenario).text,
+              HasSubstr("largest stable step size: 0.02 s\n"));
+  EXPECT_EQ(
+      stabilityWarning(chain, start, scenario),
+      "Euler may be unstable with a time step of 0.1 s; largest stable step for Euler: 0.02 s; "
+      "or use Auto");
+  EXPECT_EQ(remedyForDivergence(chain, start, scenario),
+            "largest stable step for Euler: 0.02 s; or use Auto");
+}
+
+TEST(StabilityAdvice, OfAChainAtRestStartsAtRestInEveryTrial) {
+  const Scene scene = test::horizontalChain("", 6, 1.0);
+  Scenario scenario;
+  scenario.method = findMethod("Euler");
+  scenario.start = Start::kAtRest;
+  const State hanging = startOf(scenario, scene.chain, {scene.chain.masses(), scene.start});
+  const std::string text = checkStability(scene.chain, hanging, scenario).text;
+  EXPECT_EQ(checkStability(scene.chain, scene.start, scenario).text, text);
+  scenario.start = Start::kFile;
+  EXPECT_EQ(checkStability(scene.chain, hanging, scenario).text, text);
+  EXPECT_NE(checkStability(scene.chain, scene.start, scenario).text, text);
+}
+
+// Frames are judged at other times than in the trials, so a margin is left.
 TEST(StabilityAdvice, LargestAccurateStepKeepsOnePercentOfTheLength) {
   const Scene scene = test::horizontalChain("", 6, 1.0);
-  const double allowed = 0.01 * chainLength(scene.chain, scene.start);
-  const TrialBench bench(scene.chain, scene.start, kDuration, kFrameInterval);
   forEachFixedStepMethod([&](const Method& method) {
-    const StepLimits limits =
-        findStepLimits(method, scene.chain, scene.start, 0.01, kDuration, kFrameInterval);
-    ASSERT_GT(limits.accurate, 0.0);
-    EXPECT_LE(limits.accurate, limits.stable);
-    const auto error_at = [&](double step) {
-      return bench.run(method, step, ReferenceUse::kAuto).position_error.largest;
+    const double step =
+        checkStability(scene.chain, scene.start, scenarioOf(scene, method, 1e-4)).accurate_step;
+    ASSERT_GT(step, 0.0);
+    const auto verdict_at = [&](double tried) {
+      return checkStability(scene.chain, scene.start, scenarioOf(scene, method, tried)).verdict;
     };
-    EXPECT_LE(error_at(limits.accurate), allowed);
-    EXPECT_GT(error_at(1.5 * limits.accurate), allowed);
+    EXPECT_FALSE(isBad(verdict_at(0.95 * step).kind)) << step;
+    EXPECT_TRUE(isBad(verdict_at(1.2 * step).kind)) << step;
   });
+}
+
+// Air takes code without a fast kernel. Counted work of both differed from real time by a factor of 18.
+TEST(StabilityAdvice, ResemblesItselfWithAndWithoutSlightAir) {
+  const Scene scene = test::horizontalChain("", 6, 1.0);
+  Scenario scenario = scenarioOf(scene, findMethod("Runge-Kutta-4"), 1e-3);
+  const StabilityReport without = checkStability(scene.chain, scene.start, scenario);
+  scenario.air_drag = 1e-9;
+  const StabilityReport with = checkStability(scene.chain.inAir(1e-9), scene.start, scenario);
+  EXPECT_EQ(with.stable.step, without.stable.step);
+  EXPECT_NEAR(with.accurate_step, without.accurate_step, 0.02 * without.accurate_step);
 }
 
 TEST(StabilityAdvice, CheckReportsTheVeryRun) {
@@ -78,44 +131,12 @@ TEST(StabilityAdvice, CheckReportsTheVeryRun) {
   EXPECT_THAT(text, HasSubstr("\nlargest accurate step size: 0.1"));
 }
 
-TEST(StabilityAdvice, CheckFindsAMethodForTheWantedError) {
-  const Scene scene = test::horizontalChain("", 6, 1.0);
-  Scenario scenario;
-  scenario.method = findMethod("Taylor-8");
-  scenario.frames = 51;
-  scenario.wanted_error = 1e-6;
-  EXPECT_THAT(
-      checkStability(scene.chain, scene.start, scenario).text,
-      ContainsRegex("position error of at most 1e-06 m: Taylor-[0-9]+ with a tolerance of 1e-0"));
-}
-
-TEST(StabilityAdvice, TheMethodFoundKeepsTheWantedError) {
-  for (const unsigned seed : {1U, 14U, 37U, 59U}) {
-    const Scene scene = test::randomScene(seed);
-    Scenario scenario;
-    scenario.method = findMethod("Auto");
-    scenario.frames = 51;
-    scenario.wanted_error = 1e-2;
-    const std::string text = checkStability(scene.chain, scene.start, scenario).text;
-    std::smatch found;
-    const std::regex advice(" m: ([A-Za-z0-9-]+) with a [a-z ]+ of ([0-9.e-]+) ");
-    ASSERT_TRUE(std::regex_search(text, found, advice)) << text;
-    const TrialBench bench(scene.chain, scene.start, kDuration, kFrameInterval);
-    for (const double share : {1.0, 0.95, 0.9}) {
-      const Trial trial =
-          bench.run(findMethod(found.str(1)), share * std::stod(found[2]), ReferenceUse::kAuto);
-      EXPECT_TRUE(trial.measured) << scene.name;
-      EXPECT_LE(trial.position_error.largest, scenario.wanted_error) << scene.name << ": " << text;
-    }
-  }
-}
-
 TEST(StabilityAdvice, CheckSaysWhatIsTooLargeToTry) {
-  const Scene scene = test::horizontalChain("", 10000, 1.0);
+  const Scene scene = test::horizontalChain("", 30000, 1.0);
   EXPECT_THAT(
       checkStability(scene.chain, scene.start, Scenario{}).text,
-      StartsWith("Runge-Kutta-4: too many particles and steps to try; linear estimate of the "
-                 "largest stable step size: 0."));
+      StartsWith("Runge-Kutta-4: takes too long to try\nlargest stable step size: 0.05 s (linear "
+                 "estimate)\n"));
 }
 
 // The reference run reaches 14 s.
@@ -124,11 +145,9 @@ TEST(StabilityAdvice, CheckSaysThatAccuracyWouldTakeTooLongToJudge) {
   const Chain chain(masses, {50.0, 1.0, 1.0}, 9.81);
   Scenario scenario;
   scenario.frames = 201;
-  scenario.wanted_error = 1e-3;
   EXPECT_THAT(checkStability(chain, test::straightLine(4, 1.0, 0.0), scenario).text,
               ContainsRegex("stable step size: 0.0001.* s\nlargest accurate step size: unknown, as "
-                            "a reference run would take too long\nposition error of at most 0.001 "
-                            "m: unknown, as a reference run would take too long\n"));
+                            "a reference run would take too long\n"));
 }
 
 TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
@@ -153,8 +172,9 @@ TEST(StabilityAdvice, RemedyEndsWhenItIsStopped) {
 
 TEST(StabilityAdvice, RefusesWhatHasNoAnswer) {
   const Scene scene = test::horizontalChain("", 3, 1.0);
-  EXPECT_THROW(findStepLimits(findMethod("Auto"), scene.chain, scene.start, 0.01, 1.0, 0.1),
-               InputError);
+  Scenario controlled;
+  controlled.method = findMethod("Auto");
+  EXPECT_TRUE(std::isnan(largestStableStep(scene.chain, scene.start, controlled).step));
   Scenario negative;
   negative.frames = -5;
   EXPECT_THROW(checkStability(scene.chain, scene.start, negative), InputError);
@@ -187,20 +207,6 @@ TEST(StabilityAdvice, LimitsTheWorkOfOwnErrorControlledMethods) {
   scenario.method = method;
   EXPECT_EQ(checkStability(scene.chain, scene.start, scenario).text,
             "Slow: takes too long to try\n");
-}
-
-TEST(TrialBench, StartsNoTrialAfterAHundredFullOnes) {
-  const Scene scene = test::randomScene(1);
-  constexpr double kWork = 1e-4;  // s
-  const TrialBench bench(scene.chain, scene.start, 1000.0, kFrameInterval, {}, kWork);
-  const Method& method = findMethod("Runge-Kutta-4");
-  int trials = 0;
-  for (; !bench.isExhausted() && trials < 1000; ++trials) {
-    EXPECT_FALSE(bench.run(method, 1e-3, ReferenceUse::kNever).finished);
-  }
-  EXPECT_GT(trials, 50);  // 74
-  EXPECT_LE(trials, 100);
-  EXPECT_EQ(bench.run(method, 1e-3, ReferenceUse::kNever).evaluations, 0);
 }
 
 }  // namespace

@@ -1,12 +1,8 @@
-// Advice on the step size, from trial runs.
+// Advice on the step size: what --check prints, and what a run says of an unstable step size.
 //
-// Most runs take milliseconds, so `--check` performs the run, measures its position error against a
-// reference run and its energy balance, and searches for the largest step size that passes. The
-// work of a trial is bounded by nominal computing time (Integrator::work), not by a clock.
-//
-// A chain too large for a trial gets the stability limit of its linearised motion instead. The limit
-// follows from the stability function of the method at the eigenvalues of the fastest mode, and of
-// the slowest one if the method is unstable without damping.
+// There is one largest stable step size: that of the linearised motion, confirmed by a run with it and a
+// run with a slightly larger step size, and corrected by bisection if they disagree. A chain too large
+// for trial runs gets the linear limit with a margin. The work of trials is counted, not timed.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
@@ -22,25 +18,13 @@
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// Step sizes in s; 0 if the smallest affordable one fails, infinite if all pass.
-struct StepLimits {
-  double stable = 0.0;    ///< largest without divergence or energy gain; NaN if too long to find
-  double accurate = 0.0;  ///< largest without a bad verdict (isBad); NaN if a reference run, which
-                          ///< this takes, would take too long
+/// The largest step size without divergence or energy gain.
+struct StableStep {
+  /// s, with three significant digits; infinite if the whole run may be one step; 0 if not known; NaN for
+  /// error-controlled methods.
+  double step = std::numeric_limits<double>::quiet_NaN();
+  bool is_estimate = false;  ///< whether this is the linear limit because runs take too long
 };
-
-/// Finds the limits of a fixed-step method within 2 % by trial runs, with three significant digits.
-/// Every smaller step size tried passes, too.
-/// \param first          first step size to try, s
-/// \param duration       duration of the run, s
-/// \param frame_interval time between frames, s
-/// \throws InputError if the method is error-controlled, or a time is not finite and positive
-StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
-                          double first, double duration, double frame_interval);
-
-/// Largest stable step size in s of the linearised chain, with a margin; infinite without springs
-/// and for error-controlled methods, 0 if none is known.
-double linearStepLimit(const Method& method, const Chain& chain, double duration);
 
 /// What `--check` finds out.
 struct StabilityReport {
@@ -48,27 +32,37 @@ struct StabilityReport {
   bool tried = false;            ///< whether the run was tried; if not, the next two are unset
   Verdict verdict;               ///< on the trial
   PositionError position_error;  ///< of the trial
-  /// Of a fixed-step method. If the run takes too long to be tried, `stable` is `linearStepLimit`. NaN
-  /// if not known, and for error-controlled methods.
-  StepLimits limits = {std::numeric_limits<double>::quiet_NaN(),
-                       std::numeric_limits<double>::quiet_NaN()};
+  StableStep stable;
+  /// Largest step size in s without a bad verdict (isBad); 0 if none could be tried. NaN if not known,
+  /// and for error-controlled methods.
+  double accurate_step = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Returns a step size in s at which the linearised chain is stable with a margin, whatever its shape;
+/// infinite without springs and for error-controlled methods, 0 if none is known. O(N).
+/// \param duration of the run, s. The energy of a mode may grow during the run by as much as a verdict
+///   allows.
+double linearStepLimit(const Method& method, const Chain& chain, double duration);
+
+/// Returns the largest stable step size of a run, from a few trial runs. Independent of
+/// `Scenario::time_step`, except that it determines the duration.
+/// \param stop asked during the trials; when it returns true, the result is not valid
+/// \throws InputError for a value of the scenario out of its range, as the functions below
+StableStep largestStableStep(const Chain& chain, const State& start, const Scenario& scenario,
+                             const std::function<bool()>& stop = {});
+
 /// Tries a run and finds the largest step sizes.
-/// \param stop asked during the trials; when it returns true, the report is incomplete
-/// \throws InputError for a value of the scenario out of its range
+/// \param start positions and velocities of the particles, used as `startOf` says
 StabilityReport checkStability(const Chain& chain, const State& start, const Scenario& scenario,
                                const std::function<bool()>& stop = {});
 
-/// One line if the time step is clearly above the stability limit of the method, whatever the
-/// positions of the particles; else empty. O(N), negligible compared with a run.
-/// \param start if not null, the first steps of the run are tried as well, for about 0.02 s
-std::string stabilityWarning(const Chain& chain, const Scenario& scenario,
-                             const State* start = nullptr);
+/// Returns one line if the time step is clearly above the stability limit of the method, whatever the
+/// positions of the particles; else an empty string. O(N) if it is empty.
+/// \param tries_run whether the run is tried as well, for about 0.02 s
+std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario,
+                             bool tries_run = false);
 
-/// One line with a remedy for a motion that diverged.
-/// \param stop asked during the trials; when it returns true, the result is empty
-/// \throws InputError for a value of the scenario out of its range
+/// Returns one line with a remedy for a motion that diverged; empty if it was stopped.
 std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario,
                                 const std::function<bool()>& stop = {});
 

@@ -62,7 +62,7 @@ void printAnswers(const Run& run, const Integrator& integrator, const Switches& 
 
 std::string remarksOn(const Run& run) {
   return memoryLine(run) + line(remarkOn(run.scenario())) +
-         warningLine(stabilityWarning(run.chain(), run.scenario()));
+         warningLine(stabilityWarning(run.chain(), run.start(), run.scenario()));
 }
 
 int conclude(const Run& run) {

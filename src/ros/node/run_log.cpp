@@ -67,7 +67,7 @@ void logStart(const Run& run, const NodeOptions& options, const RunFiles& files)
                   << " on "
                   << std::filesystem::absolute(scenario.particles).lexically_normal().string()
                   << ", " << files.description());
-  const std::string warning = stabilityWarning(run.chain(), scenario, &run.start());
+  const std::string warning = stabilityWarning(run.chain(), run.start(), scenario, true);
   if (!warning.empty()) ROS_WARN_STREAM(warning);
   const std::string memory = memoryRemark(scenario, run.chain().size());
   if (!memory.empty()) ROS_INFO_STREAM(memory);

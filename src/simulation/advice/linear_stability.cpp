@@ -3,7 +3,6 @@
 #include "base/checks.hpp"
 #include "integration/tableau.hpp"
 #include "model/chain_modes.hpp"
-#include "simulation/advice/step_search.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
@@ -19,32 +18,16 @@ using Complex = std::complex<double>;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// Safety factor of the linear limit, as the springs of a moving chain are not linear.
-constexpr double kLinearMargin = 0.25;
-/// Number of steps above which the growth no longer increases: rounding errors of ln |R| add up.
-constexpr double kMostSteps = 1e12;
-
-constexpr auto kMostStages = static_cast<int>(ButcherTableau::kMaxStages);
-
-/// Growth and number of steps that make a spring clearly unstable, and the share of the step size
-/// at which it grows: the limits of methods without a tableau are up to 1.62 times too small.
-constexpr double kClearGrowth = 1e8;
-constexpr double kClearSteps = 500.0;
-constexpr double kClearShare = 0.6;
-
-/// Returns R(z) - 1.
-Complex increment(const Method& method, Complex z) {
-  if (method.tableau != nullptr) return stabilityIncrement(*method.tableau, z);
+/// Returns ln |R(z)|. A method without a tableau sums the Taylor series to its order.
+double growthOf(const Method& method, Complex z) {
+  if (method.tableau != nullptr) {
+    return spring_pendulum::growthOf(stabilityIncrement(*method.tableau, z));
+  }
+  constexpr auto kMostTerms = static_cast<int>(ButcherTableau::kMaxStages);
   Complex sum = 0.0;
   Complex term = 1.0;
-  const int stages = std::min(method.order, kMostStages);
-  for (int i = 1; i <= stages; ++i) sum += term *= z / static_cast<double>(i);
-  return sum;
-}
-
-/// Returns ln |R(z)|.
-double growthOf(const Method& method, Complex z) {
-  return spring_pendulum::growthOf(increment(method, z));
+  for (int i = 1; i <= std::min(method.order, kMostTerms); ++i) sum += term *= z / (1.0 * i);
+  return spring_pendulum::growthOf(sum);
 }
 
 /// Returns ln of the spectral radius of Semi-Implicit-Euler, whose two limits are 2, with hω and hc
@@ -60,21 +43,32 @@ double growthFromLimits(const Method& method, double swing, double decay) {
 /// Returns the largest step size in s for a mode with k = frequency² and c = damping. Its energy may
 /// grow during the run by as much as a verdict allows.
 double stepForMode(const Method& method, double frequency, double damping, double duration) {
+  constexpr double kMostSteps = 1e12;  // rounding errors of ln |R| add up
   const double rate = std::max(frequency, damping);
   if (rate == 0.0) return kUnlimited;
   if (!std::isfinite(frequency) || !std::isfinite(damping)) return 0.0;
   const double allowed = 0.5 * std::log1p(Judge::kGainThreshold);
   const auto passes = [&](double step) {
-    const double steps = std::min(duration * rate / step, kMostSteps);
+    const double steps = std::clamp(duration * rate / step, 1.0, kMostSteps);
     return steps * growthPerStep(method, step * frequency / rate, step * damping / rate) <= allowed;
   };
-  return largestPassingStep(0.1, 1e-9, 1e9, passes) / rate;
+  double good = 1e-9;
+  double bad = 1e9;
+  if (!passes(good)) return 0.0;
+  if (passes(bad)) return kUnlimited;
+  while (bad > 1.00001 * good) {
+    const double middle = std::sqrt(good * bad);
+    (passes(middle) ? good : bad) = middle;
+  }
+  return good / rate;
 }
 
 }  // namespace
 
 double growthPerStep(const Method& method, double swing, double decay) {
-  if (method.tableau == nullptr && method.imaginary_stability_limit > 0.0) {
+  if (std::isinf(method.imaginary_stability_limit)) return -0.5 * decay;
+  if (method.tableau == nullptr && method.hasFixedStep() &&
+      method.imaginary_stability_limit > 0.0) {
     return growthFromLimits(method, swing, decay);
   }
   const double center = -0.5 * decay;
@@ -84,8 +78,17 @@ double growthPerStep(const Method& method, double swing, double decay) {
   return std::max(growthOf(method, center - radius), growthOf(method, center + radius));
 }
 
+double springStepLimit(const Method& method, const Chain& chain, double duration) {
+  const double frequency = std::sqrt(chain.spring().stiffness * largestSpringMode(chain));
+  return stepForMode(method, frequency, largestDampingRate(chain), duration);
+}
+
 bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step,
                        double duration) {
+  // The limits of methods without a tableau are up to 1.62 times too small.
+  constexpr double kClearGrowth = 1e8;
+  constexpr double kClearSteps = 500.0;
+  constexpr double kClearShare = 0.6;
   if (chain.airDrag() != 0.0) return false;  // it may damp the spring more or less than others
   const double mode = stiffestSpring(chain);
   const double frequency = std::sqrt(chain.spring().stiffness * mode);
@@ -102,12 +105,13 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
   const double mode = largestSpringMode(chain);
   if (!method.hasFixedStep() || mode == 0.0) return kUnlimited;
   const double frequency = std::sqrt(chain.spring().stiffness * mode);
-  const double damped = stepForMode(method, frequency, largestDampingRate(chain), duration);
   // Transverse motion is undamped. The tension acts as a stiffness below k_s; for methods that are
   // unstable on the imaginary axis, the slowest mode, which has most of the energy, counts.
   const bool stable = method.imaginary_stability_limit > 0.0;
-  return kLinearMargin * std::min(damped, stepForMode(method, stable ? frequency : slowSwing(chain),
-                                                      0.0, duration));
+  constexpr double kMargin = 0.25;  // measured: 0.35 is too much for Euler with mixed masses
+  return kMargin *
+         std::min(springStepLimit(method, chain, duration),
+                  stepForMode(method, stable ? frequency : slowSwing(chain), 0.0, duration));
 }
 
 }  // namespace spring_pendulum

@@ -14,13 +14,16 @@ namespace spring_pendulum {
 
 /// Returns ln |R|, the growth of a mode in one step: above 0 if the method is unstable.
 ///
-/// Exact for explicit Runge-Kutta methods. A method without a tableau is unstable for
-/// (hω/imaginary limit)² + hc/(real limit) > 1, which is exact for Semi-Implicit-Euler; the damped
-/// limit of Velocity-Verlet is up to 1.62 times as large. Without both a tableau and an imaginary
-/// limit, a method is taken to have as many stages as its order.
+/// Exact for explicit Runge-Kutta methods, Taylor series and Semi-Implicit-Euler; the damped limit of
+/// Velocity-Verlet is up to 1.62 times as large. A method that is stable everywhere is taken to be
+/// exact.
 /// \param swing h sqrt(k)
 /// \param decay h c
 double growthPerStep(const Method& method, double swing, double decay);
+
+/// Returns the largest stable step size in s of the springs alone: of the fastest mode along the chain.
+/// \param duration of the run, s
+double springStepLimit(const Method& method, const Chain& chain, double duration);
 
 /// Whether the oscillation of the stiffest spring alone grows by a factor of 1e8 within the run and
 /// 500 steps, even at 0.6 times the time step. Then the chain is unstable in every shape. O(N).

@@ -1,10 +1,10 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
+#include "integration/kernels/chain_kernels.hpp"
 #include "simulation/advice/linear_stability.hpp"
-#include "simulation/advice/step_search.hpp"
-#include "simulation/advice/trial.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/smallest_tolerance.hpp>
+#include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
@@ -12,227 +12,296 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <optional>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
 
-/// Work in s allowed for a trial at the start of a run and after a divergence, see `TrialBench`.
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Ratio of the step sizes between which a search ends.
+constexpr double kPrecision = 1.02;
+/// Work in s allowed for a trial, without its reference run, and for that of `stabilityWarning`.
+constexpr double kTrialWork = 0.1;
 constexpr double kShortWork = 0.006;
-/// Largest error of a trial that passes, relative to the wanted error. The margin is needed because
-/// a smaller step size or tolerance can happen to give a larger error.
-constexpr double kShareOfWanted = 0.5;
-/// Said of what cannot be judged.
+/// Work allowed for all trials with their reference runs, in trials.
+constexpr double kMostTrials = 30.0;
+/// Nominal time in s of judging a frame, per particle, and of an evaluation in code without a fast
+/// kernel, beyond what the integrator counts. Measured: 25 ns, and 320 to 470 ns for 6 particles.
+constexpr double kFrameTime = 2.5e-8;
+constexpr double kPlainTime = 4e-7;
+
+constexpr const char* kTooLong = "unknown, as runs take too long to be tried";
 constexpr const char* kNotJudged = "unknown, as a reference run would take too long";
-constexpr const char* kNotTried = "unknown, as runs take too long to be tried";
 
-/// Whether the true positions were known to the end of a trial, or were too sensitive to be known.
-bool isJudged(const Trial& trial) {
-  return trial.finished && (trial.measured || trial.verdict.kind == VerdictKind::kSensitive);
+/// Rounds down to three significant digits; `largestSpringMode` is 1e-4 too large at most.
+double roundedDown(double step) {
+  const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
+  return std::isnormal(unit) ? std::floor(step / unit * (1.0 + 1e-4)) * unit : step;
 }
 
-/// \returns NaN if the search would take too long
-double stableStep(const TrialBench& bench, const Method& method, double first) {
-  const double limit =
-      largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double step) {
-        return bench.run(method, step, ReferenceUse::kNever, VerdictKind::kGainedEnergy).isStable();
+struct Trial {
+  bool finished = false;  ///< false: the allowed work was used up, or the trial was stopped
+  bool judged = false;  ///< whether the true positions were known, or are too sensitive to be known
+  Verdict verdict;
+  PositionError position_error;
+  std::string measurements;
+
+  bool isStable() const { return finished && verdict.kind < VerdictKind::kGainedEnergy; }
+};
+
+/// Trial runs of a scene.
+class Trials {
+ public:
+  Trials(const Chain& chain, const State& start, const Scenario& scenario,
+         std::function<bool()> stop = {})
+      : scenario_(scenario), particles_{chain.masses(), start}, stop_(std::move(stop)) {
+    requireSize(chain.size(), start.size());
+    checkScenario(scenario);
+    scenario_.stiffness = chain.spring().stiffness;
+    scenario_.damping = chain.spring().damping;
+    scenario_.rest_length = chain.spring().rest_length;
+    scenario_.gravity = chain.gravity();
+    scenario_.air_drag = chain.airDrag();
+    particles_.state = startOf(scenario_, chain, particles_);
+    scenario_.start = Start::kFile;
+    scenario_.on_divergence = OnDivergence::kStop;
+    scenario_.threads = 1;
+    scenario_.sleep = 0.0;
+    const FrameSteps step = frameSteps(scenario_);
+    interval_ = step.timeOfFrame(1);
+    duration_ = std::clamp(step.timeOfFrame(scenario_.frames - 1), step.time_step, 1e300);
+    const Method& method = scenario_.method;
+    const bool has_kernel = method.tableau != nullptr && chain.isPlain() &&
+                            findAdvanceKernel(fastestChainKernels(), *method.tableau) != nullptr;
+    evaluation_time_ = method.hasFixedStep() && !has_kernel ? kPlainTime : 0.0;
+  }
+
+  /// That of the constructor with the start and the constants of the trials.
+  const Scenario& scenario() const { return scenario_; }
+  double duration() const { return duration_; }
+  const State& start() const { return particles_.state; }
+  bool isExhausted() const { return total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_()); }
+
+  /// Runs a variant of `scenario()` until the verdict is `enough` or worse.
+  Trial run(const Scenario& scenario, ReferenceUse reference,
+            VerdictKind enough = VerdictKind::kDiverged, double most_work = kTrialWork) {
+    if (isExhausted()) return {};
+    Scenario tried = scenario;
+    tried.reference = reference;
+    const Integrator* counted = nullptr;
+    double frames = 0.0;
+    const auto work = [&] {
+      return counted->work() + evaluation_time_ * static_cast<double>(counted->forceEvaluations()) +
+             frames * kFrameTime * (static_cast<double>(particles_.state.size()) + 10.0);
+    };
+    // The negated comparison also ends a method whose work is not a number.
+    Run run(tried, particles_,
+            {false, 0.0, [&] { return !(work() < most_work) || (stop_ && stop_()); }});
+    const auto integrator = run.makeIntegrator();
+    counted = integrator.get();
+    while (run.advance(*integrator) && run.verdict().kind < enough) ++frames;
+    total_work_ += work() + run.referenceWork();
+    const bool is_known =
+        run.referenceState() != nullptr || run.verdict().kind == VerdictKind::kSensitive;
+    return {!run.wasStopped(), is_known, run.verdict(), run.positionError(), run.measurements()};
+  }
+
+  /// A run with another step size, with frames at about the same times.
+  Trial runWithStep(double step, ReferenceUse reference, VerdictKind enough) {
+    constexpr double kMostFrames = 2000.0;
+    constexpr double kMostSteps = 1e9;
+    if (duration_ / step > kMostSteps) return {};
+    const double interval = std::clamp(interval_, duration_ / kMostFrames, duration_);
+    Scenario scenario = scenario_;
+    scenario.time_step = step;
+    scenario.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
+    const double frames = std::ceil(duration_ / frameSteps(scenario).timeOfFrame(1) * (1.0 - 1e-9));
+    scenario.frames = static_cast<std::int64_t>(std::min(frames, 1e9)) + 1;
+    return run(scenario, reference, enough);
+  }
+
+ private:
+  Scenario scenario_;
+  Particles particles_;
+  std::function<bool()> stop_;
+  double interval_ = 0.0;         ///< between frames, s
+  double duration_ = 0.0;         ///< s
+  double evaluation_time_ = 0.0;  ///< in addition to what the integrator counts, s
+  double total_work_ = 0.0;       ///< s
+};
+
+struct Found {
+  double step;   ///< s; 0: none of those tried, infinite: all
+  double tried;  ///< the smallest step size tried, s; infinite: none
+};
+
+/// Returns the largest step size up to `most` that passes, within 2 % and with three digits: `first` if it
+/// passes and a slightly larger one does not. 0.95 and 0.9 times the result pass, too.
+/// \param failed a step size known to fail, or infinite
+/// \param passes nothing if the step size, and so each smaller one, takes too long to be tried
+Found largestPassingStep(double first, double most, double failed,
+                         const std::function<std::optional<bool>(double)>& passes) {
+  Found found{0.0, failed};
+  // Nearly undamped chains have narrow intervals of unstable step sizes; below each, the stride grows.
+  for (double stride = kPrecision;; stride *= stride) {
+    double low = 0.0;  // passes or takes too long
+    double bad = failed;
+    double step = roundedDown(std::min({first, most, failed / stride}));
+    for (double ratio = stride; step > low && step < bad; ratio *= ratio) {
+      const std::optional<bool> passed = passes(step);
+      if (!passed && std::isinf(bad)) return found;
+      if (passed) found.tried = std::min(found.tried, step);
+      if (passed == true) found.step = step;
+      (passed == false ? bad : low) = step;
+      if (passed == true && step >= roundedDown(most)) return {kInfinity, found.tried};
+      if (bad <= kPrecision * low) break;
+      const bool is_between = low > 0.0 && std::isfinite(bad);
+      step = is_between ? std::sqrt(low * bad)
+                        : (low > 0.0 ? std::min(low * ratio, most) : bad / ratio);
+      step = roundedDown(step);
+    }
+    const auto share_fails = [&](double share) { return passes(share * found.step) == false; };
+    if (found.step == 0.0 || (!share_fails(0.95) && !share_fails(0.9))) return found;
+    first = 0.9 * found.step / stride;
+    found.step = 0.0;
+  }
+}
+
+StableStep stableStep(Trials& trials, const Chain& chain, const Scenario& scenario) {
+  const Method& method = scenario.method;
+  if (!method.hasFixedStep()) return {};
+  // Without damping, some methods gain energy with every step size: only trials tell how much.
+  const bool has_limit = method.imaginary_stability_limit > 0.0 || chain.isDissipative();
+  const Found found = largestPassingStep(
+      has_limit ? springStepLimit(method, chain, trials.duration()) : trials.duration(),
+      trials.duration(), kInfinity, [&](double step) -> std::optional<bool> {
+        const Trial trial =
+            trials.runWithStep(step, ReferenceUse::kNever, VerdictKind::kGainedEnergy);
+        if (!trial.finished) return std::nullopt;
+        return trial.isStable();
       });
-  return bench.isExhausted() ? std::numeric_limits<double>::quiet_NaN() : limit;
+  if (found.step > 0.0) return {found.step, false};
+  const double limit = linearStepLimit(method, chain, trials.duration());
+  return {std::isfinite(limit) ? roundedDown(limit) : limit, true};
 }
 
+/// Returns the largest step size without a bad verdict, up to the stable one.
+/// \param trial of the scenario, whose error grows with a power of the step size: the order of the method
 /// \returns NaN if a reference run would take too long
-double accurateStep(const TrialBench& bench, const Method& method, double first) {
-  bool measurable = true;
-  const double step =
-      largestPassingStep(first, bench.leastStep(method), bench.duration(), [&](double tried) {
-        if (!measurable) return false;
-        const Trial trial = bench.run(method, tried, ReferenceUse::kAuto, VerdictKind::kInaccurate);
-        measurable = isJudged(trial) || !trial.isStable();
-        return trial.finished && !isBad(trial.verdict.kind);
+Found accurateStep(Trials& trials, const Chain& chain, const Scenario& scenario, const Trial& trial,
+                   double stable) {
+  const Method& method = scenario.method;
+  const double allowed = Judge::kInaccurateThreshold * chainLength(chain, trials.start());
+  const double error = trial.position_error.largest;
+  const double factor = std::pow(allowed / error, 1.0 / std::max(method.order, 1));
+  bool is_judged = true;
+  Found found = largestPassingStep(
+      std::isfinite(error) ? scenario.time_step * factor : scenario.time_step,
+      std::min(stable, trials.duration()),
+      isBad(trial.verdict.kind) ? scenario.time_step : kInfinity,
+      [&](double step) -> std::optional<bool> {
+        const Trial tried = trials.runWithStep(step, ReferenceUse::kAuto, VerdictKind::kInaccurate);
+        is_judged = is_judged && (tried.judged || !tried.isStable());
+        if (!tried.finished || !is_judged) return std::nullopt;
+        return !isBad(tried.verdict.kind);
       });
-  return measurable && !bench.isExhausted() ? step : std::numeric_limits<double>::quiet_NaN();
-}
-
-StepLimits stepLimits(const TrialBench& bench, const Method& method, double first) {
-  StepLimits limits;
-  limits.stable = stableStep(bench, method, first);
-  if (limits.stable == 0.0) return limits;
-  limits.accurate = accurateStep(bench, method, std::min(first, limits.stable));
-  return limits;
-}
-
-/// Returns a finite duration in s of at least one step.
-double durationOf(const Scenario& scenario) {
-  const FrameSteps step = frameSteps(scenario);
-  return std::clamp(step.timeOfFrame(scenario.frames - 1), step.time_step,
-                    std::numeric_limits<double>::max());
-}
-
-TrialBench benchFor(const Chain& chain, const State& start, const Scenario& scenario,
-                    double most_work = TrialBench::kMostWork,
-                    const std::function<bool()>& stop = {}) {
-  return {chain, start, durationOf(scenario), frameSteps(scenario).timeOfFrame(1), stop, most_work};
+  if (std::isinf(found.step)) found.step = stable;
+  if (!is_judged) found.step = kNan;
+  return found;
 }
 
 std::string stepText(double step) {
-  if (step == 0.0) return "none";
-  return std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", roundedDown(step));
+  return std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", step);
 }
 
-/// \param step 0 if no step size of at least `least` s passed
-std::string limitText(double step, double least) {
-  if (step > 0.0) return stepText(step);
-  return std::isinf(least)
-             ? kNotTried
-             : fmt::format("below {}, where runs take too long to be tried", stepText(least));
+std::string textOf(const StableStep& stable) {
+  if (stable.step == 0.0) return kTooLong;
+  return stepText(stable.step) + (stable.is_estimate ? " (linear estimate)" : "");
 }
 
-/// "step size of 0.01 s" or "tolerance of 1e-06 m"
-std::string settingText(const Method& method, const std::string& setting) {
-  return fmt::format(method.hasFixedStep() ? "step size of {} s" : "tolerance of {} m", setting);
-}
-
-/// Returns the largest step size or tolerance of a method that reaches the wanted error; 0: none.
-double settingFor(const TrialBench& bench, const Method& method, double first, double wanted) {
-  const auto reaches = [&](double setting) {
-    const Trial trial = bench.run(method, setting, ReferenceUse::kAuto, VerdictKind::kGainedEnergy);
-    return trial.isStable() && trial.measured &&
-           trial.position_error.largest + trial.position_error.uncertainty <=
-               kShareOfWanted * wanted;
-  };
-  if (method.hasFixedStep()) {
-    return largestPassingStep(first, bench.leastStep(method), bench.duration(), reaches);
-  }
-  for (const double tolerance : {wanted, 0.1 * wanted, 0.01 * wanted}) {
-    if (tolerance >= bench.leastTolerance() && reaches(tolerance)) return tolerance;
-  }
-  return 0.0;
-}
-
-std::string cheapestFor(TrialBench bench, double first, double wanted) {
-  std::string text =
-      fmt::format("no method tried keeps the position error below {:.3g} m\n", wanted);
-  if (wanted < bench.leastTolerance()) return text;
-  if (!isJudged(bench.run(findMethod("Auto"), wanted, ReferenceUse::kAuto))) {
-    return fmt::format("position error of at most {:.3g} m: {}\n", wanted, kNotJudged);
-  }
-  for (const StepControl control : {StepControl::kErrorControlled, StepControl::kFixed}) {
-    for (const Method& method : methodTable()) {
-      if (method.control != control) continue;
-      const double setting = settingFor(bench, method, first, wanted);
-      if (setting == 0.0 || std::isinf(setting)) continue;
-      const Trial trial = bench.run(method, setting, ReferenceUse::kNever);
-      if (trial.work >= bench.mostWork()) continue;
-      bench.limitWork(trial.work);  // of cheaper methods
-      text = fmt::format(
-          "cheapest for a position error of at most {:.3g} m: {} with a {}, {} force evaluations\n",
-          wanted, method.name, settingText(method, fmt::format("{:.3g}", setting)),
-          trial.evaluations);
-    }
-  }
-  if (!bench.isExhausted()) return text;
-  return fmt::format("position error of at most {:.3g} m: {}\n", wanted, kNotTried);
+std::string textOf(const Found& accurate) {
+  if (std::isnan(accurate.step)) return kNotJudged;
+  if (accurate.step > 0.0) return stepText(accurate.step);
+  if (std::isinf(accurate.tried)) return kTooLong;
+  return fmt::format("below {}, where runs take too long to be tried", stepText(accurate.tried));
 }
 
 }  // namespace
 
-StepLimits findStepLimits(const Method& method, const Chain& chain, const State& start,
-                          double first, double duration, double frame_interval) {
-  requireSize(chain.size(), start.size());
-  requireFinitePositive("first", first, "s");
-  requireFinitePositive("duration", duration, "s");
-  requireFinitePositive("frame_interval", frame_interval, "s");
-  if (!method.hasFixedStep()) {
-    throw InputError(
-        fmt::format("{} has no step size to find: it is error-controlled", method.name));
-  }
-  return stepLimits(TrialBench(chain, start, duration, frame_interval), method, first);
+StableStep largestStableStep(const Chain& chain, const State& start, const Scenario& scenario,
+                             const std::function<bool()>& stop) {
+  Trials trials(chain, start, scenario, stop);
+  return stableStep(trials, chain, scenario);
 }
 
 StabilityReport checkStability(const Chain& chain, const State& start, const Scenario& scenario,
                                const std::function<bool()>& stop) {
-  requireSize(chain.size(), start.size());
-  checkScenario(scenario);
+  Trials trials(chain, start, scenario, stop);
   const Method& method = scenario.method;
   const bool fixed = method.hasFixedStep();
-  const TrialBench bench = benchFor(chain, start, scenario, TrialBench::kMostWork, stop);
-  const double least = fixed ? bench.leastStep(method) : 0.0;
   StabilityReport report;
-  Trial trial;
-  if (!fixed || scenario.time_step >= least) trial = bench.run(scenario, ReferenceUse::kAuto);
-  if (!trial.finished) {
+  const Trial trial = trials.run(trials.scenario(), ReferenceUse::kAuto);
+  report.tried = trial.finished;
+  if (trial.finished) {
+    report.verdict = trial.verdict;
+    report.position_error = trial.position_error;
+    report.text =
+        fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
+                    fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
+                                numberText(fixed ? scenario.time_step : scenario.tolerance)),
+                    trials.duration(), trial.verdict.text, trial.measurements);
+  } else {
     report.text = fmt::format("{}: takes too long to try\n", method.name);
-    if (!fixed) return report;
-    report.limits.stable = linearStepLimit(method, chain, bench.duration());
-    report.text = fmt::format(
-        "{}: too many particles and steps to try; linear estimate of the largest stable step size: "
-        "{}\n",
-        method.name, stepText(report.limits.stable));
-    return report;
   }
-  report.tried = true;
-  report.verdict = trial.verdict;
-  report.position_error = trial.position_error;
-  report.text =
-      fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
-                  settingText(method, numberText(fixed ? scenario.time_step : scenario.tolerance)),
-                  bench.duration(), trial.verdict.text, trial.measurements);
-  if (fixed) {
-    report.limits = stepLimits(bench, method, scenario.time_step);
-    report.text += fmt::format(
-        "largest stable step size: {}\nlargest accurate step size: {}\n",
-        std::isnan(report.limits.stable) ? kNotTried : limitText(report.limits.stable, least),
-        std::isnan(report.limits.accurate) ? kNotJudged : limitText(report.limits.accurate, least));
-  }
-  if (scenario.wanted_error > 0.0) {
-    const double first = fixed ? scenario.time_step : Scenario{}.time_step;
-    report.text += cheapestFor(bench, first, scenario.wanted_error);
-  }
+  if (!fixed) return report;
+  report.stable = stableStep(trials, chain, scenario);
+  report.text += fmt::format("largest stable step size: {}\n", textOf(report.stable));
+  if (!trial.finished) return report;
+  const Found accurate = accurateStep(trials, chain, scenario, trial, report.stable.step);
+  report.accurate_step = accurate.step;
+  report.text += fmt::format("largest accurate step size: {}\n", textOf(accurate));
   return report;
 }
 
-std::string stabilityWarning(const Chain& chain, const Scenario& scenario, const State* start) {
-  checkScenario(scenario);
+std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario,
+                             bool tries_run) {
   const Method& method = scenario.method;
   if (!method.hasFixedStep() || scenario.frames < 2) return {};
-  const double duration = durationOf(scenario);
-  const std::string time_step = numberText(scenario.time_step);
-  if (isClearlyUnstable(method, chain, scenario.time_step, duration)) {
-    const double limit = linearStepLimit(method, chain, duration);
-    return fmt::format(
-        "{} may be unstable with a time step of {} s; {}use Auto", method.name, time_step,
-        limit > 0.0 ? fmt::format("largest stable step: about {} s (linear estimate); or ",
-                                  roundedText(limit, 2))
-                    : "");
+  Trials trials(chain, start, scenario);
+  const bool clearly = isClearlyUnstable(method, chain, scenario.time_step, trials.duration());
+  std::string found;
+  if (!clearly) {
+    if (!tries_run) return {};
+    const Trial trial =
+        trials.run(trials.scenario(), ReferenceUse::kNever, VerdictKind::kGainedEnergy, kShortWork);
+    if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
+    found = fmt::format(" ({})", trial.verdict.text);
   }
-  if (start == nullptr) return {};
-  const Trial trial = benchFor(chain, *start, scenario, kShortWork)
-                          .run(scenario, ReferenceUse::kNever, VerdictKind::kGainedEnergy);
-  if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
-  return fmt::format("{} is unstable with a time step of {} s ({}); {}", method.name, time_step,
-                     trial.verdict.text, remedyForDivergence(chain, *start, scenario));
+  return fmt::format("{} {} unstable with a time step of {} s{}; {}", method.name,
+                     clearly ? "may be" : "is", numberText(scenario.time_step), found,
+                     remedyForDivergence(chain, start, scenario));
 }
 
 std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario,
                                 const std::function<bool()>& stop) {
-  requireSize(chain.size(), start.size());
-  checkScenario(scenario);
+  Trials trials(chain, start, scenario, stop);
   const Method& method = scenario.method;
-  const TrialBench bench = benchFor(chain, start, scenario, kShortWork, stop);
-  std::string text = fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
-  if (method.hasFixedStep()) {
-    const double tried = stableStep(bench, method, 0.5 * scenario.time_step);
-    const double step = tried > 0.0 ? tried : linearStepLimit(method, chain, bench.duration());
-    text = fmt::format("largest stable step for {}: {}{}", method.name, stepText(step),
-                       tried > 0.0 ? "" : " (linear estimate)");
-  }
-  const Method& other = findMethod("Auto");
-  const double tolerance = method.hasFixedStep() ? Scenario{}.tolerance : scenario.tolerance;
-  if (&other != &method && bench
-                               .run(other, std::max(tolerance, bench.leastTolerance()),
-                                    ReferenceUse::kNever, VerdictKind::kGainedEnergy)
-                               .isStable()) {
-    text += "; or use Auto";
+  std::string text =
+      method.hasFixedStep()
+          ? fmt::format("largest stable step for {}: {}", method.name,
+                        textOf(stableStep(trials, chain, scenario)))
+          : fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
+  if (method.name != "Auto") {
+    Scenario other = trials.scenario();
+    other.method = findMethod("Auto");
+    other.frame_interval = std::clamp(frameSteps(scenario).timeOfFrame(1), 1e-300, 1e6);
+    other.tolerance = std::max(method.hasFixedStep() ? Scenario{}.tolerance : scenario.tolerance,
+                               smallestTolerance(chain, trials.start()));
+    if (trials.run(other, ReferenceUse::kNever, VerdictKind::kGainedEnergy).isStable())
+      text += "; or use Auto";
   }
   return stop && stop() ? "" : text;
 }

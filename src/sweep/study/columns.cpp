@@ -22,11 +22,8 @@ double duration(const Run& run) {
 
 double largestStableStep(const Run& run) {
   const Scenario& scenario = run.scenario();
-  const double time = duration(run);
-  if (!scenario.method.get().hasFixedStep() || !(time > 0.0)) return kNan;
-  return findStepLimits(scenario.method, run.chain(), run.start(), scenario.time_step, time,
-                        frameSteps(scenario).timeOfFrame(1))
-      .stable;
+  if (!(duration(run) > 0.0)) return kNan;
+  return largestStableStep(run.chain(), run.start(), scenario).step;
 }
 
 double divergenceTime(const Run& run) {
