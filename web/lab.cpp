@@ -270,23 +270,19 @@ val eigenvaluesAt(const val& settings, const val& masses, const val& values) {
   const Eigen::Index moving = state.size() - 1;
   Eigen::MatrixXd jacobian(4 * moving, 4 * moving);
   for (Eigen::Index j = 0; j < 4 * moving; ++j) {
-    State before = state, after = state, slope_before, slope_after;
-    before.values()(1 + j % moving, j / moving) -= kStep;
-    after.values()(1 + j % moving, j / moving) += kStep;
-    computeSlope(chain, before, slope_before);
-    computeSlope(chain, after, slope_after);
-    const Eigen::MatrixXd change =
-        (slope_after.values() - slope_before.values()).bottomRows(moving) / (2.0 * kStep);
+    Eigen::MatrixXd change = Eigen::MatrixXd::Zero(moving, 4);
+    for (const double step : {-kStep, kStep}) {
+      State disturbed = state, slope;
+      disturbed.values()(1 + j % moving, j / moving) += step;
+      computeSlope(chain, disturbed, slope);
+      change += slope.values().bottomRows(moving) / (2.0 * step);
+    }
     jacobian.col(j) = Eigen::Map<const Eigen::VectorXd>(change.data(), 4 * moving);
   }
-  std::vector<double> parts;
-  if (moving == 0) return numbers(parts);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(jacobian, false);
-  for (Eigen::Index j = 0; j < 4 * moving; ++j) {
-    parts.push_back(solver.eigenvalues()[j].real());
-    parts.push_back(solver.eigenvalues()[j].imag());
-  }
-  return numbers(parts);
+  if (moving == 0) return numbers({});
+  const Eigen::VectorXcd found = jacobian.eigenvalues();
+  const auto* parts = reinterpret_cast<const double*>(found.data());
+  return numbers({parts, parts + 2 * found.size()});
 }
 
 /// Returns the states of all stages of one step of a tableau, their slopes, and the state after the
