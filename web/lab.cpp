@@ -361,14 +361,8 @@ val checkFrameTexts(const val& settings, bool method_is_given, const val& indice
   const FrameCheck check = checkFrames(scenario, readParticleFile(scenario.particles), frames,
                                        {method_is_given, [stop] { return stop().as<bool>(); }});
   val result = val::object();
-  result.set("equal", check.equal);
   result.set("report", reportOf(check));
-  result.set("nearest", check.nearest);
-  if (!check.departure) return result;
-  result.set("frame", static_cast<double>(check.departure->frame));
-  result.set("time", check.departure->time);
-  result.set("particle", static_cast<double>(check.departure->particle));
-  result.set("distance", check.departure->distance);
+  if (check.departure) result.set("time", check.departure->time);
   return result;
 }
 
