@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes what follows from the tables of options into launch/, config/, docs/ and python/.
+"""Writes what follows from the tables of options into config/, docs/ and python/.
 
 Usage: generate_option_texts.py PROGRAM [check]
 PROGRAM prints the tables: test/support/option_table.cpp. With `check`, writes nothing and fails if a
@@ -11,7 +11,6 @@ import re
 import subprocess
 import sys
 import textwrap
-import xml.sax.saxutils
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r'(?P<begin>[^\n]*BEGIN of generated (?P<kind>\w+)(?: except (?P<others>[\w ,]*\w))?[^\n]*\n)'
@@ -65,19 +64,6 @@ def parameter_row(option):
                                        option['meaning'])
 
 
-def launch_argument(option):
-    users = option['users'] + ': ' if option['users'] else ''
-    values = ' (%s)' % words(option) if words(option) else ''
-    doc = xml.sax.saxutils.escape(users + meaning_with_unit(option) + values, {'"': '&quot;'})
-    line = '  <arg name="%s" default="unset" doc="%s"/>\n' % (option['key'], doc)
-    return line if len(line) <= WIDTH else line.replace(' doc=', '\n       doc=')
-
-
-def launch_parameter(option):
-    key, text = option['key'], ' type="str"' if option['is_text'] else ''
-    return '    <param if="$(eval %s != \'unset\')" name="%s"%s value="$(arg %s)"/>\n' % (key, key, text, key)
-
-
 def keyword(option):
     placeholder = option['placeholder']
     types = {'FILE': '_Path', 'DIR': '_Path', 'METHOD': 'str', 'N': 'int', '': 'bool'}
@@ -90,9 +76,7 @@ KINDS = {'yaml': (yaml_entry, 'run', ''),
          'options': (option_row, 'run', '| option | meaning | unit | default |\n|---|---|---|---|\n'),
          'parameters': (parameter_row, 'display play',
                         '| parameter | default | range | meaning |\n|---|---|---|---|\n'),
-         'arguments': (launch_argument, 'run display play', ''),
-         'keywords': (keyword, 'run', ''),
-         'params': (launch_parameter, 'run display play', '')}
+         'keywords': (keyword, 'run', '')}
 
 
 def generated(match, options):
@@ -110,7 +94,7 @@ def main(program, *check):
     has_ros = any(option['group'] == 'play' for option in options)
     paths = ['config/pendulum.yaml', 'docs/exercise3.md', 'python/spring_pendulum/_functions.pyi']
     if has_ros:
-        paths += ['docs/ros.md', 'launch/pendulum.launch', 'launch/record.launch', 'launch/compare.launch']
+        paths += ['docs/ros.md']
     different = []
     for path in paths:
         text = (PROJECT / path).read_text()

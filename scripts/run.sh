@@ -12,6 +12,7 @@ if [ $# -gt 0 ] && [[ $1 != -* ]]; then method=$1; shift; fi
 particles=$project/data/particle.txt
 output=$project/output
 options=()
+parameters=()  # the same for the node: `--time-step 0.01` is `time_step: 0.01` there
 answers=false
 has_file=false
 while [ $# -gt 0 ]; do
@@ -19,7 +20,8 @@ while [ $# -gt 0 ]; do
   case $option in -p) option=--particles ;; -o) option=--output ;; esac
   case $option in
     --check | --help | -h | --version | --list-methods | --no-frames) answers=true ;;
-    --report-skips | --resume) ;;
+    --report-skips) ;;
+    --resume) parameters+=(resume=true) ;;
     --*=*) set -- "${option%%=*}" "${option#*=}" "$@"; continue ;;
     --*)
       [ $# -gt 0 ] || die "$option needs a value, see --help"
@@ -30,6 +32,8 @@ while [ $# -gt 0 ]; do
         --config | --energy | --save-state) value=$(realpath -m "$value") ;;
       esac
       options+=("$option" "$value")
+      key=${option#--}
+      parameters+=("${key//-/_}=$value")
       continue ;;
     *)
       ! $has_file && [[ $option != -* ]] ||
@@ -63,26 +67,25 @@ have_ros || { say "this machine has no ROS 1: no bag, no rviz"; exit 0; }
 "$(program record_bag)" "$method" --particles "$particles" --bag "$output/pendulum.bag" "${options[@]}"
 say "bag: $output/pendulum.bag"
 
-# The same run for the node: `--time-step 0.01` is `time_step:=0.01` there.
-arguments=("method:=$method" "particles:=$particles" "output:=$output/node")
-for ((i = 0; i < ${#options[@]}; i++)); do
-  [ "${options[i]}" = --report-skips ] && continue
-  key=${options[i]#--}
-  i=$((i + 1))
-  arguments+=("${key//-/_}:=${options[i]}")
+run=("method:=$method" "particles:=$particles" "output:=$output/node")
+pairs=()
+for parameter in "${parameters[@]}"; do
+  value=${parameter#*=}
+  pairs+=("${parameter%%=*}: '${value//\'/\'\'}'")
 done
+launch=("${run[@]}" "params:={$(IFS=,; printf '%s' "${pairs[*]}")}")
 setup=$(devel_of "$build")/setup.bash
 if [ -n "${DISPLAY:-}" ]; then
   "$project/scripts/setup.sh" rviz
   set +u
   source "$setup"
-  exec roslaunch spring_pendulum pendulum.launch "${arguments[@]}"
+  exec roslaunch spring_pendulum pendulum.launch "${launch[@]}"
 fi
 say "to see it move in rviz, on a machine with a display:"
 printf '  source %q\n' "$setup"
-printf '  roslaunch spring_pendulum pendulum.launch'; printf ' %q' "${arguments[@]}"; printf '\n'
+printf '  roslaunch spring_pendulum pendulum.launch'; printf ' %q' "${launch[@]}"; printf '\n'
 say "completion of methods, options and files in bash:"
 printf '  source %q\n' "$project/scripts/completion.bash"
 say "the node alone (needs a running roscore):"
 printf '  source %q\n' "$setup"
-printf '  rosrun spring_pendulum pendulum_node'; printf ' %q' "${arguments[@]/#/_}"; printf '\n'
+printf '  rosrun spring_pendulum pendulum_node'; printf ' _%q' "${run[@]}" "${parameters[@]/=/:=}"; printf '\n'

@@ -4,7 +4,6 @@
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
 #include "ros/node/live_run.hpp"
-#include "ros/node/master_registration.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 #include "ros/node/run_log.hpp"
@@ -34,10 +33,6 @@ void play(Run& run, LiveRun& live, Player& player, Publisher& publisher, RunFile
   for (Player::Action action = Player::Action::kShowAgain; action != Player::Action::kQuit;
        action = player.next()) {
     publisher.holdCamera(live.isGrabbed());  // it must not move under the mouse
-    if (action == Player::Action::kShowBetween) {
-      publisher.publishBetween(run, player.showing());
-      continue;
-    }
     live.act(action, publisher);
     if (run.wasStopped()) return;  // inside a frame, which is discarded
     files.write(run);
@@ -65,13 +60,6 @@ int runNode() {
   Publisher publisher(node, run, options);
   Player player(node, private_node, run, options);
   LiveRun live(node, private_node, run, integrator, options, player);
-  const MasterRegistration registration;
-  for (const auto& [node_name, topics] : registration.rivals()) {
-    ROS_WARN_STREAM(
-        node_name << " publishes " << fmt::format("{}", fmt::join(topics, ", "))
-                  << " as well: start one of the nodes in a namespace, for example with "
-                     "ROS_NAMESPACE=second");
-  }
   RunFiles files(run);  // last, because it removes the frames of earlier runs
   logStart(run, options, files);
   ROS_INFO_STREAM("parameters: " << configuration.values);

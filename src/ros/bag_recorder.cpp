@@ -45,7 +45,6 @@ class BagRecorder {
   void write(const Run& run) {
     const std_msgs::Header header = build_.header(run.time());
     build_.trackTip(run);
-    build_.show(run);
     const visualization_msgs::MarkerArray& markers = build_.markers(run, header);
     if (const auto camera = build_.newCamera(header)) {
       write("/tf_static", header, *camera, camera_header_);

@@ -62,15 +62,14 @@ class Faults(unittest.TestCase):
         port = free_port()
         environment = dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:%d/' % port)
         with Folder() as folder, Folder() as expected_folder:
-            with Master(port) as master:
+            with Master(port):
                 node = subprocess.Popen(
                     [program('pendulum_node'), '__name:=pendulum', '_particles:=' + SCENE,
                      '_output:=' + folder, '_frames:=100000', '_real_time_factor:=2'],
                     env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
                 wait_until(lambda: len(read_frames(folder)) > 2, 'frames')
-                before = master.nodes()
             try:
-                self.check_survival(node, port, folder, before, environment)
+                self.check_survival(node, port, folder)
             finally:
                 node.kill()
                 node.wait()
@@ -79,51 +78,12 @@ class Faults(unittest.TestCase):
                                     '--frames', str(len(frames)))
             self.assertEqual(frames, expected)
 
-    def check_survival(self, node, port, folder, before, environment):
+    def check_survival(self, node, port, folder):
         count = len(read_frames(folder))
         wait_until(lambda: len(read_frames(folder)) > count + 5, 'frames without a master')
-        with Master(port) as master:
-            wait_until(lambda: master.nodes() >= before, 'the node registered again')
-            topics, services = master.nodes()
-            self.assertTrue({'/markers', '/state', '/status'} <= topics)
-            self.assertTrue({'/pendulum/pause', '/pendulum/step', '/pendulum/reset'} <= services)
-            for arguments in (['rostopic', 'echo', '-n', '1', '/status'],
-                              ['rosservice', 'call', '/pendulum/pause', 'true']):
-                done = subprocess.run(arguments, env=environment, capture_output=True, text=True,
-                                      timeout=60)
-                self.assertEqual(done.returncode, 0, done.stderr)
+        with Master(port):
             node.send_signal(signal.SIGINT)
             self.assertEqual(node.wait(60), 0)
-
-    def test_a_follower_follows_again_after_a_restart_of_the_master(self):
-        port = free_port()
-        environment = dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:%d/' % port)
-        with Folder() as folder:
-            def start(name, *parameters):
-                return subprocess.Popen(
-                    [program('pendulum_node'), '__name:=' + name, '__ns:=/' + name, '_particles:=' + SCENE,
-                     '_frames:=100000', *parameters], env=environment, stdout=subprocess.DEVNULL,
-                    stderr=subprocess.DEVNULL)
-            leader = ['_output:=' + folder + '/leader', '_real_time_factor:=4']
-            with Master(port):
-                nodes = [start('a', *leader), start('b', '_output:=' + folder + '/b', '_follow:=/a/state')]
-                wait_until(lambda: os.path.exists(folder + '/b/frame_0002.txt'), 'frames of the follower')
-            try:
-                for late in (False, True):  # a leader before and after the follower has registered again
-                    nodes[0].kill()
-                    nodes[0].wait()
-                    with Master(port) as master:
-                        if late:
-                            wait_until(lambda: master.subscribes('/a/state', '/b/b'), 'the registration')
-                        nodes[0] = start('a', *leader)
-                        wait_until(lambda: master.subscribes('/a/state', '/b/b'), 'the registration')
-                        before = len(read_frames(folder + '/b'))
-                        wait_until(lambda: len(read_frames(folder + '/b')) > before + 5,
-                                   'more frames of the follower')
-            finally:
-                for node in nodes:
-                    node.kill()
-                    node.wait()
 
     def test_a_subscriber_that_stops_does_not_stop_the_node_or_make_it_grow(self):
         with Folder() as folder:
@@ -145,9 +105,8 @@ class Faults(unittest.TestCase):
                         except (FileNotFoundError, AttributeError):
                             break
                         time.sleep(0.05)
-                    # 3000 messages of 98 kB would be 290 MB; the queue holds 64 MB of them. The states
-                    # to which ~seek can go back take up to 32 MB.
-                    self.assertLess(largest - start, 150e6)
+                    # 3000 messages of 98 kB would be 290 MB; the queue holds 64 MB of them.
+                    self.assertLess(largest - start, 120e6)
                     self.assertEqual(node.wait(120), 0, node.output())
                 finally:
                     os.kill(listener.pid, signal.SIGCONT)
@@ -166,8 +125,7 @@ class Faults(unittest.TestCase):
                 self.assertEqual(node.wait(), 0, node.output())
             state.close()
             return bytes_used
-        # Of this, 2.3 MB are the states to which ~seek can go back, 32 MB at most.
-        self.assertLess(memory_after(6001) - memory_after(1201), 5.3e6)
+        self.assertLess(memory_after(6001) - memory_after(1201), 3e6)
 
     def test_a_thousand_service_calls(self):
         random.seed(20)

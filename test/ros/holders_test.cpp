@@ -120,9 +120,6 @@ TEST(Holders, GiveTheImpulseOfAForce) {
   live.go(1.0);
   EXPECT_NEAR(live.run.state().vx()[4], 2.0 * 0.56, 1e-12);
   EXPECT_NEAR(live.run.state().vy()[4], -1.0 * 0.56, 1e-12);
-  live.holders.kick(2, {0.0, 3.0});
-  live.go(0.1);
-  EXPECT_NEAR(live.run.state().vy()[2], 3.0, 1e-12);
 }
 
 TEST(Holders, SwitchBetweenStepControlsAtAFrame) {

@@ -11,7 +11,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped, Vector3
 from spring_pendulum.msg import PendulumInput, PendulumState
-from spring_pendulum.srv import ApplyForce, Seek, Set, StatePath
+from spring_pendulum.srv import ApplyForce, Set, StatePath
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
@@ -77,29 +77,6 @@ class States(unittest.TestCase):
             expected = numbers_of(frames['frame_%04d.txt' % state.frame].decode())
             self.assertEqual([(p.x, p.z) for p in state.positions], expected)
 
-    def test_seeks_any_frame_at_once(self):
-        for method in ('Runge-Kutta-4', 'Velocity-Verlet'):
-            with Folder() as folder, self.node(folder, method=method):
-                frames = run_exercise(folder, method, '--particles', SCENE, '--frames', '60')
-                seek = service('seek', Seek)
-                self.state.wait_for_any(lambda m: m.frame == 59)
-                for frame in (10, 42, 0, 59):
-                    service('pause', SetBool)(True)
-                    del self.state.messages[:]
-                    answer = seek(frame)
-                    self.assertTrue(answer.success, answer.message)
-                    self.state.wait_for_any(lambda m, frame=frame: m.frame == frame)
-                    service('pause', SetBool)(False)
-                    self.state.wait_for_any(lambda m: m.frame == 59)
-                    at = [m.frame for m in self.state.messages].index(frame)
-                    self.check_frames(self.state.messages[at:], frames)
-                    self.assertEqual(self.state.messages[-1].verdict, 'ok')
-                for frame in (-1, 60, 2 ** 62):
-                    answer = seek(frame)
-                    self.assertFalse(answer.success)
-                    self.assertIn('must be 0 to 59', answer.message)
-                del self.state.messages[:]
-
     def test_saves_and_loads(self):
         with Folder() as folder, self.node(folder, method='Runge-Kutta-4'):
             frames = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')
@@ -141,8 +118,7 @@ class States(unittest.TestCase):
                 self.assertTrue(load.success, load.message)
                 state.wait_for_any(lambda m: m.frame >= 31)
                 self.assertLess(len(read_frames(written)), 30)
-                seek = service('seek', Seek)(0)  # before the end of the run, which ends the files
-                self.assertTrue(seek.success, seek.message)
+                self.assertTrue(service('reset', Trigger)().success)  # the end of the run ends the files
                 wait_until(lambda: len(read_frames(written)) == 60, 'all frames')
                 frames = read_frames(written)
             state.close()
@@ -154,8 +130,7 @@ class States(unittest.TestCase):
             with open(kept, 'w') as file:
                 file.write('kept')
             with PendulumNode(particles=SCENE, wait_for_subscribers=9, wait_timeout=100):
-                for answer in (service('save_state', StatePath)(kept), service('seek', Seek)(0),
-                               service('load_state', StatePath)(kept)):
+                for answer in (service('save_state', StatePath)(kept), service('load_state', StatePath)(kept)):
                     self.assertFalse(answer.success)
                     self.assertEqual(answer.message, 'the run has not started yet')
             with open(kept) as file:
@@ -191,7 +166,7 @@ class Repeated(unittest.TestCase):
     def disturb(self, dice, hand, robot, state):
         """Acts on a node until its run is over."""
         force, set_constant = service('apply_force', ApplyForce), service('set', Set)
-        seek, pause, reset = service('seek', Seek), service('pause', SetBool), service('reset', Trigger)
+        pause, reset = service('pause', SetBool), service('reset', Trigger)
         jumps = 0
         while state.messages[-1].frame < 79:
             choice = dice.random()
@@ -216,7 +191,7 @@ class Repeated(unittest.TestCase):
                 set_constant(*dice.choice(CONSTANTS))
             elif choice < 0.96 and jumps < 3:
                 jumps += 1
-                dice.choice([lambda: seek(dice.randint(0, 5)), reset])()
+                reset()
             else:
                 pause(True)
                 rospy.sleep(0.02)

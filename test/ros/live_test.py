@@ -186,8 +186,8 @@ class Hands(LiveTest):
                 self.assertFalse(answer.success, name)
                 self.assertRegex(answer.message, r'\w+ .*\w')
 
-    def test_forces_and_clicks_push(self):
-        with self.node(method='Auto', gravity=0.0, click_impulse=2.0):
+    def test_forces_push(self):
+        with self.node(method='Auto', gravity=0.0):
             self.state.wait_for(5)
             answer = self.call('apply_force', ApplyForce, 11, '', Vector3(0.0, 7.0, 20.0), 0.0, 0.5)
             self.assertTrue(answer.success, answer.message)
@@ -201,17 +201,6 @@ class Hands(LiveTest):
                 answer = self.call('apply_force', ApplyForce, particle, frame,
                                    Vector3(force, 0.0, 0.0), 0.0, 1.0)
                 self.assertFalse(answer.success)
-            clicks = rospy.Publisher('clicked_point', PointStamped, queue_size=1)
-            wait_until(lambda: clicks.get_num_connections() > 0, 'the subscriber of clicks')
-            point = PointStamped()
-            point.header.frame_id = 'world'
-            position = self.last().positions[3]
-            point.point.x, point.point.z = position.x, position.z + 0.3
-            before = self.last().supplied_energy
-            clicks.publish(point)
-            self.wait_state(lambda m: m.supplied_energy != before, 'the click')
-            self.check_energy()
-
     def test_constants_that_the_run_would_refuse_are_refused_at_once(self):
         with self.node(method='Auto') as node:
             self.state.wait_for(5)

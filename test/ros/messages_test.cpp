@@ -37,9 +37,7 @@ std::array<float, 4> rgba(const std_msgs::ColorRGBA& color) {
 visualization_msgs::MarkerArray markersOf(const Run& run, const NodeOptions& options) {
   MarkerBuilder builder(run, options);
   builder.trackTip(run);
-  ShownState shown;
-  shown.set(run);
-  return builder.build(run, shown, std_msgs::Header(), "");
+  return builder.build(run, std_msgs::Header(), "");
 }
 
 TEST(Markers, LongChainsAreThinnedAndKeepBothEnds) {
@@ -90,13 +88,11 @@ TEST(Markers, ADivergedChainInItsOwnColourIsBroken) {
   NodeOptions options;
   options.color = "#ff8000";
   MarkerBuilder builder(run, options);
-  ShownState shown;
-  shown.set(run);
   const std_msgs::Header header;
-  EXPECT_EQ(builder.build(run, shown, header, "").markers[0].points.size(), 4U);
+  EXPECT_EQ(builder.build(run, header, "").markers[0].points.size(), 4U);
   while (!run.isOver()) run.advance();
   ASSERT_EQ(run.verdict().kind, VerdictKind::kDiverged);
-  const auto& springs = builder.build(run, shown, header, "").markers[0];
+  const auto& springs = builder.build(run, header, "").markers[0];
   ASSERT_EQ(springs.points.size(), 8U);  // each spring in two pieces
   EXPECT_DOUBLE_EQ(springs.points[1].x, 0.3);
   EXPECT_DOUBLE_EQ(springs.points[2].x, 0.7);
@@ -131,9 +127,7 @@ TEST(Markers, OnlyTheFirstRowMovesTheCamera) {
   for (const int row : {0, 1}) {
     options.text_row = row;
     MarkerBuilder builder(run, options);
-    ShownState shown;
-    shown.set(run);
-    builder.build(run, shown, std_msgs::Header(), "");
+    builder.build(run, std_msgs::Header(), "");
     EXPECT_EQ(builder.cameraChanges(), row == 0 ? 1 : 0);
   }
 }
@@ -174,15 +168,11 @@ TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
     run.advance();
   }
   const std_msgs::Header header;
-  ShownState shown;
-  shown.set(run);
-  const auto& trail = builder.build(run, shown, header, "").markers[3];
+  const auto& trail = builder.build(run, header, "").markers[3];
   EXPECT_EQ(trail.points.size(), 11U);  // 1 s at 0.1 s
   run.reset();
   builder.trackTip(run);
-  shown.set(run);
-  EXPECT_EQ(builder.build(run, shown, header, "").markers[3].action,
-            visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(builder.build(run, header, "").markers[3].action, visualization_msgs::Marker::DELETE);
 }
 
 TEST(Markers, TheReferenceIsASecondChainOnRequest) {
@@ -196,28 +186,6 @@ TEST(Markers, TheReferenceIsASecondChainOnRequest) {
   EXPECT_EQ(markers[6].points[3].z, run.referenceState()->y()[2]);
   // Otherwise the one that an earlier run has left is deleted.
   EXPECT_EQ(markersOf(run, NodeOptions{}).markers[6].action, visualization_msgs::Marker::DELETE);
-}
-
-TEST(Markers, SlowMotionShowsStatesBetween) {
-  test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
-  ShownState shown;
-  for (int i = 0; i < 5; ++i) {
-    run.advance();
-    shown.set(run);
-  }
-  const State before = run.state();
-  test::ProgramRun truth(Scenario{}, horizontal(3), {false, 0.05});
-  for (int i = 0; i < 11; ++i) truth.advancePart();
-  run.advance();
-  shown.set(run, 0.0);
-  EXPECT_EQ(shown.state().positions(), before.positions());
-  shown.set(run, 0.5);
-  EXPECT_DOUBLE_EQ(shown.time(), 0.55);
-  EXPECT_DOUBLE_EQ(truth.time(), 0.55);
-  // Measured: 2e-5 m over a frame of 0.1 s; the middle of the two positions is 0.01 m off.
-  EXPECT_LT((shown.state().positions() - truth.state().positions()).cwiseAbs().maxCoeff(), 2e-4);
-  shown.set(run, 1.0);
-  EXPECT_EQ(shown.state().positions(), run.state().positions());
 }
 
 TEST(StateMessage, LiesInThePlaneXZ) {

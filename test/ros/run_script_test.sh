@@ -19,7 +19,8 @@ check test -s frames/pendulum.bag
 sed -n 's/^  source /source /p' run.log | head -n 1 > setup.sh
 sed -n 's/^  rosrun /rosrun /p' run.log > node.sh
 sed -n 's/^  roslaunch /roslaunch /p' run.log > launch.sh
-check grep -q 'damping:=0.*gravity:=-9' launch.sh
+check grep -q 'damping:=0.*gravity:=-9' node.sh
+check grep -q 'damping.*0.*gravity.*-9' launch.sh
 
 cat > user.sh << 'USER'
 source setup.sh

@@ -37,9 +37,9 @@ std::string tooLarge(const std::string& name) {
 
 }  // namespace
 
-Commands::Commands(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
-                   const NodeOptions& options, Holders& holders, Frames& frames,
-                   std::function<void(double)> set_speed, std::function<void()> show)
+Commands::Commands(ros::NodeHandle& private_node, const Run& run, const NodeOptions& options,
+                   Holders& holders, Frames& frames, std::function<void(double)> set_speed,
+                   std::function<void()> show)
     : run_(run),
       options_(options),
       holders_(holders),
@@ -50,9 +50,6 @@ Commands::Commands(ros::NodeHandle& node, ros::NodeHandle& private_node, const R
   force_ = private_node.advertiseService("apply_force", &Commands::onApplyForce, this);
   clear_ = private_node.advertiseService("clear_forces", &Commands::onClearForces, this);
   at_rest_ = private_node.advertiseService("at_rest", &Commands::onAtRest, this);
-  if (options.click_impulse > 0.0) {
-    click_ = node.subscribe("clicked_point", 10, &Commands::onClick, this);
-  }
 }
 
 std::string Commands::set(const std::string& name, const std::string& value) {
@@ -138,30 +135,6 @@ bool Commands::onAtRest(std_srvs::Trigger::Request& /*request*/,
     show_();
     return std::string("the chain hangs at rest from the next state on");
   });
-}
-
-void Commands::onClick(const geometry_msgs::PointStamped::ConstPtr& point) {
-  geometry_msgs::Vector3 at;
-  try {
-    at = transformed(frames_.from(point->header.frame_id).transform, point->point);
-  } catch (const InputError& error) {
-    ROS_WARN_STREAM("clicked_point: " << error.what());
-    return;
-  }
-  if (!std::isfinite(at.x) || !std::isfinite(at.z) || run_.chain().size() < 2) return;
-  const State& state = run_.state();
-  Eigen::Index nearest = 1;
-  const auto dx = state.x().array() - at.x, dy = state.y().array() - at.z;
-  (dx.square() + dy.square()).tail(state.size() - 1).minCoeff(&nearest);
-  ++nearest;  // P_1 does not count
-  const double distance = std::hypot(dx[nearest], dy[nearest]);
-  const PlaneVector<double> away =
-      distance > 1e-6 ? PlaneVector<double>{dx[nearest] / distance, dy[nearest] / distance}
-                      : PlaneVector<double>{1.0, 0.0};
-  const double speed = options_.click_impulse * run_.chain().inverseMasses()[nearest];
-  holders_.kick(nearest, {speed * away.x, speed * away.y});
-  ROS_INFO_STREAM("clicked_point: an impulse of " << options_.click_impulse << " N s on particle "
-                                                  << nearest + 1);
 }
 
 }  // namespace spring_pendulum

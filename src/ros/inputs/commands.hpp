@@ -7,7 +7,6 @@
 #include <spring_pendulum/ApplyForce.h>
 #include <spring_pendulum/Set.h>
 
-#include <geometry_msgs/PointStamped.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
 
@@ -20,16 +19,15 @@ class Commands {
  public:
   /// \param set_speed sets the real-time factor
   /// \param show      shows the state again soon
-  Commands(ros::NodeHandle& node, ros::NodeHandle& private_node, const Run& run,
-           const NodeOptions& options, Holders& holders, Frames& frames,
-           std::function<void(double)> set_speed, std::function<void()> show);
+  Commands(ros::NodeHandle& private_node, const Run& run, const NodeOptions& options,
+           Holders& holders, Frames& frames, std::function<void(double)> set_speed,
+           std::function<void()> show);
 
  private:
   bool onSet(Set::Request& request, Set::Response& response);
   bool onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response);
   bool onClearForces(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onAtRest(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  void onClick(const geometry_msgs::PointStamped::ConstPtr& point);
 
   std::string set(const std::string& name, const std::string& value);
   std::string applyForce(const ApplyForce::Request& request);
@@ -41,7 +39,6 @@ class Commands {
   std::function<void(double)> set_speed_;
   std::function<void()> show_;
   ros::ServiceServer set_service_, force_, clear_, at_rest_;
-  ros::Subscriber click_;
 };
 
 }  // namespace spring_pendulum

@@ -57,11 +57,6 @@ std::size_t Holders::clearForces() {
   return count;
 }
 
-void Holders::kick(std::ptrdiff_t particle, const PlaneVector<double>& velocity) {
-  PlaneVector<double>& sum = kicks_[particle];
-  sum = {sum.x + velocity.x, sum.y + velocity.y};
-}
-
 Drive Holders::driveUntil(double next_time, State& state) {
   Drive drive;
   const double interval = std::max(next_time - run_.time(), 1e-6);
@@ -107,16 +102,11 @@ void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double ne
                     bool paused) {
   if (run.isOver()) return;
   // Most runs are left alone: for them, no state is copied.
-  if (targets_.empty() && forces_.empty() && kicks_.empty() && !jump_ && !run.chain().isDriven() &&
+  if (targets_.empty() && forces_.empty() && !jump_ && !run.chain().isDriven() &&
       isSame(wanted_, run.scenario())) {
     return;
   }
   State state = jump_ ? *jump_ : run.state();
-  for (const auto& [i, velocity] : kicks_) {
-    if (isHeld(i) || i == 0) continue;
-    state.vx()[i] += velocity.x;
-    state.vy()[i] += velocity.y;
-  }
   Drive drive;
   if (paused) {
     for (const auto& [i, target] : targets_) {
@@ -127,7 +117,6 @@ void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double ne
     drive = driveUntil(next_time, state);
   }
   jump_.reset();
-  kicks_.clear();
   // An anchor at rest needs no drive.
   if (drive.held.size() == 1 && drive.held[0].particle == 0 && drive.forces.empty() &&
       drive.held[0].acceleration.x == 0.0 && drive.held[0].acceleration.y == 0.0 &&
@@ -154,7 +143,6 @@ void Holders::reset(Run& run, std::unique_ptr<Integrator>& integrator, const Par
   const State& state = to != nullptr ? to->state : run.start();
   targets_.clear();
   forces_.clear();
-  kicks_.clear();
   jump_.reset();
   if (run.isChanged()) {
     try {

@@ -44,8 +44,6 @@ class Holders {
   void push(const TimedForce& force) { forces_.push_back(force); }
   /// Returns the number of forces that acted or were to act.
   std::size_t clearForces();
-  /// Adds a velocity to a particle between the next two states, m/s.
-  void kick(std::ptrdiff_t particle, const PlaneVector<double>& velocity);
 
   /// The scenario whose method and constants hold from the next state on.
   Scenario& wanted() { return wanted_; }
@@ -71,7 +69,6 @@ class Holders {
   Scenario wanted_;
   std::map<std::ptrdiff_t, Target> targets_;
   std::vector<TimedForce> forces_;
-  std::map<std::ptrdiff_t, PlaneVector<double>> kicks_;
   std::unique_ptr<State> jump_;
 };
 

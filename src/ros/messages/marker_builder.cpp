@@ -247,16 +247,16 @@ void MarkerBuilder::trackTip(const Run& run) {
   }
 }
 
-const visualization_msgs::MarkerArray& MarkerBuilder::build(const Run& run, const ShownState& shown,
+const visualization_msgs::MarkerArray& MarkerBuilder::build(const Run& run,
                                                             const std_msgs::Header& header,
                                                             const std::string& pace) {
   for (visualization_msgs::Marker& marker : markers_.markers) marker.header = header;
-  fitView(run, shown.state());
-  if (run.isFinite() && run.isShown()) place(run, shown.state());
+  fitView(run, run.state());
+  if (run.isFinite() && run.isShown()) place(run, run.state());
   if (placed_) paint(run);
-  drawTrail(shown);
+  drawTrail();
   drawReference(run);
-  label(run, shown.time(), pace);
+  label(run, pace);
   placeText();
   for (const MarkerIndex list : {kSprings, kParticles, kTrail, kGrid}) {
     hideIfEmpty(markers_.markers[list]);
@@ -339,12 +339,11 @@ void MarkerBuilder::paint(const Run& run) {
   }
 }
 
-void MarkerBuilder::drawTrail(const ShownState& shown) {
+void MarkerBuilder::drawTrail() {
   auto& trail = markers_.markers[kTrail];
   trail.points.clear();
   trail.colors.clear();
   for (const TrailPoint& point : trail_) {
-    if (point.time > shown.time()) break;
     trail.points.push_back(point.point);
     std_msgs::ColorRGBA color =
         options_.color.empty() ? lighter(mass_colors_.back()) : *parseColor(options_.color);
@@ -358,11 +357,11 @@ int MarkerBuilder::textLines() const {
   return std::max(kTextLines, static_cast<int>(options_.text_rows));
 }
 
-void MarkerBuilder::label(const Run& run, double time, const std::string& pace) {
+void MarkerBuilder::label(const Run& run, const std::string& pace) {
   const Scenario& scenario = run.scenario();
   const bool fixed_step = scenario.method.get().hasFixedStep();
   const EnergyEntry entry = run.energyEntry();
-  const std::string clock = fmt::format("t = {:.2f} s", time);
+  const std::string clock = fmt::format("t = {:.2f} s", run.time());
   const std::string error =
       entry.relative_residual ? fmt::format("energy error {:.1e}", *entry.relative_residual) : "";
   const double position_error = run.positionError().now;

@@ -8,7 +8,6 @@
 #pragma once
 
 #include "ros/messages/scene_view.hpp"
-#include "ros/messages/shown_state.hpp"
 #include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
@@ -34,8 +33,7 @@ class MarkerBuilder {
   /// its colour.
   /// \param pace speed of the run for the text: "1.00 x real time"
   /// \returns a reference that is valid until the next call
-  const visualization_msgs::MarkerArray& build(const Run& run, const ShownState& shown,
-                                               const std_msgs::Header& header,
+  const visualization_msgs::MarkerArray& build(const Run& run, const std_msgs::Header& header,
                                                const std::string& pace);
 
   /// Keeps the camera where it is, for example while the mouse drags a particle.
@@ -64,8 +62,8 @@ class MarkerBuilder {
   void breakSprings();
   void paint(const Run& run);
   void drawReference(const Run& run);
-  void drawTrail(const ShownState& shown);
-  void label(const Run& run, double time, const std::string& pace);
+  void drawTrail();
+  void label(const Run& run, const std::string& pace);
   std_msgs::ColorRGBA springColor(const Run& run, std::size_t spring) const;
 
   NodeOptions options_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "ros/messages/marker_builder.hpp"
-#include "ros/messages/shown_state.hpp"
 #include "ros/messages/stamps.hpp"
 #include "ros/messages/state_builder.hpp"
 #include "ros/parameters/node_options.hpp"
@@ -28,11 +27,9 @@ class RunMessages {
   /// Adds the tip to the trail, also of a state without markers.
   void trackTip(const Run& run) { markers_.trackTip(run); }
   void holdCamera(bool hold) { markers_.holdCamera(hold); }
-  /// Sets the state that `markers` shows, see ShownState::set.
-  void show(const Run& run, double share = 1.0) { shown_.set(run, share); }
   const visualization_msgs::MarkerArray& markers(const Run& run, const std_msgs::Header& header,
                                                  const std::string& pace = "") {
-    return markers_.build(run, shown_, header, pace);
+    return markers_.build(run, header, pace);
   }
   /// Returns the transform of the camera if `markers` has moved it since the last call.
   std::optional<tf2_msgs::TFMessage> newCamera(const std_msgs::Header& header);
@@ -48,7 +45,6 @@ class RunMessages {
   bool has_camera_;
   Stamps stamps_;
   MarkerBuilder markers_;
-  ShownState shown_;
   StateBuilder state_;
   int camera_changes_ = 0;
   std::string last_status_;

@@ -41,7 +41,7 @@ LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
       handles_(node, run, options, holders_, frames_, menuActions()),
       held_inputs_(node, run, options, holders_, frames_),
       commands_(
-          node, private_node, run, options, holders_, frames_,
+          private_node, run, options, holders_, frames_,
           [this](double factor) { player_.setSpeed(factor); }, [this] { player_.touch(); }),
       states_(private_node, run,
               [this](Particles particles) { player_.goTo(std::move(particles)); }) {}
@@ -59,7 +59,7 @@ MenuActions LiveRun::menuActions() {
 void LiveRun::start() {
   run_.advance(*integrator_);
   log_.started(run_, run_.time());
-  states_.keep();
+  states_.remember();
 }
 
 void LiveRun::change(double next_time, bool paused) {
@@ -90,7 +90,7 @@ void LiveRun::act(Player::Action action, const Publisher& publisher) {
     change(run_.nextFrameTime(), false);
     run_.advance(*integrator_);
   }
-  states_.keep();
+  states_.remember();
 }
 
 void LiveRun::show(const std_msgs::Header& header) {

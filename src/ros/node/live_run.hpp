@@ -6,7 +6,7 @@
 #include "ros/inputs/held_inputs.hpp"
 #include "ros/inputs/holders.hpp"
 #include "ros/inputs/input_messages.hpp"
-#include "ros/inputs/kept_states.hpp"
+#include "ros/inputs/saved_states.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 
@@ -45,7 +45,7 @@ class LiveRun {
   Handles handles_;
   HeldInputs held_inputs_;
   Commands commands_;
-  KeptStates states_;
+  SavedStates states_;
 };
 
 }  // namespace spring_pendulum

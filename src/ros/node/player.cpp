@@ -16,12 +16,7 @@ namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, while the run is paused
 constexpr double kLongestWait = 0.1;        // s, latency of the end of ROS
-// A motion is slow, and shown between its states, if a state or a time step takes longer than this
-// many display intervals.
-constexpr double kSlowStates = 1.5;
-constexpr double kSlowSteps = 1.1;
-constexpr double kLongestInterval = 1e9;  // s; ros::Duration has 32 bits for seconds
-constexpr double kLoopPause = 1.0;        // s, pause at the last frame before a loop
+constexpr double kLoopPause = 1.0;          // s, pause at the last frame before a loop
 
 /// Whether neither ROS nor a signal has ended the program.
 bool isWanted() {
@@ -49,14 +44,7 @@ Player::Action Player::next() {
     if (!isWanted()) break;
     const ros::SteadyTime now = ros::SteadyTime::now();
     if (reset_wanted_) return goBack();
-    if (isAhead()) {
-      if (now < next_between_) continue;
-      const ros::WallDuration interval(std::min(1.0 / options_.display_rate, kLongestInterval));
-      next_between_ = std::max(next_between_ + interval, now);
-      return Action::kShowBetween;
-    }
     if (isDue()) {
-      ahead_from_ = isSlow() ? run_.time() : -1.0;
       stands_since_ = ros::SteadyTime();
       if (steps_wanted_ > 0) --steps_wanted_;
       const bool hurry =
@@ -86,7 +74,6 @@ Player::Action Player::next() {
 }
 
 Player::Action Player::goBack() {
-  ahead_from_ = -1.0;
   reset_wanted_ = false;
   steps_wanted_ = 0;
   stands_since_ = ros::SteadyTime();
@@ -98,48 +85,21 @@ bool Player::isDue() const {
   if (run_.isOver()) return false;
   if (paused_) return steps_wanted_ > 0;
   if (!options_.follow.empty()) return run_.nextTime() <= leader_time_;
-  return ros::SteadyTime::now() >= pacer_.dueTime(isSlow() ? run_.time() : run_.nextTime());
-}
-
-bool Player::isSlow() const {
-  if (paused_ || run_.isOver() || !options_.follow.empty() || options_.publish_clock) return false;
-  if (options_.real_time_factor <= 0.0) return false;
-  const double shown_interval = options_.real_time_factor / options_.display_rate;
-  // With several steps between two states, states are unequally far apart.
-  const Scenario& scenario = run_.scenario();
-  return run_.nextTime() - run_.time() > kSlowStates * shown_interval ||
-         (scenario.method.get().hasFixedStep() && scenario.time_step > kSlowSteps * shown_interval);
-}
-
-bool Player::isAhead() const {
-  return !paused_ && ahead_from_ >= 0.0 && ahead_from_ < run_.time() &&
-         ros::SteadyTime::now() < pacer_.dueTime(run_.time());
+  return ros::SteadyTime::now() >= pacer_.dueTime(run_.nextTime());
 }
 
 Showing Player::showing() {
-  const bool is_paced = options_.follow.empty() && !paused_ && !run_.isOver() && !isAhead();
-  return {paused_, pace(), shownShare(), !is_paced || pacer_.isShown(run_.time())};
-}
-
-/// Position of the shown state between the previous state of the run (0) and the current one (1).
-/// It is less than 1 in slow motion, where the run is one state ahead of the display.
-double Player::shownShare() const {
-  if (!isAhead()) return 1.0;
-  const double ahead = (pacer_.dueTime(run_.time()) - ros::SteadyTime::now()).toSec();
-  const double share = 1.0 - ahead * options_.real_time_factor / (run_.time() - ahead_from_);
-  return std::clamp(share, 0.0, 1.0);
+  const bool is_paced = options_.follow.empty() && !paused_ && !run_.isOver();
+  return {paused_, pace(), !is_paced || pacer_.isShown(run_.time())};
 }
 
 void Player::serveUntilDue() {
   auto* callbacks = ros::getGlobalCallbackQueue();
   callbacks->callAvailable();
-  if (reset_wanted_ || (!isAhead() && (isDue() || isAtExit()))) return;
+  if (reset_wanted_ || isDue() || isAtExit()) return;
   double wait = kLongestWait;
-  if (isAhead()) {
-    wait = std::min(wait, (next_between_ - ros::SteadyTime::now()).toSec());
-  } else if (!run_.isOver() && !paused_ && options_.follow.empty()) {
-    const double next = isSlow() ? run_.time() : run_.nextTime();
-    wait = std::min(wait, (pacer_.dueTime(next) - ros::SteadyTime::now()).toSec());
+  if (!run_.isOver() && !paused_ && options_.follow.empty()) {
+    wait = std::min(wait, (pacer_.dueTime(run_.nextTime()) - ros::SteadyTime::now()).toSec());
   }
   if (wait > 0.0) callbacks->callAvailable(ros::WallDuration(wait));
 }

@@ -24,7 +24,6 @@ class Player {
     kAdvance,       ///< advance to the next shown state
     kAdvanceFrame,  ///< advance to the next frame
     kReset,         ///< go to a frame, see `takeWanted`
-    kShowBetween,   ///< slow motion: show a state between the last two
     kShowAgain,     ///< show the same state again, for late subscribers
     kQuit
   };
@@ -64,11 +63,8 @@ class Player {
 
   std::string overMessage() const;
   std::string pace() const;
-  double shownShare() const;
   Action goBack();
   bool isDue() const;
-  bool isSlow() const;
-  bool isAhead() const;
   bool isAtExit() const;
   void serveUntilDue();
 
@@ -80,8 +76,6 @@ class Player {
   std::optional<Particles> wanted_;
   bool touched_ = false;
   std::int64_t steps_wanted_ = 0;
-  double ahead_from_ = -1.0;  ///< s, slow motion: time of the previous state; else < 0
-  ros::SteadyTime next_between_;
   double leader_time_ = -1.0;     ///< s, simulated time of the followed node
   ros::SteadyTime stands_since_;  ///< zero while the run advances
   ros::SteadyTime last_shown_;    ///< while the run is paused

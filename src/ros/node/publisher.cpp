@@ -73,7 +73,6 @@ void Publisher::waitForSubscribers(const NodeOptions& options) {
 std::optional<std_msgs::Header> Publisher::publish(const Run& run, const Showing& showing) {
   std::optional<PendulumStatus> status = build_.newStatus(run, showing.paused);
   const bool has_markers = markers_.getNumSubscribers() > 0;
-  if (has_markers) build_.show(run, showing.share);
   if (!showing.due && !status) return std::nullopt;
   const std_msgs::Header header = build_.header(run.time());
   if (publishes_clock_) {
@@ -82,7 +81,7 @@ std::optional<std_msgs::Header> Publisher::publish(const Run& run, const Showing
     clock_.publish(clock);
   }
   build_.trackTip(run);
-  if (has_markers && showing.share >= 1.0) publishMarkers(run, header, showing.pace);
+  if (has_markers) publishMarkers(run, header, showing.pace);
   if (state_.getNumSubscribers() > 0) {
     state_.publish(build_.state(run, header));
     ++states_built_;
@@ -91,12 +90,6 @@ std::optional<std_msgs::Header> Publisher::publish(const Run& run, const Showing
   status->header = header;
   status_.publish(*status);
   return header;
-}
-
-void Publisher::publishBetween(const Run& run, const Showing& showing) {
-  if (markers_.getNumSubscribers() == 0) return;
-  build_.show(run, showing.share);
-  publishMarkers(run, build_.header(run.time()), showing.pace);
 }
 
 void Publisher::publishMarkers(const Run& run, const std_msgs::Header& header,

@@ -17,8 +17,7 @@ namespace spring_pendulum {
 struct Showing {
   bool paused = false;  ///< whether the user has paused the run
   std::string pace;     ///< speed of the run, for the text
-  double share = 1.0;  ///< slow motion: position between the previous state (0) and the current one
-  bool due = true;     ///< false: publish nothing but a changed status
+  bool due = true;      ///< false: publish nothing but a changed status
 };
 
 class Publisher {
@@ -38,8 +37,6 @@ class Publisher {
   /// motion, the markers are left to `publishBetween`.
   /// \returns the header of the messages; nothing if the state was not due
   std::optional<std_msgs::Header> publish(const Run& run, const Showing& showing);
-  /// Publishes only the markers, for a state between the last two.
-  void publishBetween(const Run& run, const Showing& showing);
 
   /// Removes the markers from rviz, which keeps them when the node has ended.
   void clear();

@@ -28,7 +28,7 @@ void logDisplayRate(const Run& run, const NodeOptions& options) {
   if (options.display_rate <= states * (1.0 + 1e-9)) return;
   ROS_INFO_STREAM(fmt::format(
       "display_rate is {:g} Hz, but a time step of {:g} s gives only {:.3g} states per second at "
-      "real_time_factor {:g}: the markers are interpolated between them",
+      "real_time_factor {:g}",
       options.display_rate, run.scenario().time_step, states, options.real_time_factor));
 }
 
@@ -87,7 +87,6 @@ std::string RunLog::closingLine() const {
 }
 
 void RunLog::note() {
-  parameters_.look();
   const Verdict& verdict = run_.verdict();
   const std::string& method = run_.scenario().method.get().name;
   if (verdict.kind > said_verdict_) {

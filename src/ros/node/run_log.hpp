@@ -3,7 +3,6 @@
 
 #include "io/formats/run_files.hpp"
 #include "ros/node/publisher.hpp"
-#include "ros/parameters/parameter_watch.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <cstdint>
@@ -29,7 +28,7 @@ class RunLog {
       : run_(run), integrator_(integrator), files_(files), publisher_(publisher), holds_(holds) {}
 
   /// Must be called after every action. Logs once each: a bad verdict, a divergence with its
-  /// remedy, the choices of Auto, the end of the run, parameters that are changed without effect.
+  /// remedy, the choices of Auto, the end of the run.
   void note();
 
   /// Logs the closing line of a run that did not reach its end, or continued after it.
@@ -49,7 +48,6 @@ class RunLog {
   std::string said_choice_;
   std::string said_tolerance_;
   int choices_said_ = 0;
-  ParameterWatch parameters_;
 };
 
 }  // namespace spring_pendulum

@@ -76,8 +76,6 @@ std::vector<Option> playOptions(NodeOptions& o) {
       {"tf_particles",
        Text{&o.tf_particles, "LIST", "particles such as '1, last', or empty", anyText}, "",
        "particles whose positions are published as tf frames NODE/particle_<i>"},
-      {"click_impulse", Number{&o.click_impulse, Range::atLeast(0)}, "N·s",
-       "impulse on the particle nearest to a clicked_point, away from that point; 0: none"},
       {"follow", Text{&o.follow, "TOPIC", "the name of a topic", isTopicName}, "",
        "state topic of another node whose simulated time this one follows"},
   };

@@ -34,8 +34,7 @@ struct NodeOptions {
   std::string held;                    ///< particles that robots hold: "1, last"
   std::map<std::int64_t, std::string> held_frames;  ///< tf frames of their holders, by particle
   std::string tf_particles;                         ///< particles with a tf frame
-  double click_impulse = 1.0;                    ///< N·s, of a click with Publish Point; 0: none
-  std::string camera_frame = "pendulum_camera";  ///< empty: none
+  std::string camera_frame = "pendulum_camera";     ///< empty: none
 
   /// Simulated time between two shown states, s; 0: only frames are shown.
   double displayInterval() const {

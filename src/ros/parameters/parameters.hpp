@@ -12,6 +12,10 @@
 namespace spring_pendulum {
 
 struct NodeConfiguration {
+  NodeConfiguration() {
+    scenario.output.clear();
+  }  // a node that shows writes frames on request only
+
   Scenario scenario;
   NodeOptions options;
   std::vector<std::string> unused;  ///< given keys that the method does not use
