@@ -14,6 +14,11 @@ namespace {
 void checkFiles(const CommandLine& line, const Study& study) {
   TouchedFiles files{{line.study}, {line.options.output}, ""};
   for (const auto& [path, particles] : study.particles) files.inputs.push_back(path);
+  if (line.only_case >= 0) {
+    files.frame_folder = line.options.output;
+    files.outputs = {particlesPath(line.options.output, line.only_case)};
+    if (line.options.output.empty()) files.outputs.clear();
+  }
   if (line.options.plot) {
     for (const char* const extension : {".png", ".svg"}) {
       files.outputs.push_back(picturePath(line.options.output) + extension);
@@ -28,8 +33,8 @@ int runCommandLine(const CommandLine& line, Dispatcher& dispatcher) {
     dispatcher.meet();  // rank 0 checks everything first, so each error is reported once
   }
   const Study study = readStudy(line.study);
-  if (line.only_case >= 0) return runSingleCase(study, line.only_case, line.options.output);
   checkFiles(line, study);
+  if (line.only_case >= 0) return runSingleCase(study, line.only_case, line.options.output);
   if (line.options.plot && study.plot.type == PlotOptions::Type::kNone) {
     throw InputError("--plot: the study has no entry plot");
   }

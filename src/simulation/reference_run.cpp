@@ -225,7 +225,7 @@ double ReferenceRun::work() const {
 // The work at a frame does not depend on the parts of the frame, and it exceeds the allowed work if
 // `advance` gave up inside the frame. So the parts do not matter.
 void ReferenceRun::measure(double run_work) {
-  if (!trajectories_ && shared_frames_ == 0) return;
+  if (!isMeasuring() || (!trajectories_ && shared_frames_ == 0)) return;
   if (gave_up_ || work() >= allowed_work_) return stop(Status::kCostTooMuch);
   allowed_work_ = std::max(free_work_, run_work);
   distance_ = shared_ ? shared_frame_->distance : trajectories_->distance();

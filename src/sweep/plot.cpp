@@ -38,9 +38,13 @@ constexpr Shade kShades[] = {{"", "#c6dbef", "no fault found"},
                              {"gained energy", "#f98e1b", "gains energy"},
                              {"diverged", "#662506", "diverges"}};
 
+/// Returns a quoted text. The end of a line would end the command, and the next line would be another one.
 std::string gnuplotText(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+  for (const char c : text) {
+    const bool is_control = static_cast<unsigned char>(c) < ' ';
+    result += c == '\'' ? "''" : std::string(1, is_control ? ' ' : c);
+  }
   return result + "'";
 }
 

@@ -64,6 +64,10 @@ void writeParticles(const Particles& particles, const std::string& path) {
 
 }  // namespace
 
+std::string particlesPath(const std::string& folder, std::int64_t index) {
+  return fmt::format("{}/case_{}.txt", folder, index);
+}
+
 int runSingleCase(const Study& study, std::int64_t index, const std::string& folder) {
   if (index >= study.cases()) {
     throw InputError(fmt::format("--case: must be from 0 to {}, got {}", study.cases() - 1, index));
@@ -81,7 +85,7 @@ int runSingleCase(const Study& study, std::int64_t index, const std::string& fol
   if (!folder.empty()) scenario.output = folder;
   const Run checked(scenario, made.particles);  // before anything is written
   if (has_own_particles) {
-    scenario.particles = folder + "/particle.txt";
+    scenario.particles = particlesPath(folder, index);
     writeParticles(made.particles, scenario.particles);
   }
   printOutput(commandLine(scenario));

@@ -183,6 +183,34 @@ TEST_F(Sweep, ACaseIsARunOfExercise3) {
   EXPECT_EQ(readFile(folder_.path("again/frame_0040.txt")), frame);
 }
 
+TEST_F(Sweep, ACaseLeavesTheFilesOfItsStudyAsTheyAre) {
+  std::filesystem::create_directory(folder_.path("own"));
+  folder_.write("own/particle.txt", chainOf(5));
+  std::string study(kStudy);
+  study.replace(study.find("chain.txt"), 9, "own/particle.txt");
+  folder_.write("study.yaml", study);
+  EXPECT_EQ(run(sweep({"--case", "311", "-o", "own"})).status, 0);
+  EXPECT_EQ(readFile(folder_.path("own/particle.txt")), chainOf(5));
+  folder_.write("own/case_311.txt", chainOf(5));
+  study.replace(study.find("own/particle.txt"), 16, "own/case_311.txt");
+  folder_.write("study.yaml", study);
+  EXPECT_EQ(run(sweep({"--case", "311", "-o", "own"})).status, 2);
+  EXPECT_EQ(readFile(folder_.path("own/case_311.txt")), chainOf(5));
+}
+
+TEST_F(Sweep, SharesTheReferenceOfAMotionThatBecomesSensitive) {
+  folder_.write("chain.txt", chainOf(11));
+  folder_.write("study.yaml",
+                "base: {particles: chain.txt, damping: 0, frames: 500}\n"
+                "axes: {method: [Runge-Kutta-4, Taylor-8]}\ncolumns: [verdict]\n");
+  const char* const methods[] = {"Runge-Kutta-4", "Taylor-8"};
+  for (int i = 0; i < 2; ++i) {
+    const Result alone = run(exercise3(
+        folder_, {methods[i], "chain.txt", "--damping", "0", "--frames", "500", "--no-frames"}));
+    EXPECT_THAT(alone.output, HasSubstr("verdict: " + row(table(), i).back() + "\n"));
+  }
+}
+
 // Runs that share a reference share its start, too.
 TEST_F(Sweep, StartsAtRestAsExercise3Does) {
   folder_.write("study.yaml",
@@ -199,6 +227,14 @@ TEST_F(Sweep, DrawsItsTable) {
   EXPECT_EQ(readFile(folder_.path("drawn.png")).substr(0, 4), "\x89PNG");
   const std::string picture = readFile(folder_.path("drawn.svg"));
   EXPECT_NE(picture.find("<text>Runge-Kutta-4</text>"), std::string::npos) << "no legend";
+}
+
+TEST_F(Sweep, DrawsATitleAsText) {
+  folder_.write("study.yaml",
+                std::string(kStudy).replace(std::string(kStudy).find("log: xy"), 7,
+                                            R"(log: xy, title: "a\nsystem('touch x')\n#")"));
+  EXPECT_EQ(run(sweep({"-o", "drawn.csv", "--plot"})).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("x")));
 }
 
 TEST_F(Sweep, RefusesBadArguments) {
