@@ -69,7 +69,8 @@ void checkReport(const std::vector<FrameText>& frames, const Particles& particle
                                                     constexpr int kMostQuestions = 30;
                                                     return ++questions > kMostQuestions;
                                                   }});
-  require(check.text.rfind(check.equal ? "equal" : "different", 0) == 0, "a result");
+  constexpr const char* kResults[] = {"equal", "different", "undecided"};
+  require(check.text.rfind(kResults[static_cast<int>(check.verdict)], 0) == 0, "a result");
   require(isOneLine(shortReportOf(check)), "a row of a table");
   const std::string json = jsonOf(check, folder().string());
   require(json.find('\n') + 1 == json.size(), "one line of JSON");
@@ -85,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   writeFiles({reinterpret_cast<const char*>(data), size});
   try {
     const std::vector<FrameText> frames = readFrameFolder(folder().string());
-    checkNumbers(readFrames(frames, kParticles.state.size()), kParticles.state.size());
+    checkNumbers(readFrames(frames, kParticles), kParticles.state.size());
     checkReport(frames, kParticles);
   } catch (const FileError& error) {
     require(isOneLine(error.what()), "a message of one line");

@@ -18,6 +18,7 @@ namespace spring_pendulum {
 namespace {
 
 constexpr int kDifferent = 4;
+constexpr int kUndecided = 5;
 
 struct Row {
   int status = kDone;
@@ -29,7 +30,9 @@ Row check(const std::string& folder, const Scenario& scenario, const Particles& 
   const bool is_table = switches.folders.size() > 1;
   try {
     const FrameCheck result = checkFrames(scenario, particles, readFrameFolder(folder), options);
-    const int status = result.equal ? kDone : kDifferent;
+    const int status = result.verdict == FrameVerdict::kEqual       ? kDone
+                       : result.verdict == FrameVerdict::kDifferent ? kDifferent
+                                                                    : kUndecided;
     if (switches.json) return {status, jsonOf(result, folder)};
     return {status, is_table ? shortReportOf(result) : reportOf(result)};
   } catch (const FileError& error) {
@@ -43,7 +46,11 @@ Row check(const std::string& folder, const Scenario& scenario, const Particles& 
   }
 }
 
-/// \returns 1 if any folder is unreadable, else 4 if any is different
+int severity(int status) {
+  return status == kFileFailed ? 3 : status == kDifferent ? 2 : status == kUndecided ? 1 : 0;
+}
+
+/// \returns 1 if any folder is unreadable, else 4 if any is different, else 5 if any is undecided
 int checkAll(const Scenario& scenario, const OptionSet& options, const Switches& switches) {
   if (scenario.air_drag > 0.0) throw InputError("air_drag: not with check_frames");
   if (scenario.start != Start::kFile) throw InputError("start: not with check_frames");
@@ -61,7 +68,7 @@ int checkAll(const Scenario& scenario, const OptionSet& options, const Switches&
     const bool is_table = switches.folders.size() > 1 && !switches.json;
     printOutput(is_table ? fmt::format("{:<{}}  {}\n", folder, width, row.text) : row.text);
     flushOutput();
-    if (status != kFileFailed && row.status != kDone) status = row.status;
+    if (severity(row.status) > severity(status)) status = row.status;
   }
   return interruption() == 0 ? status : kSignalled + interruption();
 }
@@ -74,9 +81,9 @@ int runCommandLine(int argc, const char* const* argv) {
       "frames --particles particle.txt",
       "DIR ...",
       "0 equal, 1 could not read, 2 wrong use or bad input, 4 different,\n"
-      "128 + n stopped by signal n.",
-      {"method", "particles", "steps_per_frame", "time_step", "tolerance", "frame_interval",
-       "stiffness", "damping", "rest_length", "gravity"}};
+      "5 undecided: frames are missing or too sensitive to compare, 128 + n stopped by signal n.",
+      {"method", "particles", "resume", "frames", "steps_per_frame", "time_step", "tolerance",
+       "frame_interval", "stiffness", "damping", "rest_length", "gravity"}};
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);

@@ -55,7 +55,6 @@ class FrameReader {
 
   int digits() const { return digits_; }
   int decimals() const { return decimals_; }
-  bool areFloats() const { return are_floats_; }
   bool hasCommas() const { return has_commas_; }
 
  private:
@@ -87,7 +86,7 @@ class FrameReader {
   void readNumber(std::string_view word) {
     std::optional<double> value = parseNumber(word);
     if (value) {
-      noteFormat(word, *value);
+      noteFormat(word);
     } else {
       value = parseNotFinite(word);
     }
@@ -95,7 +94,7 @@ class FrameReader {
     numbers_.push_back(*value);
   }
 
-  void noteFormat(std::string_view word, double value) {
+  void noteFormat(std::string_view word) {
     const std::size_t mantissa = std::min(word.find_first_of("eE"), word.size());
     int digits = 0;
     int decimals = 0;
@@ -113,7 +112,6 @@ class FrameReader {
     }
     digits_ = std::max(digits_, digits);
     decimals_ = std::max(decimals_, decimals);
-    are_floats_ &= static_cast<double>(static_cast<float>(value)) == value || digits < 9;
   }
 
   [[noreturn]] void refuse(const std::string& what) const {
@@ -126,7 +124,6 @@ class FrameReader {
   std::vector<double> numbers_;
   int digits_ = 0;
   int decimals_ = 0;
-  bool are_floats_ = true;
   bool has_commas_ = false;
 };
 
@@ -139,6 +136,26 @@ double unitOf(double value, const FrameReader& format) {
                   std::pow(10.0, std::floor(std::log10(std::abs(value))) - format.digits() + 1.0));
 }
 
+/// Whether a program in float wrote the frames: they begin with the start rounded to float, or have enough
+/// digits to show that the last frame has only floats.
+bool areFloats(const AllFrames& all, const Particles& particles) {
+  constexpr int kDigitsOfFloat = 9;
+  const auto rounded = [](const auto& numbers) {
+    return numbers.template cast<float>().template cast<double>();
+  };
+  const FrameNumbers& last = all.frames.back();
+  const Eigen::ArrayX2d start = particles.state.positions();
+  if (all.digits > kDigitsOfFloat && (last.positions != start).any() &&
+      (last.positions == rounded(last.positions)).all()) {
+    return true;
+  }
+  const FrameNumbers& first = all.frames.front();
+  const auto differs = [&](const Eigen::ArrayX2d& from) {
+    return ((first.positions - from).abs() > 0.51 * first.units).any();
+  };
+  return first.index == all.start && differs(start) && !differs(rounded(start));
+}
+
 std::string fewDigits(int digits) {
   constexpr int kFew = 5;
   if (digits > kFew) return "";
@@ -148,23 +165,21 @@ std::string fewDigits(int digits) {
       counted(digits, "digit"));
 }
 
-void checkGap(const FrameNumbers& frame, std::int64_t missing) {
-  constexpr std::int64_t kMostMissing = 10'000;  // computing more takes minutes
-  if (missing <= kMostMissing) return;
-  throw FileError(fmt::format("frame {}: {} frames before it are missing, at most {} may be",
-                              frame.index, missing, kMostMissing));
-}
-
 /// \throws FileError for a large gap
-std::string missingFrames(const std::vector<FrameNumbers>& frames) {
-  std::int64_t count = frames.front().index;
-  std::int64_t first = count > 0 ? 0 : -1;
-  checkGap(frames.front(), count);
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    const std::int64_t gap = frames[i].index - frames[i - 1].index - 1;
-    checkGap(frames[i], gap);
-    if (gap > 0 && first < 0) first = frames[i - 1].index + 1;
+std::string missingFrames(const AllFrames& all) {
+  constexpr std::int64_t kMostMissing = 10'000;  // computing more takes minutes
+  std::int64_t next = all.start;
+  std::int64_t count = 0;
+  std::int64_t first = 0;
+  for (const FrameNumbers& frame : all.frames) {
+    const std::int64_t gap = frame.index - next;
+    if (gap > kMostMissing) {
+      throw FileError(fmt::format("frame {}: {} frames before it are missing, at most {} may be",
+                                  frame.index, gap, kMostMissing));
+    }
+    if (count == 0) first = next;
     count += gap;
+    next = frame.index + 1;
   }
   if (count == 0) return "";
   return fmt::format("{} missing, the first is frame {}",
@@ -173,12 +188,15 @@ std::string missingFrames(const std::vector<FrameNumbers>& frames) {
 
 }  // namespace
 
-AllFrames readFrames(const std::vector<FrameText>& texts, std::ptrdiff_t particles) {
-  if (texts.empty())
-    throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
-  FrameReader reader(particles);
+AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& particles) {
+  FrameReader reader(particles.state.size());
   AllFrames all;
-  for (const FrameText& text : texts) all.frames.push_back(reader.read(text));
+  all.start = particles.frame;
+  for (const FrameText& text : texts) {
+    if (text.index >= all.start) all.frames.push_back(reader.read(text));
+  }
+  if (all.frames.empty())
+    throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
   std::sort(all.frames.begin(), all.frames.end(),
             [](const auto& a, const auto& b) { return a.index < b.index; });
   for (std::size_t i = 1; i < all.frames.size(); ++i) {
@@ -189,9 +207,9 @@ AllFrames readFrames(const std::vector<FrameText>& texts, std::ptrdiff_t particl
     frame.units = frame.positions.unaryExpr([&](double value) { return unitOf(value, reader); });
   }
   all.digits = reader.digits();
-  all.single_precision = reader.areFloats() && reader.digits() >= 9;
+  all.are_floats = areFloats(all, particles);
   for (const std::string& remark :
-       {missingFrames(all.frames), fewDigits(all.digits),
+       {missingFrames(all), fewDigits(all.digits),
         std::string(reader.hasCommas()
                         ? "commas or semicolons separate the columns; the exercise wants blanks"
                         : "")}) {

@@ -1,13 +1,14 @@
 // The numbers in the text of frames, and how exactly they were printed.
 #pragma once
 
+#include "io/files/frame_folder_reader.hpp"
+#include <spring_pendulum/model/particles.hpp>
+
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "check/check_frames.hpp"
 
 namespace spring_pendulum {
 
@@ -20,13 +21,14 @@ struct FrameNumbers {
 struct AllFrames {
   std::vector<FrameNumbers> frames;  ///< by increasing index
   int digits = 0;                    ///< largest number of significant digits
-  bool single_precision = false;     ///< printed with 9 digits or more, and each number is a float
+  bool are_floats = false;           ///< whether a program in float has written them
+  std::int64_t start = 0;            ///< index of the frame that should be the start
   std::vector<std::string> remarks;  ///< on missing frames and on the format
 
   std::int64_t lastIndex() const { return frames.back().index; }
 };
 
 /// \throws FileError naming frame and line
-AllFrames readFrames(const std::vector<FrameText>& texts, std::ptrdiff_t particles);
+AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& particles);
 
 }  // namespace spring_pendulum

@@ -12,7 +12,9 @@ using Update = StudentProgram::PositionUpdate;
 using Order = StudentProgram::Order;
 using Damping = StudentProgram::Damping;
 using Stage = StudentProgram::StageMoves;
-using Kind = Constant::Kind;
+using Direction = StudentProgram::Direction;
+using Length = StudentProgram::Length;
+using Springs = StudentProgram::Springs;
 
 constexpr std::size_t kAny = kAnyStages;
 constexpr std::size_t kSeveral = kSeveralStages;
@@ -95,9 +97,17 @@ const std::vector<Mistake>& knownMistakes() {
       {"damping_not_projected", kAny, "damps the whole relative velocity instead of its part along the spring", [](P& p) { p.damping_kind = Damping::kAllDirections; }},
       {"damping_own_velocity", kAny, "damps the velocity of the particle instead of the relative velocity of both ends", [](P& p) { p.damping_kind = Damping::kOwnVelocity; }},
       {"damping_not_unit", kAny, "projects the relative velocity on p_j - p_i instead of the unit vector r", [](P& p) { p.damping_kind = Damping::kUnnormalisedProjection; }},
-      {"direction_not_unit", kAny, "multiplies the force by p_j - p_i instead of the unit vector r", [](P& p) { p.unit_direction = false; }},
+      {"damping_absolute", kAny, "takes the absolute value of the damping", [](P& p) { p.damping_kind = Damping::kAbsolute; }},
+      {"direction_not_unit", kAny, "multiplies the force by p_j - p_i instead of the unit vector r", [](P& p) { p.direction = Direction::kSeparation; }},
+      {"degrees", kAny, "gives cos and sin an angle in degrees", [](P& p) { p.direction = Direction::kDegrees; }},
+      {"degrees", kAny, "gives cos and sin an angle in degrees", [](P& p) { p.direction = Direction::kDegreesOfSpring; }},
+      {"length_integer", kAny, "cuts the length of a spring to an integer", [](P& p) { p.length = Length::kInteger; }},
+      {"length_squared", kAny, "takes the square of the length as elongation: the root is missing", [](P& p) { p.length = Length::kSquared; }},
+      {"length_squared", kAny, "takes the square of the length for the length: the root is missing", [](P& p) { p.length = Length::kSquaredEverywhere; }},
       {"mass_not_divided", kAny, "does not divide the force by the mass", [](P& p) { p.force_mass_power = 0; }},
       {"mass_not_divided", kAny, "multiplies the force by the mass instead of dividing", [](P& p) { p.force_mass_power = 1; }},
+      {"mass_of_neighbour", kAny, "divides the force by the mass of the previous particle", [](P& p) { p.mass_of = -1; }},
+      {"mass_of_neighbour", kAny, "divides the force by the mass of the next particle", [](P& p) { p.mass_of = 1; }},
       {"gravity_divided", kAny, "divides gravity by the mass: g is an acceleration", [](P& p) { p.gravity_mass_power = -1; }},
       {"gravity_multiplied", kAny, "multiplies the acceleration g by the mass", [](P& p) { p.gravity_mass_power = 1; }},
       {"force_sign", kAny, "has the wrong sign of the spring force", [](P& p) { p.left = p.right = -1; }},
@@ -106,6 +116,8 @@ const std::vector<Mistake>& knownMistakes() {
       {"one_spring", kAny, "uses only the spring to the next particle", [](P& p) { p.left = 0; }},
       {"reaction_sign", kAny, "has the wrong sign of the force of the spring to the next particle", [](P& p) { p.right = -1; }},
       {"reaction_sign", kAny, "has the wrong sign of the force of the spring to the previous particle", [](P& p) { p.left = -1; }},
+      {"last_spring", kAny, "leaves out the spring to the last particle", [](P& p) { p.springs = Springs::kAllButLast; }},
+      {"every_second_spring", kAny, "uses only every second spring", [](P& p) { p.springs = Springs::kEverySecond; }},
       {"no_spring", kAny, "leaves out the springs", [](P& p) { p.left = p.right = 0; }},
       {"start_length", kAny, "takes the distance at the start as rest length of each spring", [](P& p) { p.rest_length_from_start = true; }},
       {"first_moves", kAny, "moves the first particle, which is fixed", [](P& p) { p.first_moves = true; }},
@@ -114,13 +126,15 @@ const std::vector<Mistake>& knownMistakes() {
       {"gravity_10", kAny, "uses g = 10 m/s²", [](P& p) { p.gravity = 10; }},
       {"gravity_up", kAny, "lets gravity point up", [](P& p) { p.gravity = -p.gravity; }},
       {"gravity_x", kAny, "lets gravity act along x", [](P& p) { std::swap(p.gravity, p.gravity_x); }},
+      {"gravity_on_last", kAny, "lets gravity act on the last particle only", [](P& p) { p.gravity_on_last_only = true; }},
       {"no_gravity", kAny, "leaves out gravity", [](P& p) { p.gravity = 0; }},
       // The loop and the files
+      {"no_motion", kAny, "moves nothing: all frames are the start (in integers 1 / 2 and 1 / 6 are 0)", [](P& p) { p.time_step = 0; }},
       {"steps_per_frame", kAny, "takes 1 step fewer per frame", [](P& p) { p.steps_per_frame -= 1; }},
       {"steps_per_frame", kAny, "takes 1 step more per frame", [](P& p) { p.steps_per_frame += 1; }},
       {"steps_per_frame", kAny, "writes a frame after every step", [](P& p) { p.steps_per_frame = 1; }},
       {"frame_shift", kAny, "leaves out the start: each frame is one too late", [](P& p) { p.first_step = p.steps_per_frame; }},
-      {"frame_shift", kAny, "writes the start twice: each later frame is one too early", [](P& p) { p.first_step = -p.steps_per_frame; }},
+      {"frame_shift", kAny, "numbers the frames from 1, or writes the start twice: each frame is one too early", [](P& p) { p.first_step = -p.steps_per_frame; }},
       {"step_shift", kAny, "writes each frame one step too late", [](P& p) { p.first_step = 1; }},
       {"step_shift", kAny, "writes each frame one step too early", [](P& p) { p.first_step = -1; }},
       {"time_step", kAny, "uses a time step ten times as long", [](P& p) { p.time_step *= 10; }},
@@ -128,6 +142,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"time_step", kAny, "uses a tenth of the time step", [](P& p) { p.time_step /= 10; }},
       {"time_step", kAny, "takes ten times as many steps, each a tenth as long", [](P& p) { p.time_step /= 10; p.steps_per_frame *= 10; }},
       {"swapped", kAny, "writes y before x", [](P& p) { p.swaps_columns = true; }},
+      {"reversed", kAny, "writes the particles in reverse order", [](P& p) { p.reverses_particles = true; }},
       {"single_precision", kAny, "computes with float instead of double", [](P& p) { p.single_precision = true; }},
   };
   return kTable;
@@ -135,18 +150,11 @@ const std::vector<Mistake>& knownMistakes() {
 
 const std::vector<Constant>& fittedConstants() {
   static const std::vector<Constant> kTable = {
-      {"k_s", Kind::kModel, kAny, "uses the spring constant k_s = {} N/m", [](P& p) -> double& { return p.stiffness; }},
-      {"k_d", Kind::kModel, kAny, "uses the damping constant k_d = {} N·s/m", [](P& p) -> double& { return p.damping; }},
-      {"L_0", Kind::kModel, kAny, "uses the rest length L_0 = {} m", [](P& p) -> double& { return p.rest_length; }},
-      {"g", Kind::kModel, kAny, "uses g = {} m/s²", [](P& p) -> double& { return p.gravity; }},
-      {"time_step", Kind::kTimeStep, kAny, "uses a time step of {} s", [](P& p) -> double& { return p.time_step; }},
-      {"stage_fraction", Kind::kFraction, kSeveral, "goes {} steps to the second slope", [](P& p) -> double& { return p.tableau.a[1][0]; }},
-      {"stage_fraction", Kind::kFraction, 4, "goes {} steps to the third slope", [](P& p) -> double& { return p.tableau.a[2][1]; }},
-      {"stage_fraction", Kind::kFraction, 4, "goes {} steps to the fourth slope", [](P& p) -> double& { return p.tableau.a[3][2]; }},
-      {"weights", Kind::kWeight, kAny, "weights the first slope {}", [](P& p) -> double& { return p.tableau.b[0]; }},
-      {"weights", Kind::kWeight, kSeveral, "weights the second slope {}", [](P& p) -> double& { return p.tableau.b[1]; }},
-      {"weights", Kind::kWeight, 4, "weights the third slope {}", [](P& p) -> double& { return p.tableau.b[2]; }},
-      {"weights", Kind::kWeight, 4, "weights the fourth slope {}", [](P& p) -> double& { return p.tableau.b[3]; }},
+      {"k_s", "uses the spring constant k_s = {} N/m", &P::stiffness},
+      {"k_d", "uses the damping constant k_d = {} N·s/m", &P::damping},
+      {"L_0", "uses the rest length L_0 = {} m", &P::rest_length},
+      {"g", "uses g = {} m/s²", &P::gravity},
+      {"time_step", "uses a time step of {} s", &P::time_step},
   };
   return kTable;
 }

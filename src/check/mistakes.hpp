@@ -14,7 +14,16 @@ namespace spring_pendulum {
 
 /// The exercise with whatever is changed in it. The initialisers are the right program.
 struct StudentProgram {
-  enum class Damping { kAlongSpring, kAllDirections, kOwnVelocity, kUnnormalisedProjection };
+  enum class Damping {
+    kAlongSpring,
+    kAllDirections,
+    kOwnVelocity,
+    kUnnormalisedProjection,
+    kAbsolute
+  };
+  enum class Direction { kUnit, kSeparation, kDegrees, kDegreesOfSpring };
+  enum class Length { kRight, kInteger, kSquared, kSquaredEverywhere };
+  enum class Springs { kAll, kAllButLast, kEverySecond };
   /// The velocity by which a position is moved.
   enum class PositionUpdate {
     kSlopes,
@@ -36,7 +45,7 @@ struct StudentProgram {
   enum class StageMoves { kBoth, kPositions, kVelocities };
 
   ButcherTableau tableau;
-  double time_step;  ///< s
+  double time_step;  ///< s; 0: nothing moves
   std::int64_t steps_per_frame;
   std::int64_t first_step = 0;     ///< steps before frame 0; negative: the start is repeated
   double stiffness;                ///< N/m
@@ -48,14 +57,19 @@ struct StudentProgram {
   double right = 1.0;              ///< factor of the force of the spring to the next particle
   double force_mass_power = -1.0;  ///< the force is multiplied by this power of the mass
   double gravity_mass_power = 0.0;
+  int mass_of = 0;  ///< -1, 1: the mass of the previous or the next particle divides the force
+  bool gravity_on_last_only = false;
   bool rest_length_from_start = false;
-  bool unit_direction = true;  ///< else the force has the direction d, not d / L
   bool first_moves = false;
   bool last_moves = true;
   bool swaps_columns = false;
+  bool reverses_particles = false;
   bool single_precision = false;
   bool velocity_by_euler = false;
   Damping damping_kind = Damping::kAlongSpring;
+  Direction direction = Direction::kUnit;
+  Length length = Length::kRight;
+  Springs springs = Springs::kAll;
   PositionUpdate position_update = PositionUpdate::kSlopes;
   Order order = Order::kTogether;
   StageMoves stage_moves = StageMoves::kBoth;
@@ -83,22 +97,19 @@ struct Mistake {
   std::size_t stages;         ///< of the methods in which it can be made
   std::string_view sentence;  ///< follows "the program "
   void (*make)(StudentProgram&);
+
+  bool concerns(const StudentProgram& program) const {
+    return stages == kAnyStages || stages == program.tableau.stages ||
+           (stages == kSeveralStages && program.tableau.stages > 1);
+  }
 };
 
 /// A number that is fitted.
 struct Constant {
-  enum class Kind { kModel, kTimeStep, kFraction, kWeight };
   std::string_view name;
-  Kind kind;
-  std::size_t stages;
   std::string_view sentence;  ///< follows "the program "; {} is the number
-  double& (*of)(StudentProgram&);
+  double StudentProgram::*member;
 };
-
-inline bool concerns(std::size_t stages, const StudentProgram& program) {
-  return stages == kAnyStages || stages == program.tableau.stages ||
-         (stages == kSeveralStages && program.tableau.stages > 1);
-}
 
 const std::vector<Mistake>& knownMistakes();
 const std::vector<Constant>& fittedConstants();

@@ -12,30 +12,31 @@
 namespace spring_pendulum {
 namespace {
 
-/// Rounding errors of a step, in units of the last digit of the largest number. Measured: at most 3
-/// for Runge-Kutta-4 in other orders of summation.
-constexpr double kRoundingErrors = 16.0;
-
 /// Adds rounding errors to a column of the state, except to the first particle; nothing if all are
 /// equal, like x in a vertical chain: their differences are exact.
+/// \param epsilon of the numbers of the program
 template <typename Numbers>
-void disturbColumn(Numbers numbers, double epsilon, double steps, std::mt19937& random) {
+void disturbColumn(Numbers&& numbers, double epsilon, std::int64_t steps, std::mt19937& random) {
+  // Errors of a step in units of the last digit. Measured: at most 3 for Runge-Kutta-4 in other orders
+  // of summation.
+  constexpr double kRoundingErrors = 16.0;
   if (numbers.minCoeff() == numbers.maxCoeff()) return;
   const double size =
-      kRoundingErrors * std::sqrt(steps) * epsilon * static_cast<double>(numbers.abs().maxCoeff());
+      kRoundingErrors * std::sqrt(static_cast<double>(steps)) * epsilon * numbers.abs().maxCoeff();
   for (Eigen::Index i = 1; i < numbers.size(); ++i) {
     const double share = static_cast<double>(random()) / std::mt19937::max();
-    numbers[i] += static_cast<typename Numbers::Scalar>((2.0 * share - 1.0) * size);
+    numbers[i] += (2.0 * share - 1.0) * size;
   }
 }
 
 class MethodMotion : public Motion {
  public:
   MethodMotion(const Method& method, const Scenario& scenario, const Particles& particles)
-      : method_(method),
+      : tolerance_(method.hasFixedStep() ? 0.0 : scenario.tolerance),
         chain_(particles.masses, scenario.spring(), scenario.gravity),
         state_(particles.state),
-        integrator_(makeIntegrator(method, chain_, {scenario.tolerance, false, 0})) {
+        integrator_(makeIntegrator(method, chain_, {scenario.tolerance, false, 0})),
+        frame_(particles.frame) {
     Scenario with_method = scenario;
     with_method.method = method;
     steps_ = frameSteps(with_method);
@@ -53,188 +54,206 @@ class MethodMotion : public Motion {
     return true;
   }
 
-  void writePositions(Eigen::ArrayX2d& positions) const override { positions = state_.positions(); }
+  Eigen::ArrayX2d positions() const override { return state_.positions(); }
 
   void disturb(std::mt19937& random) override {
     for (int column = 0; column < 4; ++column) {
       disturbColumn(state_.values().col(column).array(), std::numeric_limits<double>::epsilon(),
-                    static_cast<double>(steps_.steps), random);
+                    steps_.steps, random);
     }
     integrator_->restart();
   }
 
-  bool isDisturbedOnce() const override { return !method_.get().hasFixedStep(); }
+  double tolerance() const override { return tolerance_; }
 
  private:
-  std::reference_wrapper<const Method> method_;
+  double tolerance_;  ///< m
   Chain chain_;
   State state_;
   std::unique_ptr<Integrator> integrator_;
   FrameSteps steps_;
-  std::int64_t frame_ = 0;
+  std::int64_t frame_;
 };
 
-template <typename Real>
 class ProgramMotion : public Motion {
-  using Row = Eigen::Array<Real, 4, 1>;  ///< x, y, vx, vy
+  using Vector = Eigen::Array2d;
+  using Row = Eigen::Array4d;  ///< x, y, vx, vy
   using Rows = std::vector<Row>;
-  using Weights = std::array<double, ButcherTableau::kMaxStages>;
   using Program = StudentProgram;
 
  public:
   ProgramMotion(const StudentProgram& program, const Particles& particles)
-      : program_(program), step_size_(static_cast<Real>(program.time_step)) {
+      : program_(program), first_frame_(particles.frame) {
     const std::ptrdiff_t size = particles.state.size();
     for (std::ptrdiff_t i = 0; i < size; ++i) {
-      state_.push_back(particles.state.values().row(i).transpose().array().cast<Real>());
+      Row row = particles.state.values().row(i).transpose().array();
+      if (program.single_precision) row = row.cast<float>().cast<double>();
+      state_.push_back(row);
       const double mass = particles.masses[i];
-      force_factor_.push_back(static_cast<Real>(std::pow(mass, program.force_mass_power)));
-      const double gravity_factor = std::pow(mass, program.gravity_mass_power);
-      gravity_.emplace_back(static_cast<Real>(program.gravity_x * gravity_factor),
-                            static_cast<Real>(program.gravity * gravity_factor));
+      const std::ptrdiff_t other = std::clamp<std::ptrdiff_t>(i + program.mass_of, 0, size - 1);
+      force_factor_.push_back(std::pow(particles.masses[other], program.force_mass_power));
+      const bool falls = !program.gravity_on_last_only || i + 1 == size;
+      const double factor = falls ? std::pow(mass, program.gravity_mass_power) : 0.0;
+      gravity_.emplace_back(program.gravity_x * factor, program.gravity * factor);
     }
     for (std::size_t i = 0; i < state_.size(); ++i) {
       const Row separation = state_[i] - state_[i > 0 ? i - 1 : 0];
       rest_lengths_.push_back(program.rest_length_from_start
-                                  ? std::sqrt(separation.template head<2>().square().sum())
-                                  : static_cast<Real>(program.rest_length));
+                                  ? std::sqrt(separation.head<2>().square().sum())
+                                  : program.rest_length);
     }
     slopes_.assign(program.tableau.stages, Rows(state_.size(), Row::Zero()));
   }
 
   bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
-    const std::int64_t target = program_.stepOfFrame(frame);
-    limit.done += static_cast<double>(target - step_) *
-                  static_cast<double>(program_.tableau.stages) *
-                  static_cast<double>(state_.size()) * kWorkOfSpring;
+    constexpr double kWorkOfSpring = 10.0;  // relative to a kernel of the library
+    const std::int64_t target = program_.stepOfFrame(frame - first_frame_);
+    limit.done += static_cast<double>(target - step_) * kWorkOfSpring *
+                  static_cast<double>(program_.tableau.stages * state_.size());
+    if (program_.time_step == 0.0) step_ = std::max(step_, target);
     for (; step_ < target; ++step_) {
       if (limit.isStopped()) return false;
-      switch (program_.order) {
-        case Program::Order::kForceAfterMove:
-          moveFirst();
-          break;
-        case Program::Order::kParticlesInPlace:
-        case Program::Order::kFrozenNeighbours:
-          stepParticleByParticle();
-          break;
-        default:
-          stepStageByStage();
+      if (program_.order == Program::Order::kForceAfterMove) {
+        moveFirst();
+      } else if (program_.order == Program::Order::kParticlesInPlace ||
+                 program_.order == Program::Order::kFrozenNeighbours) {
+        stepParticleByParticle();
+      } else {
+        stepStageByStage();
       }
     }
     return true;
   }
 
-  void writePositions(Eigen::ArrayX2d& positions) const override {
-    positions.resize(static_cast<Eigen::Index>(state_.size()), 2);
-    const int x = program_.swaps_columns ? 1 : 0;
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      positions(row, 0) = static_cast<double>(state_[i][x]);
-      positions(row, 1) = static_cast<double>(state_[i][1 - x]);
+  Eigen::ArrayX2d positions() const override {
+    const auto size = static_cast<Eigen::Index>(state_.size());
+    Eigen::ArrayX2d result(size, 2);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Row& row =
+          state_[static_cast<std::size_t>(program_.reverses_particles ? size - 1 - i : i)];
+      result.row(i) << row[program_.swaps_columns ? 1 : 0], row[program_.swaps_columns ? 0 : 1];
     }
+    return result;
   }
 
   void disturb(std::mt19937& random) override {
-    using Matrix = Eigen::Array<Real, 4, Eigen::Dynamic>;
-    Eigen::Map<Matrix> numbers(state_.front().data(), 4, static_cast<Eigen::Index>(state_.size()));
-    for (Eigen::Index column = 0; column < 4; ++column) {
-      disturbColumn(numbers.row(column), static_cast<double>(std::numeric_limits<Real>::epsilon()),
-                    static_cast<double>(program_.steps_per_frame), random);
-    }
+    const double epsilon = program_.single_precision ? std::numeric_limits<float>::epsilon()
+                                                     : std::numeric_limits<double>::epsilon();
+    Eigen::Map<Eigen::Array<double, 4, Eigen::Dynamic>> numbers(
+        state_.front().data(), 4, static_cast<Eigen::Index>(state_.size()));
+    for (Eigen::Index column = 0; column < 4; ++column)
+      disturbColumn(numbers.row(column), epsilon, program_.steps_per_frame, random);
   }
 
  private:
-  static constexpr double kWorkOfSpring = 10.0;  ///< relative to a kernel of the library
+  double lengthOf(const Vector& d) const {
+    const double square = d.square().sum();
+    return program_.length == Program::Length::kSquaredEverywhere ? square : std::sqrt(square);
+  }
+
+  /// \param sign -1 if the spring leads to the previous particle, else 1
+  Vector directionOf(const Vector& d, double sign) const {
+    if (program_.direction == Program::Direction::kSeparation) return d;
+    if (program_.direction == Program::Direction::kUnit) return d / lengthOf(d);
+    constexpr double kDegrees = 57.295779513082320877;
+    if (program_.direction == Program::Direction::kDegrees) sign = 1.0;
+    const double angle = kDegrees * std::atan2(sign * d.y(), sign * d.x());
+    return {sign * std::cos(angle), sign * std::sin(angle)};
+  }
 
   /// The force on a particle at row `here` of the spring to its neighbour at row `there`.
-  auto springForce(const Row& here, const Row& there, Real rest_length) const {
-    using Vector = Eigen::Array<Real, 2, 1>;
-    const Vector d = there.template head<2>() - here.template head<2>();
-    const Vector w = there.template tail<2>() - here.template tail<2>();
-    const Real length = std::sqrt(d.square().sum());
-    const Vector r = d / length;
-    const Vector direction = program_.unit_direction ? r : d;
-    const auto damping = static_cast<Real>(program_.damping);
-    const Real tension = static_cast<Real>(program_.stiffness) * (length - rest_length);
+  Vector springForce(const Row& here, const Row& there, double rest_length, double sign) const {
+    const Vector d = there.head<2>() - here.head<2>();
+    const Vector w = there.tail<2>() - here.tail<2>();
+    double length = lengthOf(d);
+    const Vector direction = directionOf(d, sign);
+    const bool has_angle = program_.direction >= Program::Direction::kDegrees;
+    const Vector r = has_angle ? direction : Vector(d / length);
+    if (program_.length == Program::Length::kInteger) length = std::trunc(length);
+    if (program_.length == Program::Length::kSquared) length *= length;
+    const double tension = program_.stiffness * (length - rest_length);
+    const double rate = (w * r).sum();
     switch (program_.damping_kind) {
       case Program::Damping::kAllDirections:
-        return Vector(tension * direction + damping * w);
+        return tension * direction + program_.damping * w;
       case Program::Damping::kOwnVelocity:
-        return Vector(tension * direction - damping * here.template tail<2>());
+        return tension * direction - program_.damping * here.tail<2>();
       case Program::Damping::kUnnormalisedProjection:
-        return Vector((tension + damping * (w * d).sum()) * direction);
+        return (tension + program_.damping * (w * d).sum()) * direction;
+      case Program::Damping::kAbsolute:
+        return (tension + program_.damping * std::abs(rate)) * direction;
       default:
-        return Vector((tension + damping * (w * r).sum()) * direction);
+        return (tension + program_.damping * rate) * direction;
     }
+  }
+
+  /// Whether the program has the spring between particle i and the one before.
+  bool hasSpring(std::size_t i) const {
+    if (program_.springs == Program::Springs::kAllButLast) return i + 1 < state_.size();
+    return program_.springs == Program::Springs::kAll || i % 2 == 1;
   }
 
   Row slope(const Rows& z, std::size_t i) const {
     Row result = Row::Zero();
     const bool is_last = i + 1 == z.size();
     if ((i == 0 && !program_.first_moves) || (is_last && !program_.last_moves)) return result;
-    auto acceleration = result.template tail<2>();
-    if (i > 0 && program_.left != 0.0)
-      acceleration +=
-          static_cast<Real>(program_.left) * springForce(z[i], z[i - 1], rest_lengths_[i]);
-    if (!is_last && program_.right != 0.0) {
-      acceleration +=
-          static_cast<Real>(program_.right) * springForce(z[i], z[i + 1], rest_lengths_[i + 1]);
-    }
-    acceleration = acceleration * force_factor_[i] - gravity_[i];
-    result.template head<2>() = z[i].template tail<2>();
+    Vector force = Vector::Zero();
+    if (i > 0 && program_.left != 0.0 && hasSpring(i))
+      force += program_.left * springForce(z[i], z[i - 1], rest_lengths_[i], -1.0);
+    if (!is_last && program_.right != 0.0 && hasSpring(i + 1))
+      force += program_.right * springForce(z[i], z[i + 1], rest_lengths_[i + 1], 1.0);
+    const Vector acceleration = force * force_factor_[i] - gravity_[i];
+    result << z[i].tail<2>(), acceleration;
     if (program_.position_update == Program::PositionUpdate::kNewVelocityInSlopes)
-      result.template head<2>() += step_size_ * acceleration;
+      result.head<2>() += program_.time_step * acceleration;
     return result;
   }
 
   /// Row i of the next stage, or of the result.
   Row moved(std::size_t i, std::size_t stages, bool is_result) const {
-    const Weights& weights = is_result ? program_.tableau.b : program_.tableau.a[stages];
+    const auto& weights = is_result ? program_.tableau.b : program_.tableau.a[stages];
     Row change = Row::Zero();
-    Real sum = 0;
+    double sum = 0.0;
     for (std::size_t j = 0; j < stages; ++j) {
       if (weights[j] == 0.0) continue;
-      change += static_cast<Real>(weights[j]) * slopes_[j][i];
-      sum += static_cast<Real>(weights[j]);
+      change += weights[j] * slopes_[j][i];
+      sum += weights[j];
     }
     const Row& start = state_[i];
-    if (is_result && program_.velocity_by_euler)
-      change.template tail<2>() = slopes_[0][i].template tail<2>();
+    if (i == 0 && !program_.first_moves) return start;
+    if (is_result && program_.velocity_by_euler) change.tail<2>() = slopes_[0][i].tail<2>();
     if (!is_result && program_.stage_moves == Program::StageMoves::kPositions)
-      change.template tail<2>().setZero();
+      change.tail<2>().setZero();
     if (!is_result && program_.stage_moves == Program::StageMoves::kVelocities)
-      change.template head<2>().setZero();
-    Row result = start + step_size_ * change;
+      change.head<2>().setZero();
+    const double step = program_.time_step;
+    Row result = start + step * change;
     using Update = Program::PositionUpdate;
     const Update update = program_.position_update;
     if (update == Update::kNewVelocityEverywhere ||
         update == (is_result ? Update::kNewVelocityInResult : Update::kNewVelocityInStages)) {
-      result.template head<2>() =
-          start.template head<2>() + step_size_ * sum * result.template tail<2>();
+      result.head<2>() = start.head<2>() + step * sum * result.tail<2>();
     }
     if (is_result && update == Update::kOldVelocity)
-      result.template head<2>() = start.template head<2>() + step_size_ * start.template tail<2>();
-    if (i == 0 && !program_.first_moves) return start;
+      result.head<2>() = start.head<2>() + step * start.tail<2>();
     return result;
   }
 
   void stepStageByStage() {
     const std::size_t stages = program_.tableau.stages;
-    Rows& stage = scratch_;
-    stage = state_;
-    Rows& next = next_;
-    next.resize(stage.size());
+    scratch_ = state_;
+    next_.resize(state_.size());
     for (std::size_t s = 0; s < stages; ++s) {
-      for (std::size_t i = 0; i < stage.size(); ++i) {
-        slopes_[s][i] = slope(stage, i);
-        next[i] = moved(i, s + 1, s + 1 == stages);
-        if (program_.order == Program::Order::kStagesInPlace) stage[i] = next[i];
+      for (std::size_t i = 0; i < state_.size(); ++i) {
+        slopes_[s][i] = slope(scratch_, i);
+        next_[i] = moved(i, s + 1, s + 1 == stages);
+        if (program_.order == Program::Order::kStagesInPlace) scratch_[i] = next_[i];
         if (program_.order == Program::Order::kPositionsInPlace)
-          stage[i].template head<2>() = next[i].template head<2>();
+          scratch_[i].head<2>() = next_[i].head<2>();
       }
-      std::swap(stage, next);
+      std::swap(scratch_, next_);
     }
-    std::swap(state_, stage);
+    std::swap(state_, scratch_);
   }
 
   void stepParticleByParticle() {
@@ -253,22 +272,21 @@ class ProgramMotion : public Motion {
   }
 
   void moveFirst() {
+    const double step = program_.time_step;
     for (std::size_t i = program_.first_moves ? 0 : 1; i < state_.size(); ++i)
-      state_[i].template head<2>() += step_size_ * state_[i].template tail<2>();
+      state_[i].head<2>() += step * state_[i].tail<2>();
     for (std::size_t i = 0; i < state_.size(); ++i) slopes_[0][i] = slope(state_, i);
     for (std::size_t i = 0; i < state_.size(); ++i)
-      state_[i].template tail<2>() += step_size_ * slopes_[0][i].template tail<2>();
+      state_[i].tail<2>() += step * slopes_[0][i].tail<2>();
   }
 
   StudentProgram program_;
-  Real step_size_;  ///< s
-  Rows state_;
-  Rows scratch_;
-  Rows next_;
-  std::vector<Rows> slopes_;        ///< by stage and particle
-  std::vector<Real> force_factor_;  ///< 1/kg for the right program
-  std::vector<Eigen::Array<Real, 2, 1>> gravity_;
-  std::vector<Real> rest_lengths_;  ///< of the spring before each particle, m
+  std::int64_t first_frame_;
+  Rows state_, scratch_, next_;
+  std::vector<Rows> slopes_;          ///< by stage and particle
+  std::vector<double> force_factor_;  ///< 1/kg for the right program
+  std::vector<Vector> gravity_;       ///< m/s²
+  std::vector<double> rest_lengths_;  ///< of the spring before each particle, m
   std::int64_t step_ = 0;
 };
 
@@ -280,8 +298,7 @@ std::unique_ptr<Motion> motionOf(const Method& method, const Scenario& scenario,
 }
 
 std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Particles& particles) {
-  if (program.single_precision) return std::make_unique<ProgramMotion<float>>(program, particles);
-  return std::make_unique<ProgramMotion<double>>(program, particles);
+  return std::make_unique<ProgramMotion>(program, particles);
 }
 
 }  // namespace spring_pendulum

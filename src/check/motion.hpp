@@ -36,17 +36,18 @@ class Motion {
   /// \returns false if `limit` was stopped on the way, after which the motion is of no use
   virtual bool advanceTo(std::int64_t frame, WorkLimit& limit) = 0;
   /// N×2 positions as the program prints them, m.
-  virtual void writePositions(Eigen::ArrayX2d& positions) const = 0;
+  virtual Eigen::ArrayX2d positions() const = 0;
   /// Changes all numbers by some rounding errors of the steps of a frame.
   virtual void disturb(std::mt19937& random) = 0;
-  /// Whether `disturb` must be called at the start only.
-  virtual bool isDisturbedOnce() const { return false; }
+  /// Error in m that two right results may have besides rounding. If it is not 0, `disturb` must be
+  /// called at the start only.
+  virtual double tolerance() const { return 0.0; }
 
  protected:
   Motion() = default;
 };
 
-/// The motion of a method of the table.
+/// The motion of a method of the table. It starts at the frame of the particles.
 std::unique_ptr<Motion> motionOf(const Method& method, const Scenario& scenario,
                                  const Particles& particles);
 

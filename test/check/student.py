@@ -20,18 +20,36 @@ def accelerations(p, v, m, c, wrong, real):
     d = p[1:] - p[:-1]
     length = np.sqrt((d * d).sum(axis=1, dtype=real))[:, None]
     r = d / length
+    if 'degrees' in wrong:
+        angle = np.degrees(np.arctan2(d[:, 1], d[:, 0]))
+        r = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    if 'length_squared' in wrong:
+        length = length * length
+    if 'length_integer' in wrong:
+        length = np.trunc(length)
     w = v[1:] - v[:-1]
     sign = real(-1 if 'damping_sign' in wrong else 0 if 'no_damping' in wrong else 1)
     damping = w if 'damping_not_projected' in wrong else (w * r).sum(axis=1)[:, None] * r
+    if 'damping_absolute' in wrong:
+        damping = np.abs((w * r).sum(axis=1)[:, None]) * r
     f = real(c['k_s']) * (length - real(c['L_0'])) * r + sign * real(c['k_d']) * damping
     if 'force_sign' in wrong:
         f = -f
+    if 'last_spring' in wrong:
+        f[-1] = 0
+    if 'every_second_spring' in wrong:
+        f[1::2] = 0
     if 'one_spring_next' not in wrong:
         force[1:] -= f
     if 'one_spring_previous' not in wrong:
         force[:-1] += f
-    a = force if 'mass_not_divided' in wrong else force / m
-    g = np.array([0, real(c['g'])], dtype=real)
+    if 'mass_of_neighbour' in wrong:
+        a = force / np.concatenate([m[:1], m[:-1]])
+    else:
+        a = force if 'mass_not_divided' in wrong else force / m
+    g = np.tile(np.array([0, real(c['g'])], dtype=real), (len(p), 1))
+    if 'gravity_on_last' in wrong:
+        g[:-1] = 0
     a = a - (g / m if 'gravity_divided' in wrong else g)
     if 'first_moves' not in wrong:
         a[0] = 0
@@ -94,8 +112,9 @@ def frames(scene, method='Runge-Kutta-4', wrong=(), count=500, tableau=None, **c
             p, v = step(p, v)
     with np.errstate(all='ignore'):
         for n in range(count):
-            result.append((p[:, ::-1] if 'swapped' in wrong else p).astype(float).copy())
-            if n == 0 and 'frame_early' in wrong:
+            rows = p[::-1] if 'reversed' in wrong else p
+            result.append((rows[:, ::-1] if 'swapped' in wrong else rows).astype(float).copy())
+            if n == 0 and 'frame_early' in wrong or 'no_motion' in wrong:
                 continue
             for _ in range(c['steps']):
                 p, v = step(p, v)

@@ -50,7 +50,7 @@ std::string departureInJson(const FrameCheck& check) {
   if (!check.departure) return "null";
   const Departure& departure = *check.departure;
   return fmt::format(R"({{"from": {}, "frame": {}, "time": {}, "particle": {}, "distance": {}}})",
-                     inJson(check.nearest), departure.frame, numberText(departure.time),
+                     inJson(check.nearest), departure.frame, numberText(check.time),
                      departure.particle,
                      std::isfinite(departure.distance) ? numberText(departure.distance) : "null");
 }
@@ -65,6 +65,20 @@ std::string explanationsInJson(const FrameCheck& check) {
   return listInJson(items);
 }
 
+std::string conclusionOf(const FrameCheck& check) {
+  const std::string method = check.methods.empty() ? "" : check.methods.front();
+  if (check.verdict == FrameVerdict::kEqual) return "equal to " + method;
+  if (check.verdict == FrameVerdict::kUndecided) {
+    return fmt::format("undecided: equal to {} up to frame {}", method, check.last_frame);
+  }
+  if (!method.empty()) return "different: frames of " + method;
+  if (check.explanations.empty()) {
+    return fmt::format("different from frame {} on, no known mistake", check.departure->frame);
+  }
+  const Explanation& first = check.explanations.front();
+  return fmt::format("different: {} with {}", first.method, fmt::join(first.mistakes, " + "));
+}
+
 }  // namespace
 
 std::string reportOf(const FrameCheck& check) {
@@ -74,25 +88,21 @@ std::string reportOf(const FrameCheck& check) {
 }
 
 std::string shortReportOf(const FrameCheck& check) {
-  if (check.equal) return "equal to " + check.methods.front();
-  if (!check.methods.empty()) return "different: frames of " + check.methods.front();
-  if (check.explanations.empty()) {
-    return fmt::format("different from frame {} on, no known mistake",
-                       check.departure.value_or(Departure{}).frame);
-  }
-  const Explanation& first = check.explanations.front();
-  return fmt::format("different: {} with {}", first.method, fmt::join(first.mistakes, " + "));
+  std::string report = conclusionOf(check);
+  for (const std::string& remark : check.remarks) report += "; note: " + remark;
+  return report;
 }
 
 std::string jsonOf(const FrameCheck& check, const std::string& folder) {
   return fmt::format(
-      R"({{"folder": {}, "equal": {}, "methods": {}, "frames": {}, "last_frame": {}, )"
+      R"({{"folder": {}, "equal": {}, "undecided": {}, "methods": {}, "frames": {}, "last_frame": {}, )"
       R"("digits": {}, "printed_digits": {}, "departure": {}, "explanations": {}, )"
       R"("remarks": {}, "text": {}}})"
       "\n",
-      inJson(folder), check.equal, textsInJson(check.methods), check.frames, check.last_frame,
-      check.digits, check.printed_digits, departureInJson(check), explanationsInJson(check),
-      textsInJson(check.remarks), inJson(check.text));
+      inJson(folder), check.verdict == FrameVerdict::kEqual,
+      check.verdict == FrameVerdict::kUndecided, textsInJson(check.methods), check.frames,
+      check.last_frame, check.digits, check.printed_digits, departureInJson(check),
+      explanationsInJson(check), textsInJson(check.remarks), inJson(check.text));
 }
 
 std::string jsonOfError(const std::string& message, const std::string& folder) {
