@@ -1,4 +1,4 @@
-# Completion in bash for Exercise3, Exercise3_mpi, check_frames and record_bag: options, their values, methods and files. All names
+# Completion in bash for Exercise3, check_frames and record_bag: options, their values, methods and files. All names
 # come from the program's --help. Installed where bash-completion finds it; else: source this file.
 
 _spring_pendulum() {
@@ -34,5 +34,5 @@ _spring_pendulum() {
   done
   $reset
 }
-complete -o filenames -F _spring_pendulum Exercise3 Exercise3_mpi check_frames record_bag
+complete -o filenames -F _spring_pendulum Exercise3 check_frames record_bag
 complete -o filenames -o default -F _spring_pendulum sweep

@@ -49,7 +49,7 @@ done
 say "building into $build (a few minutes the first time)"
 configure "$build"
 programs=(Exercise3 check_frames sweep)
-for target in Exercise3_mpi spring_pendulum_python pendulum_node record_bag \
+for target in spring_pendulum_python pendulum_node record_bag \
   spring_pendulum_generate_messages; do
   if grep -qs "^build $target:" "$build/build.ninja"; then programs+=("$target"); fi
 done

@@ -14,7 +14,7 @@ namespace {
 
 /// The simulation loop: advances the run frame by frame and writes each frame.
 int simulate(const Scenario& scenario, const Switches& switches) {
-  refuseSeveralRanks("start Exercise3 without mpirun, or use Exercise3_mpi");
+  refuseSeveralRanks("start Exercise3 without mpirun");
   Run run(scenario, readParticles(scenario), {!scenario.energy.empty(), 0.0, interruption});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   printAnswers(run, *integrator, switches);

@@ -19,18 +19,14 @@ void checkFiles(const CommandLine& line, const Study& study) {
     files.outputs = {particlesPath(line.options.output, line.only_case)};
     if (line.options.output.empty()) files.outputs.clear();
   }
-  if (line.options.plot) {
-    for (const char* const extension : {".png", ".svg"}) {
-      files.outputs.push_back(picturePath(line.options.output) + extension);
-    }
-  }
+  if (line.options.plot) files.outputs.push_back(picturePath(line.options.output));
   checkTouchedFiles(files);
 }
 
-int runCommandLine(const CommandLine& line, Dispatcher& dispatcher) {
-  if (dispatcher.rank() > 0) {
+int runCommandLine(const CommandLine& line, CaseCounter& counter) {
+  if (counter.rank() > 0) {
     if (line.only_case >= 0) return kDone;
-    dispatcher.meet();  // rank 0 checks everything first, so each error is reported once
+    counter.largest(0);  // rank 0 checks everything first, so each error is reported once
   }
   const Study study = readStudy(line.study);
   checkFiles(line, study);
@@ -38,19 +34,19 @@ int runCommandLine(const CommandLine& line, Dispatcher& dispatcher) {
   if (line.options.plot && study.plot.type == PlotOptions::Type::kNone) {
     throw InputError("--plot: the study has no entry plot");
   }
-  return runSweep(study, line.options, dispatcher);
+  return runSweep(study, line.options, counter);
 }
 
 /// A failure of one rank ends all of them.
 int runRank(const CommandLine& line) {
-  Dispatcher dispatcher;
+  CaseCounter counter;
   try {
-    return runCommandLine(line, dispatcher);
+    return runCommandLine(line, counter);
   } catch (const std::exception& error) {
-    if (dispatcher.size() == 1) throw;
+    if (counter.size() == 1) throw;
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");
-    dispatcher.abort(failure.status);
+    counter.abort(failure.status);
     return failure.status;
   }
 }

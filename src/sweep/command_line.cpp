@@ -31,7 +31,7 @@ po::options_description describe() {
   add("case", "N", "print case N as a command line of Exercise3; with --output, run it");
   add("threads", "N", "number of threads; the table does not depend on it [one per core]");
   add("shard", "I/N", "run only part I of N, counted from 1; the last part writes the table");
-  description.add_options()("plot", "draw the table with gnuplot as PNG and SVG")(
+  description.add_options()("plot", "draw the table as PNG with matplotlib")(
       "version", "show the version")("help,h", "show this help");
   return description;
 }

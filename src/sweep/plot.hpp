@@ -1,21 +1,17 @@
-// Draws the table of a study with gnuplot.
+// Draws the table of a study: runs the script plot_table.py, which lies beside the program.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "sweep/study/study.hpp"
 
 namespace spring_pendulum::sweep {
 
-/// Returns the commands that draw a table.
-/// \param rows without the header
-/// \param path of the pictures, without extension
-std::string plotScript(const Study& study, const std::vector<std::string>& rows,
-                       const std::string& path);
+/// \throws FileError if the script, Python or matplotlib is missing
+void requirePlotter();
 
-/// Draws PATH.png and PATH.svg.
-/// \throws FileError if gnuplot can't be run or fails
-void drawPlot(const Study& study, const std::vector<std::string>& rows, const std::string& path);
+/// Draws a table. The script gets the plot options as arguments: no text of a study is ever a command.
+/// \throws FileError if it fails
+void drawPlot(const Study& study, const std::string& table, const std::string& picture);
 
 }  // namespace spring_pendulum::sweep

@@ -225,8 +225,6 @@ TEST_F(Sweep, DrawsItsTable) {
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.errors, "");
   EXPECT_EQ(readFile(folder_.path("drawn.png")).substr(0, 4), "\x89PNG");
-  const std::string picture = readFile(folder_.path("drawn.svg"));
-  EXPECT_NE(picture.find("<text>Runge-Kutta-4</text>"), std::string::npos) << "no legend";
 }
 
 TEST_F(Sweep, DrawsATitleAsText) {

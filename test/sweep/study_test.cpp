@@ -9,7 +9,7 @@
 #include <string>
 
 #include "support/temporary_folder.hpp"
-#include "sweep/running/schedule.hpp"
+#include "sweep/running/sweep_run.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {
@@ -113,7 +113,7 @@ TEST(Study, ShippedStudiesAreValid) {
   for (const auto& entry : std::filesystem::directory_iterator(PROJECT_DIR "/config/studies")) {
     const Study study = readStudy(entry.path().string());
     EXPECT_NE(study.plot.type, PlotOptions::Type::kNone) << entry.path();
-    EXPECT_EQ(makeSchedule(study, 1).scene_of.size(), static_cast<std::size_t>(study.cases()));
+    EXPECT_EQ(checkCases(study, 1).size(), static_cast<std::size_t>(study.cases()));
     ++studies;
   }
   EXPECT_EQ(studies, 4);
@@ -172,7 +172,7 @@ TEST(Study, BadInputIsFoundBeforeTheFirstCase) {
   const TemporaryFolder folder;
   for (const auto& [text, message] : bad) {
     try {
-      makeSchedule(studyOf(folder, text), 2);
+      checkCases(studyOf(folder, text), 2);
       ADD_FAILURE() << text << " is accepted";
     } catch (const std::exception& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(message)) << text;

@@ -254,7 +254,7 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
 }
 
 StartedRanks startedRanks() {
-  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
     const char* const text = std::getenv(name);
     const std::int64_t ranks = text == nullptr ? 1 : parseInteger(text).value_or(1);
     if (ranks > 1) return {ranks, name};

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
@@ -15,8 +16,6 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "sweep/study/checksum.hpp"
-
 namespace spring_pendulum::sweep {
 namespace {
 
@@ -24,11 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".journal";
 constexpr int kMostJournals = 1'000'000;
-constexpr std::size_t kChecksumLength = 17;  // a space and 16 hexadecimal digits
-
-std::string checksum(std::string_view text, std::uint64_t hash) {
-  return fmt::format(" {:016x}", hashOf(text, hash));
-}
 
 [[noreturn]] void refuse(const std::string& path) {
   throw FileError(fmt::format("{}: could not be written: {}", fullPath(path), messageForErrno()));
@@ -38,11 +32,22 @@ std::string checksum(std::string_view text, std::uint64_t hash) {
 
 Journals::Journals(std::string folder, std::uint64_t hash)
     : folder_(std::move(folder)),
-      hash_(hash),
       head_(fmt::format("spring_pendulum " SPRING_PENDULUM_VERSION " sweep {:016x}\n", hash)) {}
 
-void Journals::read(
-    const std::function<void(std::int64_t index, std::string_view text)>& take) const {
+void Journals::start() {
+  std::error_code ignored;  // open() reports the folder that is missing
+  fs::create_directories(folder_, ignored);
+  for (int number = 1; number <= kMostJournals; ++number) {
+    path_ = fmt::format("{}/{}{}", folder_, number, kExtension);
+    file_ = FileDescriptor(
+        ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
+    if (file_.isOpen()) return write(head_);
+    if (errno != EEXIST) refuse(path_);
+  }
+  throw FileError(fmt::format("{}: has too many journals", fullPath(folder_)));
+}
+
+void Journals::read(const std::function<void(std::int64_t index, std::string_view text)>& take) {
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end;
        entry.increment(error)) {
@@ -59,10 +64,11 @@ void Journals::read(
 }
 
 void Journals::readFile(const std::string& path,
-                        const std::function<void(std::int64_t, std::string_view)>& take) const {
+                        const std::function<void(std::int64_t, std::string_view)>& take) {
   const std::string file = readTextFile(path);
   const std::string_view text(file);
   if (text.substr(0, head_.size()) != std::string_view(head_).substr(0, text.size())) {
+    ::unlink(path_.c_str());
     throw InputError(
         fmt::format("{}: is the journal of another study or version; remove {} to "
                     "start anew, or give another --output",
@@ -73,47 +79,32 @@ void Journals::readFile(const std::string& path,
     end = text.find('\n', begin);
     if (end == std::string_view::npos) return;  // torn
     const std::string_view line = text.substr(begin, end - begin);
-    if (line.size() < kChecksumLength) continue;
-    const std::string_view content = line.substr(0, line.size() - kChecksumLength);
-    if (line.substr(content.size()) != checksum(content, hash_)) continue;
-    const std::size_t comma = std::min(content.find(','), content.size());
-    const std::optional<std::int64_t> index = parseInteger(content.substr(0, comma));
-    if (index) take(*index, content.substr(comma));
+    const std::size_t comma = std::min(line.find(','), line.size());
+    const std::optional<std::int64_t> index = parseInteger(line.substr(0, comma));
+    if (index) take(*index, line.substr(comma));
   }
 }
 
-void Journals::start() {
-  std::error_code ignored;  // open() reports the folder that is missing
-  fs::create_directories(folder_, ignored);
-  for (int number = 1; number <= kMostJournals; ++number) {
-    path_ = fmt::format("{}/{}{}", folder_, number, kExtension);
-    file_ = FileDescriptor(
-        ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
-    if (file_.isOpen()) return write(head_);
-    if (errno != EEXIST) refuse(path_);
-  }
-  throw FileError(fmt::format("{}: has too many journals", fullPath(folder_)));
+void Journals::append(std::int64_t index, std::string_view text) {
+  write(fmt::format("{}{}\n", index, text));
 }
 
-void Journals::addLine(std::int64_t index, std::string_view text, std::string& lines) const {
-  const std::string content = fmt::format("{}{}", index, text);
-  lines += content + checksum(content, hash_) + '\n';
-}
-
-void Journals::write(std::string_view lines) {
-  while (!lines.empty()) {
-    const ssize_t count = ::write(file_.get(), lines.data(), lines.size());
+void Journals::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(file_.get(), text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path_);
-    lines.remove_prefix(static_cast<std::size_t>(count));
+    text.remove_prefix(static_cast<std::size_t>(count));
   }
 }
 
 bool Journals::lock() {
-  lock_ = FileDescriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // A lock on NFS needs a file that is open for writing.
+  const std::string path = folder_ + "/lock";
+  lock_ = FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   while (lock_.isOpen() && ::flock(lock_.get(), LOCK_EX) != 0 && errno == EINTR) {
   }
-  return !file_.isOpen() || ::access(path_.c_str(), F_OK) == 0;
+  return ::access(path_.c_str(), F_OK) == 0;
 }
 
 void Journals::remove() {
@@ -124,6 +115,7 @@ void Journals::remove() {
     std::error_code kept;
     if (entry->path().extension() == kExtension) fs::remove(entry->path(), kept);
   }
+  fs::remove(folder_ + "/lock", ignored);
   fs::remove(folder_, ignored);
 }
 

@@ -7,80 +7,118 @@
 #include "io/program/progress.hpp"
 #include "io/program/standard_streams.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/simulation/run.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <filesystem>
-#include <memory>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "sweep/plot.hpp"
 #include "sweep/running/case_runner.hpp"
 #include "sweep/running/journal.hpp"
-#include "sweep/running/schedule.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{20};  // whether the workers have finished
+constexpr std::chrono::milliseconds kLook{1};  // for requests of other ranks
 constexpr std::size_t kFlushedText = 1 << 16;
 
-int threadsOf(const SweepOptions& options, const Dispatcher& dispatcher) {
+int threadsOf(const SweepOptions& options, const CaseCounter& counter) {
   if (options.threads > 0) return static_cast<int>(options.threads);
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  return std::max(1, cores / dispatcher.ranksOnThisMachine());
+  return std::max(1, cores / counter.ranksOnThisMachine());
 }
+
+/// Runs work on threads, as many as the system grants, while this thread calls `meanwhile`. The first
+/// failure stops the others, which ask `stops`, and is thrown here.
+class Workers {
+ public:
+  bool stops() const { return failed_ || interruption() != 0; }
+
+  template <typename Work, typename Meanwhile>
+  void run(int threads, const Work& work, const Meanwhile& meanwhile) {
+    const auto guarded = [&] {
+      try {
+        work();
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!failed_) failure_ = std::current_exception();
+        failed_ = true;
+      }
+      --working_;
+    };
+    std::vector<std::thread> others;
+    try {
+      for (int i = 0; i < threads; ++i) {
+        ++working_;
+        others.emplace_back(guarded);
+      }
+    } catch (const std::system_error&) {  // the system refuses more threads
+      --working_;
+    }
+    if (others.empty()) {
+      ++working_;
+      guarded();
+    }
+    for (; working_ > 0; std::this_thread::sleep_for(kLook)) meanwhile();
+    for (std::thread& thread : others) thread.join();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::atomic<int> working_{0};
+  std::atomic<bool> failed_{false};
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+};
 
 class Sweep {
  public:
-  Sweep(const Study& study, const SweepOptions& options, Dispatcher& dispatcher)
+  Sweep(const Study& study, const SweepOptions& options, CaseCounter& counter)
       : study_(study),
         columns_(study),
         options_(options),
-        dispatcher_(dispatcher),
-        threads_(threadsOf(options, dispatcher)),
-        schedule_(makeSchedule(study, threads_)),
+        counter_(counter),
+        threads_(threadsOf(options, counter)),
+        scene_of_(checkCases(study, threads_)),
         references_(static_cast<std::size_t>(threads_) + 1),
         journals_(options.output + ".journal", study.hash),
         rows_(static_cast<std::size_t>(study.cases())) {
+    checkOutputs();
+    journals_.start();
     readJournals();
-    const auto all = static_cast<std::int64_t>(schedule_.batches.size());
-    for (std::int64_t i = options.shard - 1; i < all; i += options.shards) {
-      own_.push_back(i);
-      for (const std::int64_t index : schedule_.batches[static_cast<std::size_t>(i)]) {
-        if (!isDone(index)) ++open_;
-      }
-    }
   }
 
-  /// Runs the cases of this process that are not done.
+  /// Runs the cases that are not done.
   void work() {
-    if (open_ > 0) journals_.start();
-    Progress progress(open_, "cases");
-    working_ = threads_;
-    std::vector<std::thread> workers;
-    workers.reserve(static_cast<std::size_t>(threads_));
-    for (int i = 0; i < threads_; ++i) workers.emplace_back([this] { workOnBatches(); });
-    if (dispatcher_.rank() == 0) {
-      std::int64_t elsewhere = 0;
-      dispatcher_.serve([this] { return nextOwn(); },
-                        [&](std::int64_t finished) {
-                          elsewhere += finished;
-                          progress.show(elsewhere + finished_);
-                        });
-      for (; working_ > 0; std::this_thread::sleep_for(kLook)) {
-        progress.show(elsewhere + finished_);
-      }
-    }
-    for (std::thread& worker : workers) worker.join();
-    if (dispatcher_.rank() > 0) dispatcher_.leave(finished_.exchange(0));
-    if (failure_) std::rethrow_exception(failure_);
+    Progress progress(study_.cases(), "cases");
+    Workers workers;
+    workers.run(
+        threads_,
+        [&] {
+          CaseMaker maker(study_);
+          while (!workers.stops()) {
+            // A shard takes every n-th case.
+            const std::int64_t index = counter_.next() * options_.shards + options_.shard - 1;
+            if (index >= study_.cases()) break;
+            reached_ = index;
+            workOn(index, maker, workers);
+          }
+        },
+        [&] {
+          counter_.poll();
+          if (counter_.rank() == 0) progress.show(reached_);
+        });
   }
 
   /// Takes over what other processes have finished.
@@ -97,19 +135,16 @@ class Sweep {
   void writeTable() {
     OutputFile table(options_.output);
     std::string text = tableHeader(study_);
-    std::vector<std::string> plotted;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const std::string row = rowStart(study_, static_cast<std::int64_t>(i)) + rows_[i];
-      text += row + '\n';
-      if (options_.plot) plotted.push_back(row);
+      text += rowStart(study_, static_cast<std::int64_t>(i)) + rows_[i] + '\n';
       if (text.size() < kFlushedText) continue;
       table.write(text);
       text.clear();
     }
     table.write(text);
     table.finish();
+    if (options_.plot) drawPlot(study_, options_.output, picturePath(options_.output));
     journals_.remove();
-    if (options_.plot) drawPlot(study_, plotted, picturePath(options_.output));
   }
 
   /// Lets shards that finish at the same moment conclude one after the other.
@@ -119,84 +154,55 @@ class Sweep {
   const std::string& journalFolder() const { return journals_.folder(); }
 
  private:
-  bool isDone(std::int64_t index) const { return !rows_[static_cast<std::size_t>(index)].empty(); }
-
-  std::int64_t nextOwn() {
-    if (failed_ || interruption() != 0) return -1;
-    const std::size_t next = next_++;
-    return next < own_.size() ? own_[next] : -1;
+  /// Finds out before the first case what would prevent the last line of the table.
+  void checkOutputs() const {
+    if (options_.plot) requirePlotter();
+    if (options_.shards > 1 && std::filesystem::exists(options_.output)) {
+      throw InputError(options_.output + ": exists; remove it to run its shards anew");
+    }
+    if (options_.shards == 1 && counter_.rank() == 0) const OutputFile probe(options_.output);
   }
 
-  void workOnBatches() {
-    try {
-      CaseMaker maker(study_);
-      for (;;) {
-        const bool asks = dispatcher_.rank() > 0 && !failed_ && interruption() == 0;
-        const std::int64_t batch = asks ? dispatcher_.ask(finished_.exchange(0)) : nextOwnOnRank0();
-        if (batch < 0) break;
-        workOn(schedule_.batches[static_cast<std::size_t>(batch)], maker);
-      }
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      failure_ = std::current_exception();
-      failed_ = true;
-    }
-    --working_;
-  }
-
-  std::int64_t nextOwnOnRank0() { return dispatcher_.rank() == 0 ? nextOwn() : -1; }
-
-  void workOn(const std::vector<std::int64_t>& batch, CaseMaker& maker) {
-    std::string lines;
-    const auto stop = [this] { return failed_ || interruption() != 0; };
-    for (const std::int64_t index : batch) {
-      if (isDone(index)) continue;
-      const Case& made = maker.make(index);
-      const std::int32_t scene = schedule_.scene_of[static_cast<std::size_t>(index)];
-      const auto reference = scene < 0 ? nullptr : references_.take(scene, made);
-      std::optional<std::string> text = runCase(columns_, made, reference, stop);
-      if (!text) break;
-      journals_.addLine(index, *text, lines);
-      rows_[static_cast<std::size_t>(index)] = std::move(*text);
-      ++finished_;
-    }
+  void workOn(std::int64_t index, CaseMaker& maker, const Workers& workers) {
+    const auto i = static_cast<std::size_t>(index);
+    if (!rows_[i].empty()) return;
+    const Case& made = maker.make(index);
+    const auto reference = scene_of_[i] < 0 ? nullptr : references_.take(scene_of_[i], made);
+    std::optional<std::string> text =
+        runCase(columns_, made, reference, [&workers] { return workers.stops(); });
+    if (!text) return;
     const std::lock_guard<std::mutex> lock(mutex_);
-    journals_.write(lines);
+    journals_.append(index, *text);
+    rows_[i] = std::move(*text);
   }
 
   const Study& study_;
   WantedColumns columns_;
   const SweepOptions& options_;
-  Dispatcher& dispatcher_;
+  CaseCounter& counter_;
   int threads_;
-  Schedule schedule_;
+  std::vector<std::int32_t> scene_of_;  ///< see `checkCases`
   References references_;
   Journals journals_;
   std::vector<std::string> rows_;  ///< columns of the finished cases
-  std::vector<std::int64_t> own_;  ///< batches of this shard
-  std::int64_t open_ = 0;
-  std::atomic<std::size_t> next_{0};  ///< in `own_`
-  std::atomic<std::int64_t> finished_{0};
-  std::atomic<int> working_{0};
-  std::atomic<bool> failed_{false};
+  std::atomic<std::int64_t> reached_{0};
   std::mutex mutex_;
-  std::exception_ptr failure_;
 };
 
 /// Writes the table, or says why it is not complete.
-int conclude(Sweep& sweep, const Study& study, const SweepOptions& options,
-             const Dispatcher& dispatcher) {
+/// \param signal that has stopped a rank; 0: none
+int conclude(Sweep& sweep, const Study& study, const SweepOptions& options, int signal) {
   if (!sweep.lockJournals()) {
     printOutput(fmt::format("another process has written {}\n", options.output));
     return kDone;
   }
-  if (dispatcher.size() > 1 || options.shards > 1) sweep.readJournals();
+  sweep.readJournals();
   const std::int64_t missing = sweep.missingCases();
   const std::string done =
       fmt::format("{} of {} cases are done", study.cases() - missing, study.cases());
-  if (missing > 0 && interruption() != 0) {
+  if (missing > 0 && signal != 0) {
     printError(done + "; the same command goes on\n");
-    return kSignalled + interruption();
+    return kSignalled + signal;
   }
   if (missing > 0 && options.shards > 1) {
     printOutput(fmt::format("{}; the last shard writes {}\n", done, options.output));
@@ -207,25 +213,68 @@ int conclude(Sweep& sweep, const Study& study, const SweepOptions& options,
         fmt::format("{}; all ranks must see the same folder {}", done, sweep.journalFolder()));
   }
   sweep.writeTable();
-  const std::string picture = picturePath(options.output);
   printOutput(fmt::format(
       "{}: {}, table {}{}\n", study.name, counted(study.cases(), "case"), options.output,
-      options.plot ? fmt::format(", pictures {0}.png and {0}.svg", picture) : ""));
+      options.plot ? fmt::format(", picture {}", picturePath(options.output)) : ""));
   return kDone;
 }
 
 }  // namespace
 
 std::string picturePath(const std::string& output) {
-  return std::filesystem::path(output).replace_extension().string();
+  return std::filesystem::path(output).replace_extension(".png").string();
 }
 
-int runSweep(const Study& study, const SweepOptions& options, Dispatcher& dispatcher) {
-  Sweep sweep(study, options, dispatcher);
+std::vector<std::int32_t> checkCases(const Study& study, int threads) {
+  const auto count = static_cast<std::size_t>(study.cases());
+  std::vector<std::int32_t> scene_of(count, -1);
+  std::vector<std::string> scenes(count);
+  std::atomic<std::int64_t> next{0};
+  std::mutex mutex;
+  std::int64_t bad = study.cases();
+  std::string message;
+  Workers workers;
+  workers.run(
+      threads,
+      [&] {
+        CaseMaker maker(study);
+        for (std::int64_t i = 0; (i = next++) < bad && !workers.stops();) {
+          try {
+            const Case& made = maker.make(i);
+            Scenario scenario = made.settings.scenario;
+            scenario.reference = ReferenceUse::kNever;
+            const Run run(scenario, made.particles);
+            scenes[static_cast<std::size_t>(i)] = sceneOf(study, made);
+          } catch (const InputError& error) {
+            const std::lock_guard<std::mutex> lock(mutex);
+            if (i < bad) message = fmt::format("case {}: {}", i, error.what());
+            bad = std::min(bad, i);
+            next = study.cases();
+          }
+        }
+      },
+      [] {});
+  if (bad < study.cases()) throw InputError(message);
+  std::unordered_map<std::string, std::vector<std::size_t>> cases;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (!scenes[i].empty()) cases[scenes[i]].push_back(i);
+  }
+  std::int32_t number = 0;
+  for (const auto& [scene, indices] : cases) {
+    if (indices.size() == 1) continue;  // nothing to share
+    for (const std::size_t i : indices) scene_of[i] = number;
+    ++number;
+  }
+  return scene_of;
+}
+
+int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter) {
   catchInterruptions();
-  if (dispatcher.rank() == 0) dispatcher.meet();  // study and journals are in order
+  Sweep sweep(study, options, counter);
+  if (counter.rank() == 0) counter.largest(0);  // study and outputs are in order
   sweep.work();
-  return dispatcher.rank() == 0 ? conclude(sweep, study, options, dispatcher) : kDone;
+  const int signal = counter.largest(interruption());
+  return counter.rank() == 0 ? conclude(sweep, study, options, signal) : kDone;
 }
 
 }  // namespace spring_pendulum::sweep

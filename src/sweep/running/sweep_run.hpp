@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "sweep/running/dispatcher.hpp"
+#include "sweep/running/case_counter.hpp"
 #include "sweep/study/study.hpp"
 
 namespace spring_pendulum::sweep {
@@ -17,12 +18,16 @@ struct SweepOptions {
   bool plot = false;
 };
 
-/// Returns the path of the pictures of a table, without extension.
+/// Returns the path of the picture of a table.
 std::string picturePath(const std::string& output);
 
+/// Makes a Run of each case, which checks its input.
+/// \returns for each case the number of its scene; -1 if no other case has the same
+/// \throws InputError naming the first case with bad input
+std::vector<std::int32_t> checkCases(const Study& study, int threads);
+
 /// Runs all cases that no journal holds and, if none is left to other shards, writes the table.
-/// Rank 0 meets the others when everything is checked; the others have met it before.
 /// \returns the exit status; 0 also if cases diverged
-int runSweep(const Study& study, const SweepOptions& options, Dispatcher& dispatcher);
+int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter);
 
 }  // namespace spring_pendulum::sweep

@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""Draws the table of a sweep as a PNG: plot_table.py TABLE.csv PICTURE.png --type lines --x KEY --y KEY ...
+
+sweep --plot calls it with the options of the study's entry `plot`; docs/sweep.md explains them. It can also
+draw an existing table again.
+"""
+import argparse
+import csv
+import itertools
+import math
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use('Agg')
+from matplotlib import pyplot  # noqa: E402
+from matplotlib.colors import LogNorm, Normalize  # noqa: E402
+
+# Colours that people with any colour vision can tell apart (M. Okabe, K. Ito, 2008), with a marker and a
+# line style each, so that no two of 18 lines look alike.
+COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9']
+STYLES = [style for style in itertools.product(['-', '--', ':'], COLORS)]
+MARKERS = 'osD^vP'
+# From harmless to bad; all other verdicts have the first colour.
+VERDICTS = {'no fault found': '#c6dbef', 'inaccurate': '#9e9ac8', 'drift': '#fee391', 'gained energy': '#f98e1b',
+            'diverged': '#662506'}
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+class Table:
+    """The rows of a table as dictionaries; a key is the title of a column without its unit."""
+
+    def __init__(self, path):
+        with open(path, newline='') as file:
+            titles, *rows = csv.reader(file)
+        self.titles = {title.split(' [')[0]: title for title in titles}
+        self.rows = [dict(zip(self.titles, row)) for row in rows]
+
+    def values(self, key):
+        """The different values of a key in the order of the table; one None without a key."""
+        return list(dict.fromkeys(row[key] for row in self.rows)) if key else [None]
+
+    def label(self, key, value):
+        if value is None:
+            return ''
+        unit = self.titles[key][len(key):].strip(' []')
+        return value if key == 'method' else ('%s = %s %s' % (key, value, unit)).strip()
+
+
+def draw_lines(axes, rows, table, options):
+    for k, line in enumerate(table.values(options.lines)):
+        points = {}
+        for row in rows:
+            # What a diverged run measured, it measured until then only.
+            if (line is None or row[options.lines] == line) and row.get('verdict') != 'diverged':
+                points.setdefault(number(row[options.x]), []).append(number(row[options.y]))
+        style, color = STYLES[k % len(STYLES)]
+        x = sorted(v for v in points if math.isfinite(v))
+        middle = [sorted(points[v])[len(points[v]) // 2] for v in x]
+        axes.plot(x, middle, style, color=color, marker=MARKERS[k % len(MARKERS)], markersize=3.5,
+                  label=table.label(options.lines, line))
+        if any(len(points[v]) > 1 for v in x):  # several rows at one place: their range around the median
+            axes.fill_between(x, [min(points[v]) for v in x], [max(points[v]) for v in x], color=color, alpha=0.2)
+
+
+def borders(values, logarithmic):
+    """The borders of the cells around sorted values."""
+    at = [math.log10(v) if logarithmic else v for v in values]
+    if len(at) == 1:
+        at = [at[0] - 0.5, at[0], at[0] + 0.5]
+    inner = [(a + b) / 2 for a, b in zip(at, at[1:])]
+    if len(values) > 1:
+        inner = [2 * at[0] - inner[0], *inner, 2 * at[-1] - inner[-1]]
+    return [10 ** v if logarithmic else v for v in inner]
+
+
+def draw_map(axes, rows, table, options):
+    x = sorted({number(row[options.x]) for row in rows})
+    y = sorted({number(row[options.y]) for row in rows})
+    verdicts = list(VERDICTS)
+    cells = [[math.nan] * len(x) for _ in y]
+    for row in rows:
+        value = row[options.color]
+        if options.color == 'verdict':
+            value = verdicts.index(value) if value in VERDICTS else 0
+        cells[y.index(number(row[options.y]))][x.index(number(row[options.x]))] = number(value)
+    places = borders(x, 'x' in options.log), borders(y, 'y' in options.log)
+    if options.color == 'verdict':
+        colors = matplotlib.colors.ListedColormap(list(VERDICTS.values()))
+        axes.pcolormesh(*places, cells, cmap=colors, vmin=-0.5, vmax=len(verdicts) - 0.5)
+        for verdict, color in VERDICTS.items():
+            axes.plot([], [], 's', color=color, label=verdict)
+    else:
+        shown = [v for line in cells for v in line if math.isfinite(v)] or [0.0, 1.0]
+        scale = LogNorm if min(shown) > 0 and max(shown) > 100 * min(shown) else Normalize
+        mesh = axes.pcolormesh(*places, cells, cmap='viridis', norm=scale(min(shown), max(shown)))
+        axes.figure.colorbar(mesh, ax=axes, label=table.titles[options.color])
+    if options.limit:
+        limits = dict(sorted((number(row[options.x]), number(row[options.limit])) for row in rows))
+        axes.plot(list(limits), list(limits.values()), 'k-', linewidth=2, label=table.titles[options.limit])
+        axes.set_ylim(places[1][0], places[1][-1])
+
+
+def draw_histogram(axes, rows, _, options):
+    values = sorted(v for v in (number(row[options.x]) for row in rows if row.get('verdict') != 'diverged')
+                    if math.isfinite(v) and (v > 0 or 'x' not in options.log))
+    if not values:
+        return
+    low, high = values[0], values[-1]
+    bins = 30
+    if 'x' in options.log and high > low:
+        bins = [low * (high / low) ** (k / 30) for k in range(31)]
+    # The smallest value with at least this share of all values at or below it.
+    share = [values[math.ceil(part * len(values)) - 1] for part in (0.5, 0.95)]
+    axes.hist(values, bins=bins, color=COLORS[0],
+              label='%d cases, median %.3g, 95 %% at most %.3g' % (len(values), *share))
+
+
+def draw(table, options):
+    panels = table.values(options.panels)
+    columns = min(len(panels), 4)
+    lines = -(-len(panels) // columns)
+    size = (8, 5.5) if len(panels) == 1 else (4.2 * columns, 4.0 * lines + 1)
+    figure, grid = pyplot.subplots(lines, columns, figsize=size, squeeze=False, sharex=True, sharey=True)
+    for axes in grid.flat[len(panels):]:
+        axes.set_visible(False)
+    legend = {}
+    for axes, panel in zip(grid.flat, panels):
+        rows = [row for row in table.rows if panel is None or row[options.panels] == panel]
+        if 'x' in options.log:
+            axes.set_xscale('log')
+        if 'y' in options.log and options.type != 'histogram':
+            axes.set_yscale('log')
+        {'lines': draw_lines, 'map': draw_map, 'histogram': draw_histogram}[options.type](axes, rows, table, options)
+        axes.set(xlabel=table.titles[options.x], ylabel=table.titles.get(options.y, 'cases'),
+                 title=table.label(options.panels, panel))
+        legend.update((label, handle) for handle, label in zip(*axes.get_legend_handles_labels()) if label)
+    figure.suptitle(options.title.replace('$', r'\$'))  # text, no formula
+    height = 0.0
+    if legend:
+        height = 0.28 * -(-len(legend) // 4) / size[1]
+        figure.legend(legend.values(), legend.keys(), loc='lower center', ncol=4, fontsize=8)
+    figure.tight_layout(rect=(0, height, 1, 1))
+    # Whole or absent, as all outputs.
+    unfinished = options.picture + '.unfinished'
+    figure.savefig(unfinished, format='png', dpi=100)
+    os.replace(unfinished, options.picture)
+
+
+def main():
+    if sys.argv[1:] == ['--test']:
+        return
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('table')
+    parser.add_argument('picture')
+    parser.add_argument('--type', choices=['lines', 'map', 'histogram'], default='lines')
+    for key in ('x', 'y', 'color', 'lines', 'panels', 'limit', 'title', 'log'):
+        parser.add_argument('--' + key, default='')
+    options = parser.parse_args()
+    draw(Table(options.table), options)
+
+
+if __name__ == '__main__':
+    main()
