@@ -17,7 +17,7 @@ MOST_LINES = 400
 MOST_FILES = 15  # in a folder of the library
 
 # A layer includes itself and layers of a lower rank. Inside a layer the rooms, its folders, rank too.
-LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'io': 4, 'check': 5, 'mpi': 5, 'ros': 5}
+LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'io': 4, 'check': 5, 'ros': 5}
 ROOMS = {
     'base': {},
     'model': {},
@@ -133,6 +133,9 @@ def file_errors(files):
         here = place(path)
         if here and here[0] != 'ros' and ros.search(text):
             yield f'{path}: includes ROS, which only src/ros may'
+        # ROS time may stand still: wait and throttle by the wall clock.
+        if path.startswith('src/ros/') and re.search(r'_THROTTLE|ros::(Rate|Timer)|ros::Duration\(.*sleep', text):
+            yield f'{path}: waits or throttles in ROS time; use ros::WallDuration and Throttle'
 
 
 def folder_errors(files):

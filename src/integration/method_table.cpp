@@ -151,6 +151,9 @@ void checkMethod(const Method& method) {
   }
 }
 
+constexpr std::pair<std::string_view, std::string_view> kAbbreviations[] = {
+    {"RK2", "Runge-Kutta-2"}, {"RK4", "Runge-Kutta-4"}};
+
 /// Names of other methods and programs, and the method here that is nearest.
 constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
     {"Backward-Euler", "Radau-9"},   {"BDF", "Radau-9"},
@@ -192,6 +195,9 @@ const Method& findMethod(std::string_view name) {
   }
   for (const Method& method : methodTable()) {
     if (isSameName(method.name, name)) return method;
+  }
+  for (const auto& [abbreviation, method] : kAbbreviations) {
+    if (isSameName(abbreviation, name)) return findMethod(method);
   }
   std::string meant;
   for (const auto& [other, nearest] : kOtherNames) {

@@ -45,15 +45,15 @@ class Robot {
 
   /// Sends the odometry until the present time, and holds the particle.
   void follow(const Run& run, Holders& holders) {
-    for (; next_ * kInputInterval <= run.time() + 1e-9; ++next_) {
+    for (; next_ * kInputInterval <= run.nextTime() + 1e-9; ++next_) {
       const double stamp = next_ * kInputInterval;
       Target seen = handAt(stamp, from_, phase_);
       seen.position = {seen.position.x + noise(1e-3), seen.position.y + noise(1e-3)};
       seen.velocity = {seen.velocity.x + noise(5e-3), seen.velocity.y + noise(5e-3)};
-      EXPECT_TRUE(follower_.take(seen, stamp, stamp)) << follower_.takeMessage();
+      EXPECT_TRUE(follower_.take(seen, true, stamp, stamp)) << follower_.takeMessage();
     }
     const PlaneVector<double> here{run.state().x()[particle_], run.state().y()[particle_]};
-    const auto target = follower_.targetAt(run.time(), here, run.nextTime() - run.time());
+    const auto target = follower_.targetAt(run.nextTime(), here, run.nextTime() - run.time());
     ASSERT_TRUE(target.has_value());
     holders.hold(particle_, *target);
   }

@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
 from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
@@ -91,6 +91,15 @@ class Ends(unittest.TestCase):
             self.assertEqual(read_frames(folder), expected)
             with PendulumNode(method='Euler', particles=HORIZONTAL) as node:
                 self.assertEqual(node.wait(), 3, node.output())
+
+    def test_a_second_divergence_is_logged_too(self):
+        with PendulumNode(method='Euler', particles=HORIZONTAL, at_end='hold') as node:
+            for count in (1, 2):
+                wait_until(lambda: len(node.lines('ERROR')) == count, 'the divergence')
+                rospy.wait_for_service('/pendulum/reset', timeout=30)
+                self.assertTrue(rospy.ServiceProxy('/pendulum/reset', Trigger)().success)
+            node.interrupt()
+            node.wait()
 
     def test_divergence_changes_the_colour_and_keeps_the_last_good_chain(self):
         markers = Listener('markers', MarkerArray)

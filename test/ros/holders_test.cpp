@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "support/scenes.hpp"
 
@@ -134,25 +135,96 @@ TEST(Holders, SwitchBetweenStepControlsAtAFrame) {
   EXPECT_EQ(live.run.state().values(), live.run.start().values());
 }
 
+using Answer = HolderCheck::Answer;
+
 TEST(HolderCheck, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
   HolderCheck check("odom", 1.0);
   EXPECT_FALSE(check.isAlive(0.0));
-  EXPECT_TRUE(check.accepts({0.0, 0.0}, {}, 1.0, 1.0));
-  EXPECT_TRUE(check.accepts({0.5, 0.0}, {}, 1.1, 1.1));
+  EXPECT_EQ(check.check({0.0, 0.0}, {}, 1.0, 1.0), Answer::kReturns);
+  EXPECT_EQ(check.check({0.5, 0.0}, {}, 1.1, 1.1), Answer::kFollows);
   EXPECT_EQ(check.takeMessage(), "");
-  EXPECT_FALSE(check.accepts({5.0, 0.0}, {}, 1.2, 1.2));
+  EXPECT_EQ(check.check({5.0, 0.0}, {}, 1.2, 1.2), Answer::kRefused);
   EXPECT_EQ(check.takeMessage(), "odom jumps by more than 1 m: the particle is held where it is");
-  EXPECT_FALSE(check.accepts({0.5, std::nan("")}, {}, 1.3, 1.3));
+  EXPECT_EQ(check.check({0.5, std::nan("")}, {}, 1.3, 1.3), Answer::kRefused);
   EXPECT_EQ(check.takeMessage(), "");  // said once
-  EXPECT_TRUE(check.accepts({0.6, 0.0}, {}, 1.4, 1.4));
+  EXPECT_EQ(check.check({0.6, 0.0}, {}, 1.4, 1.4), Answer::kFollows);
   EXPECT_EQ(check.takeMessage(), "odom is followed again");
-  EXPECT_FALSE(check.accepts({0.6, 0.0}, {}, 1.0, 1.5));
+  EXPECT_EQ(check.check({0.6, 0.0}, {}, 1.0, 1.5), Answer::kRefused);
   EXPECT_EQ(check.takeMessage(), "odom runs backwards in time: the particle is held where it is");
-  EXPECT_TRUE(check.accepts({0.6, 0.0}, {}, 1.5, 1.6));
+  EXPECT_EQ(check.check({0.6, 0.0}, {}, 1.5, 1.6), Answer::kFollows);
   check.takeMessage();
   EXPECT_TRUE(check.isAlive(1.7));
   EXPECT_FALSE(check.isAlive(3.0));
   EXPECT_EQ(check.takeMessage(), "odom has stopped: the particle is held where it is");
+  EXPECT_EQ(check.check({0.7, 0.0}, {}, 3.0, 3.1), Answer::kReturns);
+}
+
+// After any inputs, a steady one is followed within a second.
+TEST(HolderCheck, FollowsASteadyInputAgain) {
+  std::mt19937 random(4);
+  const auto draw = [&random](double size) {
+    return size * (static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5);
+  };
+  for (int round = 0; round < 200; ++round) {
+    HolderCheck check("odom", 1.0);
+    double now = 1.0;
+    for (int i = 0; i < 20; ++i, now += 0.03) {
+      check.check({draw(20.0), draw(20.0)}, {draw(30.0), 0.0}, draw(100.0), now);
+    }
+    Answer answer = Answer::kRefused;
+    const double stamp = draw(100.0), start = now;
+    for (; now < start + 1.0; now += 0.03) {
+      answer = check.check({3.0, 0.1 * (now - start)}, {}, stamp + now, now);
+    }
+    EXPECT_EQ(answer, Answer::kFollows) << round;
+  }
+}
+
+/// Largest distance of a particle from its holder on a circle of 1 m, between 4 s and 8 s, m.
+double distanceOnACircle(bool has_velocity, double input_interval) {
+  constexpr double kSpeed = 2.1;  // m/s, faster than a particle comes to its holder
+  const auto holderAt = [](double t) {
+    return Target{{4.0 + std::cos(kSpeed * t), -1.0 + std::sin(kSpeed * t)},
+                  {-kSpeed * std::sin(kSpeed * t), kSpeed * std::cos(kSpeed * t)},
+                  {}};
+  };
+  Live live;
+  live.run.advance(*live.integrator);
+  Follower follower(HolderCheck("odom", 3.0));
+  double largest = 0.0, next_input = 0.0;
+  while (live.run.time() < 8.0) {
+    const double now = live.run.nextTime();  // the state that is computed is shown now
+    for (; next_input <= now; next_input += input_interval) {
+      Target input = holderAt(next_input);
+      if (!has_velocity) input.velocity = {};
+      follower.take(input, has_velocity, next_input, next_input);
+    }
+    const State& state = live.run.state();
+    const auto target = follower.targetAt(now, {state.x()[5], state.y()[5]}, now - live.run.time());
+    if (target) live.holders.hold(5, *target);
+    live.holders.apply(live.run, live.integrator, now, false);
+    live.run.advancePart(*live.integrator);
+    if (live.run.time() < 4.0) continue;
+    const Target holder = holderAt(live.run.time());
+    largest = std::max(largest, std::hypot(live.run.state().x()[5] - holder.position.x,
+                                           live.run.state().y()[5] - holder.position.y));
+  }
+  return largest;
+}
+
+TEST(Follower, IsWithItsHolderOnACircle) {
+  EXPECT_LT(distanceOnACircle(true, 1.0 / 30.0), 2e-3);   // odometry
+  EXPECT_LT(distanceOnACircle(false, 1.0 / 30.0), 2e-3);  // poses and tf
+  EXPECT_LT(distanceOnACircle(false, 1.0 / 100.0), 2e-3);
+}
+
+TEST(Follower, ComesBackSlowlyAfterASilence) {
+  Follower follower(HolderCheck("odom", 10.0));
+  for (double t = 0.0; t < 1.0; t += 0.03) follower.take({{0.0, 0.0}, {}, {}}, true, t, t);
+  EXPECT_LT(std::hypot(follower.targetAt(1.0, {0.0, 0.0}, 0.03)->position.x, 0.0), 1e-12);
+  follower.take({{4.0, 0.0}, {}, {}}, true, 3.0, 3.0);
+  EXPECT_NEAR(follower.targetAt(3.0, {0.0, 0.0}, 0.03)->position.x, 0.06, 1e-12);
+  EXPECT_EQ(follower.takeMessage(), "odom: the particle comes to it from 4 m away");
 }
 
 TEST(HeldInputs, ParseListsOfParticles) {

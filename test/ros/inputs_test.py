@@ -103,6 +103,16 @@ class States(unittest.TestCase):
             self.assertEqual(sorted(resumed), sorted(frames)[frame:])
             self.assertTrue(all(frames[name] == text for name, text in resumed.items()))
 
+    def test_loads_what_it_saved_after_a_change_of_the_method(self):
+        with Folder() as folder, self.node(folder, method='Runge-Kutta-4', frames=100000, real_time_factor=10.0):
+            self.state.wait_for_any(lambda m: m.frame >= 20)
+            self.assertTrue(service('set', Set)('method', 'Auto').success)
+            self.state.wait_for_any(lambda m: m.method == 'Auto' and m.frame >= 36)
+            for _ in range(5):
+                self.assertTrue(service('save_state', StatePath)('').success)
+                answer = service('load_state', StatePath)('')
+                self.assertTrue(answer.success, answer.message)
+
     def test_writes_the_frames_that_a_jump_left_out_when_it_reaches_them(self):
         with Folder() as folder:
             expected = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')

@@ -211,6 +211,16 @@ class Hands(LiveTest):
             rospy.sleep(0.3)
             self.assertFalse([line for line in node.lines('ERROR') if 'refused' in line])
 
+    def test_it_rests_with_constants_changed_just_before(self):
+        with self.node():
+            self.state.wait_for(5)
+            self.assertTrue(self.call('set', Set, 'stiffness', '300').success)
+            self.assertTrue(self.call('at_rest', Trigger).success)
+            self.wait_state(lambda m: m.tip_speed < 1e-9, 'the rest')
+            del self.state.messages[:]
+            self.state.wait_for(20)
+            self.assertLess(max(m.tip_speed for m in self.state.messages), 1e-6)
+
     def test_it_comes_to_rest(self):
         with self.node():
             self.state.wait_for(5)

@@ -7,8 +7,10 @@ import unittest
 import rosgraph
 import rospy
 import rostest
+from geometry_msgs.msg import Vector3
 from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState
+from spring_pendulum.srv import ApplyForce
 
 from pendulum_process import Listener, PendulumNode, wait_until
 
@@ -24,6 +26,19 @@ class SimTime(unittest.TestCase):
         listener.close()
         self.assertGreater(len(listener.messages), 11)
         self.assert_increasing(listener)
+
+    def test_without_a_clock_every_call_answers_and_a_signal_ends_the_node(self):
+        with PendulumNode(frames=100000, real_time_factor=1.0, at_end='hold', held='last',
+                          held_6_frame='nope') as node:
+            rospy.wait_for_service('/pendulum/apply_force', timeout=60)
+            force = rospy.ServiceProxy('/pendulum/apply_force', ApplyForce)
+            answer = force(particle=3, frame_id='nowhere', force=Vector3(1, 0, 0), duration=1.0)
+            self.assertFalse(answer.success)
+            self.assertIn('no transform from frame', answer.message)
+            wait_until(lambda: any('held_6_frame: no transform' in line for line in node.lines('WARN')),
+                       'the warning of the frame that does not exist')
+            node.interrupt()
+            self.assertEqual(node.wait(), 0, node.output())
 
     def test_a_clock_that_jumps(self):
         listener = Listener('/b/state', PendulumState)

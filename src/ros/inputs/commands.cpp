@@ -110,7 +110,9 @@ std::string Commands::applyForce(const ApplyForce::Request& request) {
   const double begin = std::max(request.start_time, run_.time());
   const double end =
       request.duration < 0.0 ? std::numeric_limits<double>::infinity() : begin + request.duration;
-  holders_.push({particle, {force.x, force.z}, begin, end});
+  if (!holders_.push({particle, {force.x, force.z}, begin, end})) {
+    throw InputError("too many forces act already; call ~clear_forces");
+  }
   return fmt::format("particle {}: ({:.6g}, {:.6g}) N from t = {:.6g} s {}", request.particle,
                      force.x, force.z, begin,
                      std::isinf(end) ? "until clear_forces" : fmt::format("to {:.6g} s", end));
@@ -131,7 +133,8 @@ bool Commands::onAtRest(std_srvs::Trigger::Request& /*request*/,
                         std_srvs::Trigger::Response& response) {
   return answer(response, [&] {
     if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
-    holders_.jumpTo(equilibrium(run_.chain(), run_.state()));
+    const Chain wanted = holders_.wanted().chainOf(run_.chain().masses());
+    holders_.jumpTo(equilibrium(wanted.drivenBy(run_.chain().drive()), run_.state()));
     show_();
     return std::string("the chain hangs at rest from the next state on");
   });

@@ -37,13 +37,17 @@ geometry_msgs::TransformStamped Frames::from(const std::string& name) {
     none.transform.rotation.w = 1.0;
     return none;
   }
-  constexpr double kFirstWait = 0.5;  // s
-  const ros::Duration wait(listener_ ? 0.0 : kFirstWait);
+  // The first time, wait for half a second of the wall clock: ROS time may stand still.
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(listener_ ? 0.0 : 0.5);
   listen();
-  try {
-    return transforms_->lookupTransform(frame_id_, frame, ros::Time(0), wait);
-  } catch (const tf2::TransformException& error) {
-    throw InputError(fmt::format("no transform from frame {}: {}", inQuotes(frame), error.what()));
+  for (;; ros::WallDuration(0.01).sleep()) {
+    try {
+      return transforms_->lookupTransform(frame_id_, frame, ros::Time(0));
+    } catch (const tf2::TransformException& error) {
+      if (ros::SteadyTime::now() < end && ros::ok()) continue;
+      throw InputError(
+          fmt::format("no transform from frame {}: {}", inQuotes(frame), error.what()));
+    }
   }
 }
 

@@ -157,7 +157,8 @@ std::optional<PlaneVector<double>> Handles::planePosition(const Feedback& feedba
     const auto point = transformed(transform, feedback->pose.position);
     return PlaneVector<double>{point.x, point.z};
   } catch (const InputError& error) {
-    ROS_WARN_STREAM_THROTTLE(5.0, "handle " << feedback->marker_name << ": " << error.what());
+    if (warnings_.isDue())
+      ROS_WARN_STREAM("handle " << feedback->marker_name << ": " << error.what());
     return std::nullopt;
   }
 }
@@ -181,8 +182,9 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
         if (std::hypot(dx, dy) <= farthest_) {  // false for a position that is not finite
           holders_.hold(particle, {*position, {}});
         } else {
-          ROS_WARN_STREAM_THROTTLE(5.0, "handle " << feedback->marker_name
-                                                  << ": the hand is too far away to be followed");
+          if (warnings_.isDue())
+            ROS_WARN_STREAM("handle " << feedback->marker_name
+                                      << ": the hand is too far away to be followed");
         }
       } else if (is_new) {
         holders_.hold(particle);

@@ -3,6 +3,7 @@
 
 #include "ros/inputs/frames.hpp"
 #include "ros/inputs/holders.hpp"
+#include "ros/inputs/throttle.hpp"
 #include "ros/parameters/node_options.hpp"
 
 #include <ros/node_handle.h>
@@ -81,7 +82,8 @@ class Handles {
   std::map<Entry, bool> checked_;
   std::vector<std::ptrdiff_t> particles_;
   std::map<std::ptrdiff_t, Hand> hands_;  ///< by dragged particle
-  ros::Publisher updates_;                ///< counts the subscribers of the server
+  Throttle warnings_;
+  ros::Publisher updates_;  ///< counts the subscribers of the server
 };
 
 }  // namespace spring_pendulum

@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "ros/inputs/throttle.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <tf2_msgs/TFMessage.h>
 #include <utility>
@@ -20,10 +22,13 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kSilence = 0.5;          // s
-constexpr double kOutOfPlane = 1e-3;      // m
-constexpr double kApproachSpeed = 1.0;    // m/s, before a particle has met its holder
-constexpr double kMet = 0.01;             // m
+constexpr double kSilence = 0.5;        // s
+constexpr double kOutOfPlane = 1e-3;    // m
+constexpr double kApproachSpeed = 1.0;  // m/s, before a particle has met its holder
+constexpr double kMet = 0.01;           // m
+constexpr double kJitter = 0.1;         // s, largest believable delay of a message
+constexpr double kHistory = 0.5;        // s, of inputs
+constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
 
 double wallTime() {
@@ -62,14 +67,21 @@ std::vector<std::ptrdiff_t> parseParticleList(const std::string& text, std::ptrd
   return result;
 }
 
-bool HolderCheck::refuse(const std::string& why) {
-  if (!said_) message_ = fmt::format("{} {}: the particle is held where it is", name_, why);
+HolderCheck::Answer HolderCheck::refuse(const std::string& why) {
+  if (!said_) say(" " + why + ": the particle is held where it is");
   said_ = true;
-  return false;
+  return Answer::kRefused;
 }
 
-bool HolderCheck::accepts(const PlaneVector<double>& position, const PlaneVector<double>& velocity,
-                          double stamp, double now) {
+bool HolderCheck::follows(const Seen& before, const Seen& input) const {
+  const double distance =
+      std::hypot(input.position.x - before.position.x, input.position.y - before.position.y);
+  return input.stamp >= before.stamp && distance <= longest_;
+}
+
+HolderCheck::Answer HolderCheck::check(const PlaneVector<double>& position,
+                                       const PlaneVector<double>& velocity, double stamp,
+                                       double now) {
   if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(velocity.x) ||
       !std::isfinite(velocity.y)) {
     return refuse("has numbers that are not finite");
@@ -78,64 +90,131 @@ bool HolderCheck::accepts(const PlaneVector<double>& position, const PlaneVector
   if (!(std::hypot(velocity.x, velocity.y) <= fastest)) {
     return refuse(fmt::format("moves at more than {:.3g} m/s", fastest));
   }
-  if (last_ && stamp < last_stamp_) return refuse("runs backwards in time");
-  if (last_ && !(std::hypot(position.x - last_->x, position.y - last_->y) <= longest_)) {
-    return refuse(fmt::format("jumps by more than {:.3g} m", longest_));
+  const Seen input{position, stamp, now};
+  bool returns = !last_ || now - last_->time >= kSilence;
+  if (last_ && !follows(*last_, input)) {
+    if (!refused_ || !follows(*refused_, input)) steady_since_ = now;
+    refused_ = input;
+    returns = now - steady_since_ >= kSilence;
+    if (!returns) {
+      return refuse(stamp < last_->stamp ? "runs backwards in time"
+                                         : fmt::format("jumps by more than {:.3g} m", longest_));
+    }
   }
-  if (said_ || silent_) message_ = fmt::format("{} is followed again", name_);
+  if (said_ || silent_) say(" is followed again");
   said_ = silent_ = false;
-  last_ = position;
-  last_stamp_ = stamp;
-  last_time_ = now;
-  return true;
+  refused_.reset();
+  last_ = input;
+  return returns ? Answer::kReturns : Answer::kFollows;
 }
 
 bool HolderCheck::isAlive(double now) {
-  if (!last_ || now - last_time_ < kSilence) return last_.has_value();
-  if (!silent_ && !said_) {
-    message_ = fmt::format("{} has stopped: the particle is held where it is", name_);
-  }
+  if (!last_ || now - last_->time < kSilence) return last_.has_value();
+  if (!silent_ && !said_) say(" has stopped: the particle is held where it is");
   silent_ = true;
   return false;
 }
 
-bool Follower::take(const Target& input, double stamp, double now) {
-  if (!check_.accepts(input.position, input.velocity, stamp, now)) return false;
-  input_ = input;
-  taken_ = now;
+bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
+  const HolderCheck::Answer answer = check_.check(input.position, input.velocity, stamp, now);
+  if (answer == HolderCheck::Answer::kRefused) return false;
+  if (answer == HolderCheck::Answer::kReturns) {
+    samples_.clear();
+    met_ = false;
+    left_ = 0.0;
+  }
+  // Differences of stamps have no jitter; but they may come from another clock.
+  double time = now;
+  if (!samples_.empty()) {
+    const double expected = samples_.back().time + (stamp - samples_.back().stamp);
+    if (stamp > samples_.back().stamp && std::abs(now - expected) < kJitter) {
+      time = std::min(now, expected);
+    }
+  }
+  samples_.push_back({input, stamp, time});
+  while (samples_.front().time < time - kHistory) samples_.pop_front();
+  estimateMotion(has_velocity);
   return true;
+}
+
+const Follower::Sample* Follower::before(double seconds) const {
+  const Sample* found = nullptr;
+  for (const Sample& sample : samples_) {
+    if (samples_.back().time - sample.time >= seconds) found = &sample;
+  }
+  return found;
+}
+
+// Poses: the parabola through three inputs. Odometry: the change of the velocity between two.
+void Follower::estimateMotion(bool has_velocity) {
+  Target& now = samples_.back().holder;
+  const Sample* const first = before(kBaseline);
+  if (first == nullptr) return;
+  const auto slope = [](const PlaneVector<double>& from, const PlaneVector<double>& to,
+                        double time) {
+    return PlaneVector<double>{(to.x - from.x) / time, (to.y - from.y) / time};
+  };
+  const double h1 = samples_.back().time - first->time;
+  if (has_velocity) {
+    now.acceleration = slope(first->holder.velocity, now.velocity, h1);
+    return;
+  }
+  now.velocity = slope(first->holder.position, now.position, h1);
+  const Sample* const second = before(2.0 * kBaseline);
+  if (second == nullptr || second == first) return;
+  const double h2 = first->time - second->time;
+  const PlaneVector<double> earlier = slope(second->holder.position, first->holder.position, h2);
+  now.acceleration = slope(earlier, now.velocity, 0.5 * (h1 + h2));
+  now.velocity.x += 0.5 * h1 * now.acceleration.x;
+  now.velocity.y += 0.5 * h1 * now.acceleration.y;
 }
 
 std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& here,
                                          double interval) {
   const bool alive = check_.isAlive(now);
-  if (!input_) return std::nullopt;
-  Target target = *input_;
-  const double dx = target.position.x - here.x, dy = target.position.y - here.y;
-  const double distance = std::hypot(dx, dy);
+  if (samples_.empty()) return std::nullopt;
+  Target target = samples_.back().holder;
+  if (!alive) return Target{target.position, {}, {}};
+  const double age = now - samples_.back().time - interval;
+  const auto move = [age](double& position, double& velocity, double acceleration) {
+    position += age * (velocity + 0.5 * age * acceleration);
+    velocity += age * acceleration;
+  };
+  move(target.position.x, target.velocity.x, target.acceleration.x);
+  move(target.position.y, target.velocity.y, target.acceleration.y);
+  const double distance = std::hypot(target.position.x - here.x, target.position.y - here.y);
   met_ = met_ || distance < kMet;
-  const double step = kApproachSpeed * std::max(interval, 1e-3);
-  if (!alive) {
-    target.velocity = {};
-  } else if (!met_ && distance > 2.0 * step) {
-    const double share = 2.0 * step / distance;
-    target = {{here.x + share * dx, here.y + share * dy}, {}};
-  } else {
-    // The particle reaches where its holder is now, in a frame that moves with the holder.
-    const double age = now - taken_;
-    target.position.x += age * target.velocity.x;
-    target.position.y += age * target.velocity.y;
-  }
+  if (!met_) approach(target, here, distance, now, interval);
   return target;
 }
 
+/// Lets the particle come to its holder with a limited speed relative to it.
+void Follower::approach(Target& target, const PlaneVector<double>& here, double distance,
+                        double now, double interval) {
+  if (left_ == 0.0) {
+    left_ = now;
+    expected_ = now + 2.0 * distance / kApproachSpeed + 1.0;
+    check_.say(fmt::format(": the particle comes to it from {:.3g} m away", distance));
+  } else if (now > expected_) {
+    expected_ = std::numeric_limits<double>::infinity();
+    check_.say(fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away",
+                           now - left_, distance));
+  }
+  const double step = 2.0 * kApproachSpeed * std::max(interval, 1e-3);
+  if (distance <= step) return;
+  const double left = 1.0 - step / distance;
+  target.position.x -= left * (target.position.x - here.x);
+  target.position.y -= left * (target.position.y - here.y);
+}
+
 bool Follower::isSilent(double now) const {
-  return !input_ || now - taken_ > kSilence;
+  return samples_.empty() || now - samples_.back().time > kSilence;
 }
 
 void Follower::restart() {
-  input_.reset();
+  samples_.clear();
   met_ = false;
+  left_ = 0.0;
   check_.restart();
 }
 
@@ -146,6 +225,7 @@ struct HeldInputs::Held {
   std::string frame;  ///< empty: topics
   Follower follower;
   double stamp = -1.0;  ///< s, of the last transform
+  Throttle warnings;
   bool warned = false;  ///< of a position out of the plane
   ros::Subscriber odometry, pose;
   ros::Publisher wrench;
@@ -177,7 +257,7 @@ HeldInputs::HeldInputs(ros::NodeHandle& node, const Run& run, const NodeOptions&
         });
     held.pose = node.subscribe<geometry_msgs::PoseStamped>(
         topic + "/pose", 10, [this, &held](const geometry_msgs::PoseStamped::ConstPtr& message) {
-          take(held, message->header, vectorOf(message->pose.position), {});
+          take(held, message->header, vectorOf(message->pose.position), std::nullopt);
         });
   }
   for (const auto& [particle, frame] : options.held_frames) {
@@ -208,19 +288,21 @@ void HeldInputs::say(Held& held) {
 
 void HeldInputs::take(Held& held, const std_msgs::Header& header,
                       const geometry_msgs::Vector3& position,
-                      const geometry_msgs::Vector3& velocity) {
+                      const std::optional<geometry_msgs::Vector3>& velocity) {
   geometry_msgs::Vector3 place, speed;
   try {
     const auto transform = frames_.from(header.frame_id).transform;
     place = transformed(transform, position);
-    speed = rotated(transform.rotation, velocity.x, velocity.y, velocity.z);
+    if (velocity) speed = rotated(transform.rotation, velocity->x, velocity->y, velocity->z);
   } catch (const InputError& error) {
-    ROS_WARN_STREAM_THROTTLE(5.0, "held_" << held.particle + 1 << ": " << error.what());
+    if (held.warnings.isDue()) {
+      ROS_WARN_STREAM("held_" << held.particle + 1 << ": " << error.what());
+    }
     return;
   }
   const PlaneVector<double> at{place.x, place.z};
-  const bool accepted =
-      held.follower.take({at, {speed.x, speed.z}}, header.stamp.toSec(), wallTime());
+  const bool accepted = held.follower.take({at, {speed.x, speed.z}, {}}, velocity.has_value(),
+                                           header.stamp.toSec(), wallTime());
   say(held);
   if (!accepted) return;
   if (!held.warned && !(std::abs(place.y - y_) <= kOutOfPlane)) {
@@ -239,10 +321,10 @@ void HeldInputs::lookUp(Held& held, double now) {
     held.stamp = stamp;
     std_msgs::Header header = transform.header;
     header.frame_id.clear();
-    take(held, header, transformed(transform.transform, geometry_msgs::Point()), {});
+    take(held, header, transformed(transform.transform, geometry_msgs::Point()), std::nullopt);
   } catch (const InputError& error) {
-    if (held.follower.isSilent(now)) {
-      ROS_WARN_STREAM_THROTTLE(5.0, "held_" << held.particle + 1 << "_frame: " << error.what());
+    if (held.follower.isSilent(now) && held.warnings.isDue()) {
+      ROS_WARN_STREAM("held_" << held.particle + 1 << "_frame: " << error.what());
     }
   }
 }
@@ -257,6 +339,18 @@ void HeldInputs::watch() {
     say(*held);
     if (target) holders_.hold(held->particle, *target);
   }
+}
+
+/// Adds the weight and the inertia of a held particle, as the sensor of a gripper would feel them. The mass of
+/// P_1 is not used.
+void HeldInputs::addWeight(std::ptrdiff_t particle, geometry_msgs::Vector3& force) const {
+  const Chain& chain = run_.chain();
+  PlaneVector<double> acceleration{};
+  for (const HeldParticle& held : chain.drive().held) {
+    if (held.particle == particle) acceleration = held.acceleration;
+  }
+  force.x -= chain.masses()[particle] * acceleration.x;
+  force.z -= chain.masses()[particle] * (chain.gravity() + acceleration.y);
 }
 
 void HeldInputs::show(const std_msgs::Header& header) {
@@ -275,6 +369,7 @@ void HeldInputs::show(const std_msgs::Header& header) {
       message.wrench.force.x -= force.x;
       message.wrench.force.z -= force.y;
     }
+    if (i > 0) addWeight(i, message.wrench.force);
     held->wrench.publish(message);
   }
   if (tf_particles_.empty()) return;

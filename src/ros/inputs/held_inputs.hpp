@@ -10,6 +10,7 @@
 #include <ros/node_handle.h>
 
 #include <cstddef>
+#include <deque>
 #include <memory>
 #include <nav_msgs/Odometry.h>
 #include <optional>
@@ -24,32 +25,43 @@ namespace spring_pendulum {
 std::vector<std::ptrdiff_t> parseParticleList(const std::string& text, std::ptrdiff_t particles,
                                               const std::string& key);
 
-/// Checks the positions of one holder and says once per episode what is wrong with them.
+/// Validates the pose stream of one holder and logs each problem once.
 class HolderCheck {
  public:
   /// \param name    of the input, for messages
   /// \param longest largest believable jump, m
   HolderCheck(std::string name, double longest) : name_(std::move(name)), longest_(longest) {}
 
-  /// Returns whether the particle may follow.
+  enum class Answer { kRefused, kFollows, kReturns };
+
+  /// Returns whether the particle may follow an input, or first has to come to it again: the first input,
+  /// and one after a silence. A lasting jump, or a clock that starts again, is believed once the input has
+  /// been steady for half a second.
   /// \param stamp of the input, s; not compared with a clock
-  bool accepts(const PlaneVector<double>& position, const PlaneVector<double>& velocity,
+  Answer check(const PlaneVector<double>& position, const PlaneVector<double>& velocity,
                double stamp, double now);
   /// Whether the last input came less than half a second ago.
   bool isAlive(double now);
+  void say(const std::string& what) { message_ = name_ + what; }
   /// What is wrong, said once; empty if nothing new.
   std::string takeMessage() { return std::exchange(message_, {}); }
   /// Accepts the next input wherever and whenever it is.
   void restart() { last_.reset(); }
 
  private:
-  bool refuse(const std::string& why);
+  struct Seen {
+    PlaneVector<double> position;  ///< m
+    double stamp;                  ///< s
+    double time;                   ///< s, steady clock
+  };
+  bool follows(const Seen& before, const Seen& input) const;
+  Answer refuse(const std::string& why);
 
   std::string name_;
   double longest_;
-  std::optional<PlaneVector<double>> last_;
-  double last_stamp_ = 0.0;
-  double last_time_ = 0.0;  ///< s, wall clock
+  std::optional<Seen> last_;     ///< accepted
+  std::optional<Seen> refused_;  ///< the last one, since the last accepted one
+  double steady_since_ = 0.0;    ///< s, of the refused ones
   bool said_ = false;
   bool silent_ = false;
   std::string message_;
@@ -61,11 +73,13 @@ class Follower {
   explicit Follower(HolderCheck check) : check_(std::move(check)) {}
 
   /// Takes an input that is believable.
-  /// \param stamp of the input, s; not compared with a clock
-  /// \param now   present time of a steady clock, s
+  /// \param has_velocity otherwise, the velocity follows from earlier inputs
+  /// \param stamp        of the input, s; not compared with a clock
+  /// \param now          present time of a steady clock, s
   /// \returns whether it is
-  bool take(const Target& input, double stamp, double now);
-  /// Returns where the particle shall be; nothing before the first input.
+  bool take(const Target& input, bool has_velocity, double stamp, double now);
+  /// Returns where the particle shall be at the present state, so that it is with its holder in the next
+  /// one, which is shown now; nothing before the first input.
   /// \param here     position of the particle, m
   /// \param interval until the next state, s
   std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
@@ -77,10 +91,22 @@ class Follower {
   void restart();
 
  private:
+  struct Sample {
+    Target holder;
+    double stamp;  ///< s
+    double time;   ///< s, steady clock
+  };
+  /// The last input that is at least this much older than the newest one; null: none.
+  const Sample* before(double seconds) const;
+  void estimateMotion(bool has_velocity);
+  void approach(Target& target, const PlaneVector<double>& here, double distance, double now,
+                double interval);
+
   HolderCheck check_;
-  std::optional<Target> input_;  ///< the last one
-  double taken_ = 0.0;           ///< s, when it came
-  bool met_ = false;             ///< whether the particle has reached its holder
+  std::deque<Sample> samples_;  ///< the newest last
+  bool met_ = false;            ///< whether the particle has reached its holder
+  double left_ = 0.0;           ///< s, when it began to come to its holder; 0: not yet
+  double expected_ = 0.0;       ///< s, when it should have met it
 };
 
 /// All particles held by robots (`~held`).
@@ -102,9 +128,10 @@ class HeldInputs {
   struct Held;
 
   void take(Held& held, const std_msgs::Header& header, const geometry_msgs::Vector3& position,
-            const geometry_msgs::Vector3& velocity);
+            const std::optional<geometry_msgs::Vector3>& velocity);
   void lookUp(Held& held, double now);
   static void say(Held& held);
+  void addWeight(std::ptrdiff_t particle, geometry_msgs::Vector3& force) const;
 
   const Run& run_;
   Holders& holders_;

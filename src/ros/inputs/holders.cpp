@@ -11,6 +11,7 @@ namespace {
 
 /// A held particle nearer to its target than this, m and m/s, is at rest.
 constexpr double kSettled = 1e-9;
+constexpr std::size_t kMostForces = 1000;
 /// Largest speed of a particle on the way to its target, in lengths of the chain per second.
 constexpr double kLengthsPerSecond = 5.0;
 
@@ -51,6 +52,12 @@ void Holders::release(std::ptrdiff_t particle) {
   if (targets_.erase(particle) > 0 && particle == 0) hold(0);
 }
 
+bool Holders::push(const TimedForce& force) {
+  if (forces_.size() >= kMostForces) return false;
+  forces_.push_back(force);
+  return true;
+}
+
 std::size_t Holders::clearForces() {
   const std::size_t count = forces_.size();
   forces_.clear();
@@ -69,8 +76,8 @@ Drive Holders::driveUntil(double next_time, State& state) {
       const double distance = std::sqrt(x * x + y * y);
       const double longest = 1.5 * fastest_ * interval;
       const double share = distance > longest ? longest / distance : 1.0;
-      held.acceleration = {-(share * x / interval + 1.5 * vx) / interval,
-                           -(share * y / interval + 1.5 * vy) / interval};
+      held.acceleration = {target.acceleration.x - (share * x / interval + 1.5 * vx) / interval,
+                           target.acceleration.y - (share * y / interval + 1.5 * vy) / interval};
     } else if (target.velocity.x == 0.0 && target.velocity.y == 0.0) {
       state.vx()[i] = state.vy()[i] = 0.0;
     }

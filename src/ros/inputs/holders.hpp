@@ -13,8 +13,9 @@ namespace spring_pendulum {
 
 /// Where a held particle shall be.
 struct Target {
-  PlaneVector<double> position{};  ///< m
-  PlaneVector<double> velocity{};  ///< m/s
+  PlaneVector<double> position{};      ///< m
+  PlaneVector<double> velocity{};      ///< m/s
+  PlaneVector<double> acceleration{};  ///< m/s²
 };
 
 /// A force that acts for a while.
@@ -41,7 +42,8 @@ class Holders {
   void release(std::ptrdiff_t particle);
   bool isHeld(std::ptrdiff_t particle) const { return targets_.count(particle) > 0; }
 
-  void push(const TimedForce& force) { forces_.push_back(force); }
+  /// Returns false if a thousand forces act already.
+  bool push(const TimedForce& force);
   /// Returns the number of forces that acted or were to act.
   std::size_t clearForces();
 

@@ -9,6 +9,8 @@ namespace {
 
 /// A subscriber that comes later than this number of inputs misses some.
 constexpr std::uint32_t kMostInputs = 20000;
+/// Largest memory of the inputs kept for late subscribers, bytes.
+constexpr std::size_t kMostBytes = 32'000'000;
 
 /// Unlike ros::Time, it differs for each run, also with use_sim_time.
 ros::Time wallTime() {
@@ -34,7 +36,9 @@ LiveRun::LiveRun(ros::NodeHandle& node, ros::NodeHandle& private_node, Run& run,
              message.header.stamp = ros::Time::now();
              message.header.frame_id = frame;
              inputs_.publish(message);
-             if (sent_.size() < kMostInputs) sent_.push_back(std::move(message));
+             sent_bytes_ += ros::serialization::serializationLength(message);
+             if (sent_.size() < kMostInputs && sent_bytes_ < kMostBytes)
+               sent_.push_back(std::move(message));
            }),
       holders_(run, &log_),
       frames_(options.frame_id),
@@ -68,7 +72,7 @@ void LiveRun::change(double next_time, bool paused) {
   try {
     holders_.apply(run_, integrator_, next_time, paused);
   } catch (const InputError& error) {
-    ROS_ERROR_STREAM_THROTTLE(5.0, "refused: " << error.what());
+    if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include "ros/inputs/holders.hpp"
 #include "ros/inputs/input_messages.hpp"
 #include "ros/inputs/saved_states.hpp"
+#include "ros/inputs/throttle.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 
@@ -38,9 +39,11 @@ class LiveRun {
   std::unique_ptr<Integrator>& integrator_;
   Player& player_;
   std::vector<PendulumInput> sent_;  ///< for subscribers that come late
+  std::size_t sent_bytes_ = 0;
   ros::Publisher inputs_;
   InputLog log_;
   Holders holders_;
+  Throttle refusals_;
   Frames frames_;
   Handles handles_;
   HeldInputs held_inputs_;

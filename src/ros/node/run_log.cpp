@@ -87,6 +87,12 @@ std::string RunLog::closingLine() const {
 }
 
 void RunLog::note() {
+  if (holds_ && run_.time() < last_time_) {  // after a reset
+    said_verdict_ = VerdictKind::kOk;
+    said_frames_ = 0;
+    said_tolerance_.clear();
+  }
+  last_time_ = run_.time();
   const Verdict& verdict = run_.verdict();
   const std::string& method = run_.scenario().method.get().name;
   if (verdict.kind > said_verdict_) {

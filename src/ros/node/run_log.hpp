@@ -44,6 +44,7 @@ class RunLog {
   const Publisher& publisher_;
   bool holds_;
   VerdictKind said_verdict_ = VerdictKind::kOk;
+  double last_time_ = 0.0;        ///< s, of the last action
   std::int64_t said_frames_ = 0;  ///< number of frames at the closing line; 0: not logged yet
   std::string said_choice_;
   std::string said_tolerance_;
