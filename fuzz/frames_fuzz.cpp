@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "check/check_frames.hpp"
-#include "check/frame_numbers.hpp"
+#include "check/frames.hpp"
 #include "fuzz_target.hpp"
 
 namespace {

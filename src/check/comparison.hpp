@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "check/frame_numbers.hpp"
+#include "check/frames.hpp"
 #include "check/motion.hpp"
 
 namespace spring_pendulum {

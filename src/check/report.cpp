@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <string_view>
-#include <vector>
 
 #include "check/check_frames.hpp"
 #include "check/mistakes.hpp"
@@ -20,12 +18,12 @@ std::string inJson(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = characterLength(text);
     const char c = text.front();
-    if (c == '"' || c == '\\') quoted += '\\';
     if (length == 0) {
       quoted += '?';
     } else if (static_cast<unsigned char>(c) < 0x20) {
       quoted += fmt::format("\\u{:04x}", static_cast<int>(c));
     } else {
+      if (c == '"' || c == '\\') quoted += '\\';
       quoted += text.substr(0, length);
     }
     text.remove_prefix(std::max<std::size_t>(length, 1));
@@ -33,17 +31,12 @@ std::string inJson(std::string_view text) {
   return quoted + '"';
 }
 
-std::string listInJson(const std::vector<std::string>& items) {
+/// A list of what a function makes of each item.
+template <typename Item, typename Function>
+std::string listInJson(const std::vector<Item>& items, const Function& function) {
   std::string list;
-  for (const std::string& item : items) list += (list.empty() ? "" : ", ") + item;
+  for (const Item& item : items) list += (list.empty() ? "" : ", ") + function(item);
   return '[' + list + ']';
-}
-
-std::string textsInJson(const std::vector<std::string>& texts) {
-  std::vector<std::string> items;
-  items.reserve(texts.size());
-  for (const std::string& text : texts) items.push_back(inJson(text));
-  return listInJson(items);
 }
 
 std::string departureInJson(const FrameCheck& check) {
@@ -55,22 +48,17 @@ std::string departureInJson(const FrameCheck& check) {
                      std::isfinite(departure.distance) ? numberText(departure.distance) : "null");
 }
 
-std::string explanationsInJson(const FrameCheck& check) {
-  std::vector<std::string> items;
-  for (const Explanation& one : check.explanations) {
-    items.push_back(fmt::format(
-        R"({{"method": {}, "mistakes": {}, "sentences": {}, "last_frame": {}}})",
-        inJson(one.method), textsInJson(one.mistakes), textsInJson(one.sentences), one.last_frame));
-  }
-  return listInJson(items);
+std::string explanationInJson(const Explanation& one) {
+  return fmt::format(R"({{"method": {}, "mistakes": {}, "sentences": {}, "last_frame": {}}})",
+                     inJson(one.method), listInJson(one.mistakes, inJson),
+                     listInJson(one.sentences, inJson), one.last_frame);
 }
 
 std::string conclusionOf(const FrameCheck& check) {
   const std::string method = check.methods.empty() ? "" : check.methods.front();
   if (check.verdict == FrameVerdict::kEqual) return "equal to " + method;
-  if (check.verdict == FrameVerdict::kUndecided) {
+  if (check.verdict == FrameVerdict::kUndecided)
     return fmt::format("undecided: equal to {} up to frame {}", method, check.last_frame);
-  }
   if (!method.empty()) return "different: frames of " + method;
   if (check.explanations.empty()) {
     return fmt::format("different from frame {} on, no known mistake", check.departure->frame);
@@ -95,14 +83,15 @@ std::string shortReportOf(const FrameCheck& check) {
 
 std::string jsonOf(const FrameCheck& check, const std::string& folder) {
   return fmt::format(
-      R"({{"folder": {}, "equal": {}, "undecided": {}, "methods": {}, "frames": {}, "last_frame": {}, )"
-      R"("digits": {}, "printed_digits": {}, "departure": {}, "explanations": {}, )"
-      R"("remarks": {}, "text": {}}})"
+      R"({{"folder": {}, "equal": {}, "undecided": {}, "methods": {}, "frames": {}, )"
+      R"("last_frame": {}, "digits": {}, "printed_digits": {}, "departure": {}, )"
+      R"("explanations": {}, "remarks": {}, "text": {}}})"
       "\n",
       inJson(folder), check.verdict == FrameVerdict::kEqual,
-      check.verdict == FrameVerdict::kUndecided, textsInJson(check.methods), check.frames,
+      check.verdict == FrameVerdict::kUndecided, listInJson(check.methods, inJson), check.frames,
       check.last_frame, check.digits, check.printed_digits, departureInJson(check),
-      explanationsInJson(check), textsInJson(check.remarks), inJson(check.text));
+      listInJson(check.explanations, explanationInJson), listInJson(check.remarks, inJson),
+      inJson(check.text));
 }
 
 std::string jsonOfError(const std::string& message, const std::string& folder) {
