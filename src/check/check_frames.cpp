@@ -127,20 +127,21 @@ class Checker {
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
   void explain() {
     if (!result_.departure->impossible.empty()) return;
-    MistakeSearch search(scenario_, particles_, frames_, known_frames_, limit());
+    Search search{scenario_, particles_, frames_, known_frames_, limit()};
     const auto found = [&](std::vector<Explanation> explanations) {
       result_.explanations = std::move(explanations);
       return !result_.explanations.empty();
     };
-    if (found(search.singleMistakes(wanted_exercise_))) return;
+    if (found(singleMistakes(search, wanted_exercise_))) return;
     compareWith(others_);
     if (!result_.methods.empty() && result_.last_frame > frames_.start) return;
     result_.methods.clear();
-    if (found(search.singleMistakes(other_exercise_)) || found(search.search(wanted_exercise_)) ||
-        found(search.search(other_exercise_))) {
+    if (found(singleMistakes(search, other_exercise_)) ||
+        found(simplestMistakes(search, wanted_exercise_)) ||
+        found(simplestMistakes(search, other_exercise_))) {
       return;
     }
-    if (search.gaveUp())
+    if (search.gave_up)
       result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
   }
 
@@ -148,9 +149,9 @@ class Checker {
   void doubt() {
     const Method& best = findMethod(result_.methods.front());
     if (!isExercise(best)) return;
-    MistakeSearch search(scenario_, particles_, frames_, 0, {kMostDoubtWork, options_.stop});
+    Search search{scenario_, particles_, frames_, 0, {kMostDoubtWork, options_.stop}};
     std::vector<std::string> hidden;
-    for (const Explanation& one : search.singleMistakes({&best})) {
+    for (const Explanation& one : singleMistakes(search, {&best})) {
       const std::string& name = one.mistakes.back();
       if (std::find(hidden.begin(), hidden.end(), name) == hidden.end()) hidden.push_back(name);
     }
