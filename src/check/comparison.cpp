@@ -9,9 +9,6 @@
 namespace spring_pendulum {
 namespace {
 
-/// Rounding errors above this share of the largest coordinate end a comparison.
-constexpr double kComparable = 1e-3;
-
 double largestFinite(const Eigen::ArrayX2d& numbers) {
   return numbers.isFinite().select(numbers.abs(), 0.0).maxCoeff();
 }
@@ -41,55 +38,37 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
   return std::nullopt;
 }
 
-/// Range of the potential energy of a motion, J.
-class EnergyRange {
- public:
-  explicit EnergyRange(const Chain& chain) : chain_(chain) {}
-
-  void add(const Eigen::ArrayX2d& positions) {
-    const double energy = of(positions);
-    least_ = std::min(least_, energy);
-    most_ = std::max(most_, energy);
-  }
-  /// What no frame of the motion can have; empty if nothing.
-  std::string impossibleIn(const Eigen::ArrayX2d& positions) const {
-    constexpr double kMargin = 0.1;
-    if (!positions.allFinite()) return "has a number that is not finite";
-    if (of(positions) <= most_ + kMargin * (most_ - least_)) return "";
-    return "has more energy than any frame before";
-  }
-
- private:
-  double of(const Eigen::ArrayX2d& positions) const {
-    State state(chain_.size());
-    state.positions() = positions.matrix();
-    return computeEnergy(chain_, state).total();
-  }
-
-  const Chain& chain_;
-  double least_ = std::numeric_limits<double>::infinity();
-  double most_ = -std::numeric_limits<double>::infinity();
-};
+double potentialEnergy(const Chain& chain, const Eigen::ArrayX2d& positions) {
+  State state(chain.size());
+  state.positions() = positions.matrix();
+  return computeEnergy(chain, state).total();
+}
 
 }  // namespace
 
 Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& limit,
                   const Chain* chain) {
+  constexpr double kComparable = 1e-3;   // more rounding errors end a comparison; of the scale
+  constexpr double kEnergyMargin = 1.1;  // of the range of the motion
   const std::unique_ptr<Motion> motion = make();
   const std::unique_ptr<Motion> companion = make();
-  std::optional<EnergyRange> range;
-  if (chain != nullptr) range.emplace(*chain);
   std::mt19937 random(1);  // the same on every machine
   Agreement agreement;
   bool is_comparable = true;
   double rounding = 0.0;  // m
+  double least_energy = std::numeric_limits<double>::infinity();
+  double most_energy = -least_energy;
   companion->disturb(random);
   std::int64_t index = frames.start;
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver() || !motion->advanceTo(index, limit)) break;
     const Eigen::ArrayX2d positions = motion->positions();
-    if (range && positions.allFinite()) range->add(positions);
     const double scale = std::max(agreement.scale, largestFinite(positions));
+    if (chain != nullptr && positions.allFinite()) {
+      const double energy = potentialEnergy(*chain, positions);
+      least_energy = std::min(least_energy, energy);
+      most_energy = std::max(most_energy, energy);
+    }
     if (is_comparable) {
       if (!companion->advanceTo(index, limit)) break;
       const double spread = largestDistance(positions, companion->positions());
@@ -97,7 +76,7 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
       is_comparable = rounding <= kComparable * scale || scale == 0.0;
       if (motion->tolerance() == 0.0) companion->disturb(random);
     }
-    if (!is_comparable && !range) break;
+    if (!is_comparable && chain == nullptr) break;
     if (index < frame->index) continue;  // missing
     if (is_comparable) {
       agreement.departure = departureOf(*frame, positions, rounding + motion->tolerance());
@@ -108,9 +87,12 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
       agreement.distance = std::max(
           agreement.distance, (frame->positions - positions).matrix().rowwise().norm().maxCoeff());
     } else if (positions.allFinite()) {
-      const std::string impossible = range->impossibleIn(frame->positions);
-      if (!impossible.empty()) {
-        agreement.departure = Departure{index, 0, 0.0, -1.0, impossible};
+      const bool is_finite = frame->positions.allFinite();
+      const double most = least_energy + kEnergyMargin * (most_energy - least_energy);
+      if (!is_finite || potentialEnergy(*chain, frame->positions) > most) {
+        agreement.departure = Departure{index, 0, 0.0, -1.0,
+                                        is_finite ? "has more energy than any frame before"
+                                                  : "has a number that is not finite"};
         return agreement;
       }
     }

@@ -88,19 +88,15 @@ class ProgramMotion : public Motion {
     for (std::ptrdiff_t i = 0; i < size; ++i) {
       Row row = particles.state.values().row(i).transpose().array();
       if (program.single_precision) row = row.cast<float>().cast<double>();
+      const Row separation = row - (i > 0 ? state_.back() : row);
+      rest_lengths_.push_back(program.rest_length_from_start ? separation.head<2>().matrix().norm()
+                                                             : program.rest_length);
       state_.push_back(row);
-      const double mass = particles.masses[i];
       const std::ptrdiff_t other = std::clamp<std::ptrdiff_t>(i + program.mass_of, 0, size - 1);
       force_factor_.push_back(std::pow(particles.masses[other], program.force_mass_power));
       const bool falls = !program.gravity_on_last_only || i + 1 == size;
-      const double factor = falls ? std::pow(mass, program.gravity_mass_power) : 0.0;
-      gravity_.emplace_back(program.gravity_x * factor, program.gravity * factor);
-    }
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-      const Row separation = state_[i] - state_[i > 0 ? i - 1 : 0];
-      rest_lengths_.push_back(program.rest_length_from_start
-                                  ? std::sqrt(separation.head<2>().square().sum())
-                                  : program.rest_length);
+      const double factor = std::pow(particles.masses[i], program.gravity_mass_power);
+      gravity_.push_back((falls ? factor : 0.0) * Vector(program.gravity_x, program.gravity));
     }
     slopes_.assign(program.tableau.stages, Rows(state_.size(), Row::Zero()));
   }
@@ -110,29 +106,21 @@ class ProgramMotion : public Motion {
     const std::int64_t target = program_.stepOfFrame(frame - first_frame_);
     limit.done += static_cast<double>(target - step_) * kWorkOfSpring *
                   static_cast<double>(program_.tableau.stages * state_.size());
-    if (program_.time_step == 0.0) step_ = std::max(step_, target);
     for (; step_ < target; ++step_) {
       if (limit.isStopped()) return false;
-      if (program_.order == Program::Order::kForceAfterMove) {
-        moveFirst();
-      } else if (program_.order == Program::Order::kParticlesInPlace ||
-                 program_.order == Program::Order::kFrozenNeighbours) {
-        stepParticleByParticle();
-      } else {
-        stepStageByStage();
-      }
+      const bool by_particle = program_.order == Program::Order::kParticlesInPlace ||
+                               program_.order == Program::Order::kFrozenNeighbours;
+      by_particle ? stepParticleByParticle() : stepStageByStage();
     }
     return true;
   }
 
   Eigen::ArrayX2d positions() const override {
-    const auto size = static_cast<Eigen::Index>(state_.size());
-    Eigen::ArrayX2d result(size, 2);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const Row& row =
-          state_[static_cast<std::size_t>(program_.reverses_particles ? size - 1 - i : i)];
-      result.row(i) << row[program_.swaps_columns ? 1 : 0], row[program_.swaps_columns ? 0 : 1];
-    }
+    Eigen::ArrayX2d result(static_cast<Eigen::Index>(state_.size()), 2);
+    for (Eigen::Index i = 0; i < result.rows(); ++i)
+      result.row(i) = state_[static_cast<std::size_t>(i)].head<2>().transpose();
+    if (program_.reverses_particles) result = result.colwise().reverse().eval();
+    if (program_.swaps_columns) result = result.rowwise().reverse().eval();
     return result;
   }
 
@@ -146,44 +134,38 @@ class ProgramMotion : public Motion {
   }
 
  private:
-  double lengthOf(const Vector& d) const {
-    const double square = d.square().sum();
-    return program_.length == Program::Length::kSquaredEverywhere ? square : std::sqrt(square);
-  }
-
-  /// \param sign -1 if the spring leads to the previous particle, else 1
-  Vector directionOf(const Vector& d, double sign) const {
-    if (program_.direction == Program::Direction::kSeparation) return d;
-    if (program_.direction == Program::Direction::kUnit) return d / lengthOf(d);
-    constexpr double kDegrees = 57.295779513082320877;
-    if (program_.direction == Program::Direction::kDegrees) sign = 1.0;
-    const double angle = kDegrees * std::atan2(sign * d.y(), sign * d.x());
-    return {sign * std::cos(angle), sign * std::sin(angle)};
-  }
-
   /// The force on a particle at row `here` of the spring to its neighbour at row `there`.
+  /// \param sign -1 if this is the previous particle, else 1
   Vector springForce(const Row& here, const Row& there, double rest_length, double sign) const {
+    using Damping = Program::Damping;
+    using Direction = Program::Direction;
+    using Length = Program::Length;
     const Vector d = there.head<2>() - here.head<2>();
     const Vector w = there.tail<2>() - here.tail<2>();
-    double length = lengthOf(d);
-    const Vector direction = directionOf(d, sign);
-    const bool has_angle = program_.direction >= Program::Direction::kDegrees;
-    const Vector r = has_angle ? direction : Vector(d / length);
-    if (program_.length == Program::Length::kInteger) length = std::trunc(length);
-    if (program_.length == Program::Length::kSquared) length *= length;
-    const double tension = program_.stiffness * (length - rest_length);
-    const double rate = (w * r).sum();
+    const double square = d.square().sum();
+    double length = program_.length == Length::kSquaredEverywhere ? square : std::sqrt(square);
+    Vector r = d / length;
+    if (program_.direction >= Direction::kDegrees) {
+      constexpr double kDegrees = 57.295779513082320877;
+      if (program_.direction == Direction::kDegrees) sign = 1.0;
+      const double angle = kDegrees * std::atan2(sign * d.y(), sign * d.x());
+      r = sign * Vector(std::cos(angle), std::sin(angle));
+    }
+    if (program_.length == Length::kInteger) length = std::trunc(length);
+    if (program_.length == Length::kSquared) length = square;
+    const Vector direction = program_.direction == Direction::kSeparation ? d : r;
+    const Vector tension = program_.stiffness * (length - rest_length) * direction;
+    const double rate =
+        (w * (program_.damping_kind == Damping::kUnnormalisedProjection ? d : r)).sum();
     switch (program_.damping_kind) {
-      case Program::Damping::kAllDirections:
-        return tension * direction + program_.damping * w;
-      case Program::Damping::kOwnVelocity:
-        return tension * direction - program_.damping * here.tail<2>();
-      case Program::Damping::kUnnormalisedProjection:
-        return (tension + program_.damping * (w * d).sum()) * direction;
-      case Program::Damping::kAbsolute:
-        return (tension + program_.damping * std::abs(rate)) * direction;
+      case Damping::kAllDirections:
+        return tension + program_.damping * w;
+      case Damping::kOwnVelocity:
+        return tension - program_.damping * here.tail<2>();
+      case Damping::kAbsolute:
+        return tension + program_.damping * std::abs(rate) * direction;
       default:
-        return (tension + program_.damping * rate) * direction;
+        return tension + program_.damping * rate * direction;
     }
   }
 
@@ -210,8 +192,14 @@ class ProgramMotion : public Motion {
   }
 
   /// Row i of the next stage, or of the result.
-  Row moved(std::size_t i, std::size_t stages, bool is_result) const {
+  Row moved(std::size_t i, std::size_t stages) const {
+    using Update = Program::PositionUpdate;
+    const Row& start = state_[i];
+    if (i == 0 && !program_.first_moves) return start;
+    const bool is_result = stages == program_.tableau.stages;
     const auto& weights = is_result ? program_.tableau.b : program_.tableau.a[stages];
+    const Update update = program_.position_update;
+    const double step = program_.time_step;
     Row change = Row::Zero();
     double sum = 0.0;
     for (std::size_t j = 0; j < stages; ++j) {
@@ -219,34 +207,31 @@ class ProgramMotion : public Motion {
       change += weights[j] * slopes_[j][i];
       sum += weights[j];
     }
-    const Row& start = state_[i];
-    if (i == 0 && !program_.first_moves) return start;
     if (is_result && program_.velocity_by_euler) change.tail<2>() = slopes_[0][i].tail<2>();
+    if (is_result && update == Update::kOldVelocity) change.head<2>() = start.tail<2>();
     if (!is_result && program_.stage_moves == Program::StageMoves::kPositions)
       change.tail<2>().setZero();
     if (!is_result && program_.stage_moves == Program::StageMoves::kVelocities)
       change.head<2>().setZero();
-    const double step = program_.time_step;
     Row result = start + step * change;
-    using Update = Program::PositionUpdate;
-    const Update update = program_.position_update;
     if (update == Update::kNewVelocityEverywhere ||
         update == (is_result ? Update::kNewVelocityInResult : Update::kNewVelocityInStages)) {
       result.head<2>() = start.head<2>() + step * sum * result.tail<2>();
     }
-    if (is_result && update == Update::kOldVelocity)
-      result.head<2>() = start.head<2>() + step * start.tail<2>();
     return result;
   }
 
   void stepStageByStage() {
-    const std::size_t stages = program_.tableau.stages;
     scratch_ = state_;
     next_.resize(state_.size());
-    for (std::size_t s = 0; s < stages; ++s) {
+    if (program_.order == Program::Order::kForceAfterMove) {
+      for (std::size_t i = program_.first_moves ? 0 : 1; i < state_.size(); ++i)
+        scratch_[i].head<2>() += program_.time_step * state_[i].tail<2>();
+    }
+    for (std::size_t s = 0; s < slopes_.size(); ++s) {
       for (std::size_t i = 0; i < state_.size(); ++i) {
         slopes_[s][i] = slope(scratch_, i);
-        next_[i] = moved(i, s + 1, s + 1 == stages);
+        next_[i] = moved(i, s + 1);
         if (program_.order == Program::Order::kStagesInPlace) scratch_[i] = next_[i];
         if (program_.order == Program::Order::kPositionsInPlace)
           scratch_[i].head<2>() = next_[i].head<2>();
@@ -257,27 +242,17 @@ class ProgramMotion : public Motion {
   }
 
   void stepParticleByParticle() {
-    const std::size_t stages = program_.tableau.stages;
     scratch_ = state_;
     next_ = state_;
     for (std::size_t i = 0; i < state_.size(); ++i) {
-      for (std::size_t s = 0; s < stages; ++s) {
+      for (std::size_t s = 0; s < slopes_.size(); ++s) {
         slopes_[s][i] = slope(scratch_, i);
-        scratch_[i] = moved(i, s + 1, s + 1 == stages);
+        scratch_[i] = moved(i, s + 1);
       }
       next_[i] = scratch_[i];
       if (program_.order == Program::Order::kFrozenNeighbours) scratch_[i] = state_[i];
     }
     std::swap(state_, next_);
-  }
-
-  void moveFirst() {
-    const double step = program_.time_step;
-    for (std::size_t i = program_.first_moves ? 0 : 1; i < state_.size(); ++i)
-      state_[i].head<2>() += step * state_[i].tail<2>();
-    for (std::size_t i = 0; i < state_.size(); ++i) slopes_[0][i] = slope(state_, i);
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      state_[i].tail<2>() += step * slopes_[0][i].tail<2>();
   }
 
   StudentProgram program_;
