@@ -14,11 +14,6 @@
 namespace spring_pendulum {
 namespace {
 
-/// Work that a comparison with one method, or a search for mistakes, may take, in spring forces of the
-/// library: some 10 s; and that of a search for mistakes that right frames do not show.
-constexpr double kMostWork = 4e9;
-constexpr double kMostDoubtWork = 4e8;
-
 using Methods = std::vector<const Method*>;
 
 /// Whether students write this method.
@@ -35,15 +30,26 @@ std::string listOf(const std::vector<std::string>& words, const char* last) {
   return text;
 }
 
+/// "particle 2, by 6.9e-06 m along its spring"
+std::string textOf(const Departure& departure) {
+  constexpr double kMostly = 0.9;
+  if (!departure.impossible.empty()) return "which " + departure.impossible;
+  const std::string particle = fmt::format("particle {}, ", departure.particle);
+  if (!std::isfinite(departure.distance))
+    return particle + "where the frame has a number that is not finite";
+  const bool has_spring = departure.along_spring >= 0.0;
+  const bool is_across = has_spring && departure.along_spring < 1.0 - kMostly;
+  return fmt::format("{}by {} m{}", particle, roundedText(departure.distance, 2),
+                     departure.along_spring > kMostly ? " along its spring"
+                     : is_across                      ? " across its spring"
+                                                      : "");
+}
+
 class Checker {
  public:
   Checker(const Scenario& scenario, const Particles& particles, const AllFrames& frames,
           const CheckOptions& options)
-      : scenario_(scenario),
-        particles_(particles),
-        frames_(frames),
-        options_(options),
-        chain_(scenario.chainOf(particles.masses)) {
+      : scenario_(scenario), particles_(particles), frames_(frames), options_(options) {
     for (const Method& method : methodTable()) {
       const bool is_wanted = !options.method_is_given || &method == &scenario.method.get();
       (is_wanted ? wanted_ : others_).push_back(&method);
@@ -51,7 +57,7 @@ class Checker {
     }
     result_.remarks = frames.remarks;
     result_.frames = static_cast<std::int64_t>(frames.frames.size());
-    result_.printed_digits = frames.digits;
+    result_.digits = frames.digits;
   }
 
   FrameCheck check() {
@@ -60,7 +66,7 @@ class Checker {
       throw FileError("stopped before the frames were compared");
     if (result_.methods.empty() && result_.departure) {
       result_.verdict = FrameVerdict::kDifferent;
-      explain();
+      if (result_.departure->impossible.empty()) explain();
       describeDifferent();
       return result_;
     }
@@ -68,65 +74,53 @@ class Checker {
     // Programs differ by a frame or so in how they count.
     const std::int64_t wanted = scenario_.frames - 1;
     const bool has_end = result_.last_frame >= std::min(wanted - 2, wanted * 49 / 50);
-    result_.verdict = has_end ? FrameVerdict::kEqual : FrameVerdict::kUndecided;
-    if (!result_.methods.empty() && result_.last_frame > frames_.start) doubt();
+    if (has_end) result_.verdict = FrameVerdict::kEqual;
+    if (result_.last_frame > frames_.start) nameHiddenMistakes();
     describeEqual();
     return result_;
   }
 
  private:
-  /// Missing frames make each comparison slower, and tell nothing.
+  /// Some 10 s. Missing frames make each comparison slower, and tell nothing.
   WorkLimit limit() const {
+    constexpr double kMostWork = 4e9;
     constexpr double kMostMissing = 30.0;  // for each frame that is there
-    const auto there = static_cast<double>(result_.frames);
-    const auto needed = static_cast<double>(frames_.lastIndex() + 1);
-    return {kMostWork * std::min(1.0, kMostMissing * there / needed), options_.stop};
+    const auto needed = static_cast<double>(frames_.frames.back().index + 1);
+    const double share = kMostMissing * static_cast<double>(result_.frames) / needed;
+    return {kMostWork * std::min(1.0, share), options_.stop};
   }
 
+  /// Notes the methods that agree, and the departure from the nearest of those that students write, or
+  /// from the only one.
   void compareWith(const Methods& methods) {
-    std::size_t departing = 0;
+    const Chain chain = scenario_.chainOf(particles_.masses);
     for (const Method* method : methods) {
       WorkLimit work = limit();
-      if (work.isStopped()) return;
       const Agreement agreement = compare(
-          frames_, [&] { return motionOf(*method, scenario_, particles_); }, work, &chain_);
+          frames_, [&] { return motionOf(*method, scenario_, particles_); }, work, &chain);
+      if (work.isStopped()) return;
       if (agreement.complete) {
         const bool is_best = agreement.last_frame > result_.last_frame;
-        if (is_best) note(agreement);
+        if (is_best) result_.last_frame = agreement.last_frame;
         result_.methods.insert(is_best ? result_.methods.begin() : result_.methods.end(),
                                method->name);
-      } else if (agreement.departure) {
-        // The nearest one of those that students write, or the wanted one.
-        const bool is_candidate = isExercise(*method) || methods.size() == 1;
-        if (!is_candidate || (result_.departure && agreement.frames <= departing)) continue;
-        departing = agreement.frames;
-        noteDeparture(*method, agreement);
+      } else if (agreement.departure && &methods == &wanted_ &&
+                 (isExercise(*method) || methods.size() == 1) &&
+                 (!result_.departure || agreement.frames > known_frames_ ||
+                  (agreement.frames == known_frames_ &&
+                   agreement.departure->distance < result_.departure->distance))) {
+        known_frames_ = agreement.frames;
+        result_.nearest = method->name;
+        result_.departure = agreement.departure;
+        Scenario with_method = scenario_;
+        with_method.method = *method;
+        result_.time = frameSteps(with_method).timeOfFrame(agreement.departure->frame);
       }
     }
   }
 
-  void note(const Agreement& agreement) {
-    result_.last_frame = agreement.last_frame;
-    result_.digits = frames_.digits;
-    if (agreement.distance == 0.0 || agreement.scale == 0.0) return;
-    const double largest_digit = std::floor(std::log10(agreement.scale));
-    const double digits = largest_digit - std::log10(1.99 * agreement.distance) + 1.0;
-    result_.digits = std::clamp(static_cast<int>(digits), 0, frames_.digits);
-  }
-
-  void noteDeparture(const Method& method, const Agreement& agreement) {
-    if (&method != &scenario_.method.get() && options_.method_is_given) return;
-    known_frames_ = agreement.frames;
-    result_.nearest = method.name;
-    result_.departure = agreement.departure;
-    Scenario with_method = scenario_;
-    with_method.method = method;
-    result_.time = frameSteps(with_method).timeOfFrame(agreement.departure->frame);
-  }
-
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
   void explain() {
-    if (!result_.departure->impossible.empty()) return;
     Search search{scenario_, particles_, frames_, known_frames_, limit()};
     const auto found = [&](std::vector<Explanation> explanations) {
       result_.explanations = std::move(explanations);
@@ -134,28 +128,28 @@ class Checker {
     };
     if (found(singleMistakes(search, wanted_exercise_))) return;
     compareWith(others_);
-    if (!result_.methods.empty() && result_.last_frame > frames_.start) return;
+    if (result_.last_frame > frames_.start) return;
     result_.methods.clear();
     if (found(singleMistakes(search, other_exercise_)) ||
         found(simplestMistakes(search, wanted_exercise_)) ||
-        found(simplestMistakes(search, other_exercise_))) {
+        found(simplestMistakes(search, other_exercise_)) || !search.gave_up) {
       return;
     }
-    if (search.gave_up)
-      result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
+    result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
   }
 
   /// Names mistakes that right frames would not show.
-  void doubt() {
+  void nameHiddenMistakes() {
+    constexpr double kMostWork = 4e8;
+    constexpr std::size_t kMostNamed = 12;
     const Method& best = findMethod(result_.methods.front());
     if (!isExercise(best)) return;
-    Search search{scenario_, particles_, frames_, 0, {kMostDoubtWork, options_.stop}};
+    Search search{scenario_, particles_, frames_, 0, {kMostWork, options_.stop}};
     std::vector<std::string> hidden;
     for (const Explanation& one : singleMistakes(search, {&best})) {
       const std::string& name = one.mistakes.back();
       if (std::find(hidden.begin(), hidden.end(), name) == hidden.end()) hidden.push_back(name);
     }
-    constexpr std::size_t kMostNamed = 12;
     if (hidden.empty()) return;
     result_.remarks.push_back(
         hidden.size() > kMostNamed
@@ -165,71 +159,46 @@ class Checker {
                           fmt::join(hidden, ", ")));
   }
 
+  bool isAllCompared() const { return result_.last_frame == frames_.frames.back().index; }
+
   std::string comparedText() const {
-    const bool all = result_.last_frame == frames_.lastIndex();
-    return fmt::format("{} to {} of {} printed",
-                       all ? "all " + counted(result_.frames, "frame")
-                           : fmt::format("frames up to {}", result_.last_frame),
-                       result_.digits, counted(result_.printed_digits, "digit"));
+    return fmt::format("{} in the {} printed",
+                       isAllCompared() ? "all " + counted(result_.frames, "frame")
+                                       : fmt::format("frames up to {}", result_.last_frame),
+                       counted(result_.digits, "digit"));
   }
 
   void describeEqual() {
+    constexpr const char* kTooLate = "rounding errors grow too much, or it takes too long";
+    result_.text = result_.verdict == FrameVerdict::kEqual ? "" : "undecided: ";
     if (result_.methods.empty()) {
-      result_.text = fmt::format(
-          "undecided: frame {} is the first one, and too late to be compared: rounding errors grow "
-          "too much, or it takes too long",
-          frames_.frames.front().index);
+      result_.text += fmt::format("frame {} is the first one, and too late to be compared: {}",
+                                  frames_.frames.front().index, kTooLate);
       return;
     }
-    const bool all = result_.last_frame == frames_.lastIndex();
-    const std::string rest = all ? ""
-                                 : "; later frames are not compared: rounding errors grow too "
-                                   "much, or it takes too long";
-    const std::string equal =
-        fmt::format("equal to {}: {}{}", result_.methods.front(), comparedText(), rest);
-    result_.text = equal;
-    if (result_.verdict == FrameVerdict::kUndecided) {
-      result_.text = "undecided: " + equal;
-      if (all) {
-        result_.text += fmt::format("; the frames up to {} are missing (--frames {})",
-                                    scenario_.frames - 1, scenario_.frames);
-      }
+    result_.text += fmt::format("equal to {}: {}", result_.methods.front(), comparedText());
+    if (!isAllCompared()) {
+      result_.text += fmt::format("; later frames are not compared: {}", kTooLate);
+    } else if (result_.verdict == FrameVerdict::kUndecided) {
+      result_.text += fmt::format("; the frames up to {} are missing (--frames {})",
+                                  scenario_.frames - 1, scenario_.frames);
     }
-    if (result_.methods.size() > 1) {
-      const std::vector<std::string> others(result_.methods.begin() + 1, result_.methods.end());
-      result_.remarks.push_back(
-          fmt::format("{} would look the same in these digits", listOf(others, "and")));
-    }
-  }
-
-  /// "particle 2, by 6.9e-06 m along its spring to particle 1"
-  std::string departureText() const {
-    const Departure& departure = *result_.departure;
-    if (!departure.impossible.empty()) return "which " + departure.impossible;
-    if (!std::isfinite(departure.distance)) {
-      return fmt::format("particle {}, where the frame has a number that is not finite",
-                         departure.particle);
-    }
-    std::string text =
-        fmt::format("particle {}, by {} m", departure.particle, roundedText(departure.distance, 2));
-    if (departure.along_spring < 0.0) return text;
-    constexpr double kMostly = 0.9;
-    return text + (departure.along_spring > kMostly         ? " along its spring"
-                   : departure.along_spring < 1.0 - kMostly ? " across its spring"
-                                                            : "");
+    if (result_.methods.size() == 1) return;
+    const std::vector<std::string> others(result_.methods.begin() + 1, result_.methods.end());
+    result_.remarks.push_back(listOf(others, "and") + " would look the same in these digits");
   }
 
   void describeDifferent() {
-    result_.text =
-        fmt::format("different: depart from {} at frame {}, t = {} s, {}", result_.nearest,
-                    result_.departure->frame, roundedText(result_.time, 6), departureText());
+    result_.text = fmt::format("different: depart from {} at frame {}, t = {} s, {}\n",
+                               result_.nearest, result_.departure->frame,
+                               roundedText(result_.time, 6), textOf(*result_.departure));
     if (!result_.methods.empty()) {
-      result_.text += fmt::format("\nThey are frames of {}: {}.", listOf(result_.methods, "or"),
-                                  comparedText());
+      result_.text +=
+          fmt::format("They are frames of {}: {}.", listOf(result_.methods, "or"), comparedText());
       return;
     }
     if (result_.explanations.empty()) {
-      result_.text += "\nNo known mistake reproduces them.";
+      result_.text += "No known mistake reproduces them.";
       return;
     }
     constexpr std::size_t kMostShown = 3;
@@ -242,16 +211,15 @@ class Checker {
       texts.push_back(fmt::format("{}: the program {}", one.method, listOf(one.sentences, "and")));
     }
     const std::int64_t last = result_.explanations.front().last_frame;
-    result_.text += fmt::format("\n{} (reproduces the frames{})",
-                                listOf(texts, "or, in these frames the same,"),
-                                last == frames_.lastIndex() ? "" : fmt::format(" up to {}", last));
+    result_.text +=
+        fmt::format("{} (reproduces the frames{})", listOf(texts, "or, in these frames the same,"),
+                    last == frames_.frames.back().index ? "" : fmt::format(" up to {}", last));
   }
 
   const Scenario& scenario_;
   const Particles& particles_;
   const AllFrames& frames_;
   const CheckOptions& options_;
-  Chain chain_;
   Methods wanted_, others_;
   Methods wanted_exercise_, other_exercise_;  ///< of these, the ones that students write
   std::size_t known_frames_ = 0;              ///< number of frames before the departure

@@ -33,8 +33,7 @@ struct FrameCheck {
   std::vector<std::string> methods;
   std::int64_t frames = 0;                ///< number of frames compared
   std::int64_t last_frame = -1;           ///< index of the last one that could be compared
-  int digits = 0;                         ///< significant digits that agree
-  int printed_digits = 0;                 ///< significant digits in the frames
+  int digits = 0;                         ///< significant digits printed
   std::string nearest;                    ///< method that the frames follow longest
   std::optional<Departure> departure;     ///< from `nearest`
   double time = 0.0;                      ///< of the departure, s

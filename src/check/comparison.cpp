@@ -56,6 +56,7 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
   Agreement agreement;
   bool is_comparable = true;
   double rounding = 0.0;  // m
+  double scale = 0.0;     // largest coordinate, m
   double least_energy = std::numeric_limits<double>::infinity();
   double most_energy = -least_energy;
   companion->disturb(random);
@@ -63,7 +64,7 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver() || !motion->advanceTo(index, limit)) break;
     const Eigen::ArrayX2d positions = motion->positions();
-    const double scale = std::max(agreement.scale, largestFinite(positions));
+    scale = std::max(scale, largestFinite(positions));
     if (chain != nullptr && positions.allFinite()) {
       const double energy = potentialEnergy(*chain, positions);
       least_energy = std::min(least_energy, energy);
@@ -83,9 +84,6 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
       if (agreement.departure) return agreement;
       ++agreement.frames;
       agreement.last_frame = index;
-      agreement.scale = scale;
-      agreement.distance = std::max(
-          agreement.distance, (frame->positions - positions).matrix().rowwise().norm().maxCoeff());
     } else if (positions.allFinite()) {
       const bool is_finite = frame->positions.allFinite();
       const double most = least_energy + kEnergyMargin * (most_energy - least_energy);

@@ -29,8 +29,6 @@ struct Agreement {
   bool complete = false;               ///< whether all frames that could be compared agree
   std::optional<Departure> departure;  ///< in a later frame
   std::int64_t last_frame = -1;        ///< index of the last frame that agrees
-  double distance = 0.0;               ///< largest distance in these, m
-  double scale = 0.0;                  ///< largest coordinate in these, m
 };
 
 using MotionMaker = std::function<std::unique_ptr<Motion>()>;

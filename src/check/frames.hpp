@@ -24,8 +24,6 @@ struct AllFrames {
   bool are_floats = false;           ///< whether a program in float has written them
   std::int64_t start = 0;            ///< index of the frame that should be the start
   std::vector<std::string> remarks;  ///< on missing frames and on the format
-
-  std::int64_t lastIndex() const { return frames.back().index; }
 };
 
 /// \throws FileError naming frame and line

@@ -84,12 +84,12 @@ std::string shortReportOf(const FrameCheck& check) {
 std::string jsonOf(const FrameCheck& check, const std::string& folder) {
   return fmt::format(
       R"({{"folder": {}, "equal": {}, "undecided": {}, "methods": {}, "frames": {}, )"
-      R"("last_frame": {}, "digits": {}, "printed_digits": {}, "departure": {}, )"
+      R"("last_frame": {}, "digits": {}, "departure": {}, )"
       R"("explanations": {}, "remarks": {}, "text": {}}})"
       "\n",
       inJson(folder), check.verdict == FrameVerdict::kEqual,
       check.verdict == FrameVerdict::kUndecided, listInJson(check.methods, inJson), check.frames,
-      check.last_frame, check.digits, check.printed_digits, departureInJson(check),
+      check.last_frame, check.digits, departureInJson(check),
       listInJson(check.explanations, explanationInJson), listInJson(check.remarks, inJson),
       inJson(check.text));
 }
