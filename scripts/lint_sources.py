@@ -134,7 +134,7 @@ def file_errors(files):
         if here and here[0] != 'ros' and ros.search(text):
             yield f'{path}: includes ROS, which only src/ros may'
         # ROS time may stand still: wait and throttle by the wall clock.
-        if path.startswith('src/ros/') and re.search(r'_THROTTLE|ros::(Rate|Timer)|ros::Duration\(.*sleep', text):
+        if str(path).startswith('src/ros/') and re.search(r'_THROTTLE|ros::(Rate|Timer)|ros::Duration\(.*sleep', text):
             yield f'{path}: waits or throttles in ROS time; use ros::WallDuration and Throttle'
 
 
