@@ -85,6 +85,14 @@ const toScreen = (cell, x, y) => [
   cell.top + cell.height / 2 - (y - view.y) * view.scale,
 ];
 
+// The multiples of a unit between two numbers, at most 1,000: far from the origin, adding a unit may not
+// change a number.
+export function gridLines(low, high, unit) {
+  const first = Math.ceil(low / unit);
+  const count = Math.min(1000, Math.ceil(high / unit) - first);
+  return count > 0 ? Array.from({length: count}, (_, k) => (first + k) * unit) : [];
+}
+
 function drawGrid(cell) {
   const wanted = 80 * devicePixelRatio / view.scale;
   const power = 10 ** Math.floor(Math.log10(wanted));
@@ -94,12 +102,12 @@ function drawGrid(cell) {
   context.lineWidth = 1;
   context.beginPath();
   const half = [cell.width / view.scale / 2, cell.height / view.scale / 2];
-  for (let x = Math.ceil((view.x - half[0]) / unit) * unit; x < view.x + half[0]; x += unit) {
+  for (const x of gridLines(view.x - half[0], view.x + half[0], unit)) {
     const [px] = toScreen(cell, x, 0);
     context.moveTo(px, cell.top);
     context.lineTo(px, cell.top + cell.height);
   }
-  for (let y = Math.ceil((view.y - half[1]) / unit) * unit; y < view.y + half[1]; y += unit) {
+  for (const y of gridLines(view.y - half[1], view.y + half[1], unit)) {
     const [, py] = toScreen(cell, 0, y);
     context.moveTo(cell.left, py);
     context.lineTo(cell.left + cell.width, py);

@@ -1,5 +1,7 @@
-// Answers of services: a sentence, and whether it tells of success.
+// What the node says to its users: answers of services, and log lines that may repeat.
 #pragma once
+
+#include <ros/time.h>
 
 #include <exception>
 
@@ -17,5 +19,20 @@ bool answer(Response& response, const Function& function) {
   }
   return true;
 }
+
+/// Limits repeated log lines by the wall clock. The throttled macros of ROS use ROS time, which may stand still.
+class Throttle {
+ public:
+  /// True at most every 5 s.
+  bool isDue() {
+    const ros::SteadyTime now = ros::SteadyTime::now();
+    if (now < next_) return false;
+    next_ = now + ros::WallDuration(5.0);
+    return true;
+  }
+
+ private:
+  ros::SteadyTime next_;
+};
 
 }  // namespace spring_pendulum

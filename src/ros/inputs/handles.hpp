@@ -1,9 +1,9 @@
 // Handles in rviz: interactive markers with which particles are grabbed, and their context menu.
 #pragma once
 
+#include "ros/inputs/answer.hpp"
 #include "ros/inputs/frames.hpp"
 #include "ros/inputs/holders.hpp"
-#include "ros/inputs/throttle.hpp"
 #include "ros/parameters/node_options.hpp"
 
 #include <ros/node_handle.h>

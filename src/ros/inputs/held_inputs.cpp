@@ -2,7 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
-#include "ros/inputs/throttle.hpp"
+#include "ros/inputs/answer.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>

@@ -1,13 +1,13 @@
 // A run with its integrator, and all that acts on it while it runs.
 #pragma once
 
+#include "ros/inputs/answer.hpp"
 #include "ros/inputs/commands.hpp"
 #include "ros/inputs/handles.hpp"
 #include "ros/inputs/held_inputs.hpp"
 #include "ros/inputs/holders.hpp"
 #include "ros/inputs/input_messages.hpp"
 #include "ros/inputs/saved_states.hpp"
-#include "ros/inputs/throttle.hpp"
 #include "ros/node/player.hpp"
 #include "ros/node/publisher.hpp"
 
