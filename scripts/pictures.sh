@@ -2,7 +2,7 @@
 # Makes the pictures of the documents: docs/pendulum.gif, docs/compare.gif, docs/run_time_error.png and
 # docs/verification.png.
 # docs/pull.gif and docs/rviz_window.png need a virtual display: scripts/pictures.sh rviz
-# The plots of results are drawn from benchmark/results, so run scripts/benchmark.sh for new ones.
+# docs/run_time_error.png is drawn from the results of scripts/benchmark.sh accuracy, if there are any.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -35,8 +35,9 @@ compare() {
 }
 
 plots() {
-  "$project/benchmark/reports/plot_run_time_error.py" "$project/benchmark/results/work_precision.csv" \
-    horizontal_11 "$docs/run_time_error"
+  local results=$project/benchmark/results/work_precision.csv
+  [ ! -f "$results" ] ||
+    "$project/benchmark/reports/plot_run_time_error.py" "$results" horizontal_11 "$docs/run_time_error"
   PYTHONPATH=$(devel_of "$build")/lib/python3/dist-packages "$docs/plots/verification.py"
 }
 

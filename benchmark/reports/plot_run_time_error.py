@@ -38,16 +38,16 @@ def chosen(rows):
         return front([r for r in rows if r["method"] == method])
 
     own = [r for r in rows if r["library"] == "own"]
-    best = cheapest([r for r in own if r["method"] != "Dormand-Prince-8"])
+    best = cheapest(own)
     plain = cheapest([r for r in rows if r["library"] == "plain"])
     package = cheapest([r for r in rows if r["library"] not in ("own", "plain", "SciPy")])
     scipy = [r["method"] for r in rows if r["library"] == "SciPy"]
-    dop853 = scipy[0] if scipy else "Dormand-Prince-8"
     for name in ("Euler", "Runge-Kutta-2", "Runge-Kutta-4"):
         yield name, COLORS[name], of(name)
     yield "Runge-Kutta-4, plain loop", COLORS["plain"], of(plain)
     yield f"{package}", COLORS["package"], of(package)
-    yield ("DOP853 (Fortran)" if scipy else "DOP853 (our code)"), COLORS["dop853"], of(dop853)
+    if scipy:
+        yield "DOP853 (Fortran)", COLORS["dop853"], of(scipy[0])
     yield f"{best} (best of ours)", COLORS["best"], of(best)
 
 

@@ -41,7 +41,7 @@ def scipy_point(tolerance, true):
 
 
 figure, axes = plt.subplots(figsize=(8, 5), constrained_layout=True)
-methods = ['Runge-Kutta-2', 'Runge-Kutta-4', 'Dormand-Prince-8', 'Taylor-12', 'Auto']
+methods = ['Runge-Kutta-2', 'Runge-Kutta-4', 'Dormand-Prince-5', 'Taylor-12', 'Auto']
 table = sp.work_precision(particles, methods, duration=duration)
 for method, color in zip(methods, ('#b8860b', '#1f5fa8', '#4b2ca0', '#c1440e', '#2d7d2d')):
     points = [(point.seconds, point.error) for point in table if point.method == method]

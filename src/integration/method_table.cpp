@@ -83,10 +83,6 @@ std::deque<Method> builtInMethods() {
        "doi:10.1016/0771-050X(80)90013-3",
        "the best-known embedded pair, for comparison", &kDormandPrince5.tableau,
        makeErrorControlled<EmbeddedRungeKuttaStepper, &kDormandPrince5>, false, 430},
-      {"Dormand-Prince-8", 8, 12, StepControl::kErrorControlled, 6.3936515228, 5.9603598117,
-       "E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, 2nd ed., Springer 1993, section II.10",
-       "Hairer's DOP853, for comparison", &kDormandPrince8.tableau,
-       makeErrorControlled<EmbeddedRungeKuttaStepper, &kDormandPrince8>, false, 710},
       {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
@@ -157,7 +153,7 @@ constexpr std::pair<std::string_view, std::string_view> kAbbreviations[] = {
 /// Names of other methods and programs, and the method here that is nearest.
 constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
     {"Backward-Euler", "Radau-9"},   {"BDF", "Radau-9"},
-    {"DOP853", "Dormand-Prince-8"},  {"Heun", "Runge-Kutta-2"},
+    {"DOP853", "Taylor-8"},          {"Heun", "Runge-Kutta-2"},
     {"Leapfrog", "Velocity-Verlet"}, {"LSODA", "Auto"},
     {"Midpoint", "Runge-Kutta-2"},   {"ode45", "Dormand-Prince-5"},
     {"RK45", "Dormand-Prince-5"},    {"Symplectic-Euler", "Semi-Implicit-Euler"},

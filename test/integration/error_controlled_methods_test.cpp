@@ -71,7 +71,7 @@ double worstError(Integrator& integrator, const Scene& scene, const std::string&
 }
 
 // The promise, 10 tolerances, on the cheaper scenes; `scripts/benchmark.sh tolerance` tests it on
-// all scenes. Measured: at most 7.0 (Dormand-Prince-5), 5.4 (Dormand-Prince-8),
+// all scenes. Measured: at most 7.0 (Dormand-Prince-5),
 // 1.3 (Taylor-8), 2.0 (Taylor-12), 2.9 (Stabilized-Taylor-4), 3.5 (Stabilized-Taylor-8), 2.0
 // (Auto), all after 50 s of horizontal_11. At 1e-10 m steps must not lose their last bits.
 TEST_P(ErrorControlledMethod, KeepsItsTolerance) {

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"MethodOfAnotherProgram",
                  {"DOP853"},
                  2,
-                 "METHOD: unknown method 'DOP853'; did you mean 'Dormand-Prince-8'? "},
+                 "METHOD: unknown method 'DOP853'; did you mean 'Taylor-8'? "},
         BadInput{"TwoMethods", {"Euler", "euler"}, 2, "'euler': give only one METHOD\n"},
         BadInput{"MethodSecond",
                  {"a.txt", "auto"},

@@ -173,12 +173,12 @@ class Hands(LiveTest):
         with self.node(method='Auto'):
             self.state.wait_for(5)
             for name, value in (('stiffness', '200'), ('damping', '0.2'), ('gravity', '-3'),
-                                ('rest_length', '0.5'), ('method', 'Dormand-Prince-8'),
+                                ('rest_length', '0.5'), ('method', 'Dormand-Prince-5'),
                                 ('real_time_factor', '2')):
                 answer = self.call('set', Set, name, value)
                 self.assertTrue(answer.success, answer.message)
                 rospy.sleep(0.2)
-            self.wait_state(lambda m: m.method == 'Dormand-Prince-8', 'the method')
+            self.wait_state(lambda m: m.method == 'Dormand-Prince-5', 'the method')
             self.check_energy()
             for name, value in (('stiffness', '-1'), ('stifness', '1'), ('frames', '3'),
                                 ('gravity', 'nan'), ('method', 'Eular'), ('real_time_factor', 'x')):

@@ -31,7 +31,7 @@ FRAMES = ('world', 'world', 'world', 'pendulum_camera', 'turned', 'nowhere', '',
 CONSTANTS = ('stiffness', 'damping', 'gravity', 'rest_length', 'tolerance', 'method', 'real_time_factor',
              'frames', '', 'stifness')
 VALUES = ('0', '1', '50', '0.3', '-1', '-9.81', '1e-3', '1e4', '1e-300', '1e300', 'nan', 'inf', 'x', '', 'Auto',
-          'Radau-9', 'Dormand-Prince-8', 'Runge-Kutta-4', '1,5', '0x10', '9' * 400)
+          'Radau-9', 'Dormand-Prince-5', 'Runge-Kutta-4', '1,5', '0x10', '9' * 400)
 
 
 def numbers_of(message):

@@ -5,11 +5,11 @@
 //     error = h sum e_i k_i
 //     z(t_n + θh) = z_n + h sum b_i(θ) k_i
 //
-// The slope at the end of a step, k_s = F(z_{n+1}), is the first slope of the next step. It and the
-// extra slopes after it, which only the dense output needs, are numbered like stages.
+// The slope at the end of a step, k_s = F(z_{n+1}), is the first slope of the next step. The dense output uses
+// it, too; it is numbered like a stage.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
-// ed., Springer 1993, sections II.4 to II.6 and II.10.
+// ed., Springer 1993, sections II.4 to II.6.
 #pragma once
 
 #include <spring_pendulum/integration/butcher_tableau.hpp>
@@ -21,10 +21,9 @@ namespace spring_pendulum {
 
 struct EmbeddedPair {
   static constexpr std::size_t kMaxSlopes = ButcherTableau::kMaxStages;
-  static constexpr std::size_t kMaxDegree = 7;
+  static constexpr std::size_t kMaxDegree = 4;
   using Weights = std::array<double, kMaxSlopes>;
 
-  /// Row `stages` of `a` belongs to k_s and is not used; later rows define the extra slopes.
   ButcherTableau tableau;
   /// The estimated error of a step is O(h^error_order).
   int error_order = 0;
@@ -34,15 +33,11 @@ struct EmbeddedPair {
   double share_of_tolerance = 0.0;
   /// e_i
   Weights error{};
-  /// Weights of a second, coarser estimate; all 0 if there is none. The combined estimate is
-  /// error²/sqrt(error² + coarse²/100), which is more reliable than either.
-  Weights coarse_error{};
-  /// Number of slopes in the dense output.
+  /// Number of slopes in the dense output: all stages and k_s.
   std::size_t dense_slopes = 0;
   /// b_i(θ) = sum over d of dense[i][d] θ^(d+1)
   std::array<std::array<double, kMaxDegree>, kMaxSlopes> dense{};
 
-  bool hasCoarseError() const { return coarse_error[0] != 0.0; }
   /// b_i(θ) of the dense output.
   Weights denseWeights(double theta) const;
 };
@@ -61,11 +56,5 @@ struct EmbeddedPair {
 /// J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26,
 /// doi:10.1016/0771-050X(80)90013-3; dense output as in Hairer's DOPRI5, section II.6.
 extern const EmbeddedPair kDormandPrince5;
-
-/// Dormand-Prince 8(5,3): twelve stages, order 8, dense output of order 7 with three extra slopes,
-/// which are evaluated only for steps that contain an output time. Coefficients of Hairer's
-/// DOP853: Hairer, Nørsett, Wanner, section II.10; P. J. Prince, J. R. Dormand, J. Comput. Appl.
-/// Math. 7 (1981) 67-75, doi:10.1016/0771-050X(81)90010-3.
-extern const EmbeddedPair kDormandPrince8;
 
 }  // namespace spring_pendulum

@@ -22,12 +22,9 @@ class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
   void prepare(bool restarted) override;
   double attempt(double h) override;
   const StateBuffer& stateInside(double fraction) const override;
-  double errorOf(const EmbeddedPair::Weights& weights, double h) const;
 
   const EmbeddedPair& pair_;
-  // `stateInside` computes the extra slopes when they are first needed.
-  mutable std::vector<StateBuffer> slopes_;
-  mutable bool extra_slopes_known_ = false;
+  std::vector<StateBuffer> slopes_;
   mutable StateBuffer inside_;
 };
 

@@ -1,6 +1,5 @@
 #include "integration/embedded/embedded_pair.hpp"
 
-#include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 #include "integration/order_conditions.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
@@ -10,26 +9,18 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <cstdint>
-
-#include "support/reference.hpp"
 
 namespace spring_pendulum {
 namespace {
-
-using test::referenceScene;
-using test::Scene;
 
 struct PairCase {
   const char* method;
   const EmbeddedPair* pair;
   int embedded_order;
-  int coarse_order;  ///< of the second embedded method; 0: there is none
   int dense_order;
 };
 
-const PairCase kCases[] = {{"Dormand-Prince-5", &kDormandPrince5, 4, 0, 4},
-                           {"Dormand-Prince-8", &kDormandPrince8, 5, 3, 7}};
+const PairCase kCases[] = {{"Dormand-Prince-5", &kDormandPrince5, 4, 4}};
 
 /// All slopes of the pair as one tableau, so that weights may use every one of them.
 ButcherTableau allSlopes(const EmbeddedPair& pair) {
@@ -52,11 +43,6 @@ TEST(EmbeddedPair, ErrorsBelongToMethodsOfLowerOrder) {
     // Measured: at most 5e-15, and at least 4.5e-4 an order higher.
     EXPECT_LT(orderConditionResidual(slopes, embedded, c.embedded_order), 1e-14) << c.method;
     EXPECT_GT(orderConditionResidual(slopes, embedded, c.embedded_order + 1), 1e-5) << c.method;
-    EXPECT_EQ(c.pair->hasCoarseError(), c.coarse_order > 0) << c.method;
-    if (c.coarse_order == 0) continue;
-    const auto coarse = difference(c.pair->tableau.b, c.pair->coarse_error);
-    EXPECT_LT(orderConditionResidual(slopes, coarse, c.coarse_order), 1e-14) << c.method;
-    EXPECT_GT(orderConditionResidual(slopes, coarse, c.coarse_order + 1), 1e-5) << c.method;
   }
 }
 
@@ -127,22 +113,6 @@ TEST(EmbeddedPair, StabilityLimitsAreThoseOfTheTable) {
     EXPECT_GT(amplification(tableau, 1.01 * method.imaginary_stability_limit * i), 1.0 + 1e-8)
         << c.method;
   }
-}
-
-TEST(EmbeddedPair, ExtraSlopesCostOnlyAtOutputTimes) {
-  const Scene scene = referenceScene("two_masses_45deg");
-  EmbeddedRungeKuttaStepper stepper(scene.chain, &kDormandPrince8, 1e-6);
-  stepper.start(scene.start);
-  while (stepper.statistics().accepted < 3) ASSERT_GT(stepper.step(), 0.0);
-  const std::int64_t before = stepper.statistics().force_evaluations;
-  const std::int64_t attempts = stepper.statistics().accepted + stepper.statistics().rejected;
-  EXPECT_EQ(before, 1 + 12 * attempts);
-  State state(3);
-  state.values() = stepper.stateAt(1.0).values();
-  EXPECT_EQ(stepper.statistics().force_evaluations, before);
-  state.values() = stepper.stateAt(0.5).values();
-  state.values() = stepper.stateAt(0.7).values();
-  EXPECT_EQ(stepper.statistics().force_evaluations, before + 3);
 }
 
 }  // namespace

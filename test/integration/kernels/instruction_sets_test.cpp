@@ -48,7 +48,6 @@ constexpr Maker kMakers[] = {{"Taylor-7", makeTaylor<7>},
                              {"Stabilized-Taylor-4", makeStabilized<4>},
                              {"Stabilized-Taylor-8", makeStabilized<8>},
                              {"Dormand-Prince-5", makePair<kDormandPrince5>},
-                             {"Dormand-Prince-8", makePair<kDormandPrince8>},
                              {"Radau-9", makeRadau}};
 
 State stateAfterSteps(const test::Scene& scene, const Maker& maker, const ChainKernels& kernels) {
