@@ -17,37 +17,36 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr int kDifferent = 4;
-constexpr int kUndecided = 5;
+/// Exit status of each verdict.
+constexpr int kStatus[] = {kDone, 4, 5};
 
-struct Row {
-  int status = kDone;
+/// Statuses by severity: unreadable, different, undecided, equal.
+int severity(int status) {
+  return status == kFileFailed ? 3 : status == 4 ? 2 : status == 5 ? 1 : 0;
+}
+
+/// Checks a folder and prints the result, in a table with columns of this width, or alone if it is 0.
+/// \returns an exit status
+int check(const std::string& folder, const Scenario& scenario, const Particles& particles,
+          const CheckOptions& options, bool in_json, std::size_t width) {
   std::string text;
-};
-
-Row check(const std::string& folder, const Scenario& scenario, const Particles& particles,
-          const CheckOptions& options, const Switches& switches) {
-  const bool is_table = switches.folders.size() > 1;
+  int status = kFileFailed;
   try {
     const FrameCheck result = checkFrames(scenario, particles, readFrameFolder(folder), options);
-    const int status = result.verdict == FrameVerdict::kEqual       ? kDone
-                       : result.verdict == FrameVerdict::kDifferent ? kDifferent
-                                                                    : kUndecided;
-    if (switches.json) return {status, jsonOf(result, folder)};
-    return {status, is_table ? shortReportOf(result) : reportOf(result)};
+    status = kStatus[static_cast<int>(result.verdict)];
+    text = in_json ? jsonOf(result, folder) : width > 0 ? shortReportOf(result) : reportOf(result);
   } catch (const FileError& error) {
     if (interruption() != 0) {
       printError(fmt::format("{}: {}\n", folder, error.what()));
-      return {};
+      return status;
     }
-    if (switches.json) return {kFileFailed, jsonOfError(error.what(), folder)};
-    if (!is_table) throw;
-    return {kFileFailed, fmt::format("unreadable: {}", error.what())};
+    if (!in_json && width == 0) throw;
+    text =
+        in_json ? jsonOfError(error.what(), folder) : fmt::format("unreadable: {}", error.what());
   }
-}
-
-int severity(int status) {
-  return status == kFileFailed ? 3 : status == kDifferent ? 2 : status == kUndecided ? 1 : 0;
+  printOutput(width > 0 && !in_json ? fmt::format("{:<{}}  {}\n", folder, width, text) : text);
+  flushOutput();
+  return status;
 }
 
 /// \returns 1 if any folder is unreadable, else 4 if any is different, else 5 if any is undecided
@@ -58,19 +57,16 @@ int checkAll(const Scenario& scenario, const OptionSet& options, const Switches&
   catchInterruptions();
   std::size_t width = 0;
   for (const std::string& folder : switches.folders) width = std::max(width, folder.size());
+  if (switches.folders.size() == 1) width = 0;
   int status = kDone;
   for (const std::string& folder : switches.folders) {
-    if (interruption() != 0) break;
-    const Row row =
-        check(folder, scenario, particles,
-              {options.isGiven("method"), [] { return interruption() != 0; }}, switches);
-    if (row.text.empty()) break;  // interrupted
-    const bool is_table = switches.folders.size() > 1 && !switches.json;
-    printOutput(is_table ? fmt::format("{:<{}}  {}\n", folder, width, row.text) : row.text);
-    flushOutput();
-    if (severity(row.status) > severity(status)) status = row.status;
+    const int one = check(folder, scenario, particles,
+                          {options.isGiven("method"), [] { return interruption() != 0; }},
+                          switches.json, width);
+    if (interruption() != 0) return kSignalled + interruption();
+    if (severity(one) > severity(status)) status = one;
   }
-  return interruption() == 0 ? status : kSignalled + interruption();
+  return status;
 }
 
 int runCommandLine(int argc, const char* const* argv) {

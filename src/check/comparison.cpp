@@ -38,46 +38,65 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
   return std::nullopt;
 }
 
-double potentialEnergy(const Chain& chain, const Eigen::ArrayX2d& positions) {
-  State state(chain.size());
-  state.positions() = positions.matrix();
-  return computeEnergy(chain, state).total();
-}
+/// The potential energies of a motion, J.
+class EnergyRange {
+ public:
+  explicit EnergyRange(const Chain& chain) : chain_(chain) {}
+
+  void add(const Eigen::ArrayX2d& positions) {
+    const double energy = of(positions);
+    least_ = std::min(least_, energy);
+    most_ = std::max(most_, energy);
+  }
+  /// What no frame of the motion can have; empty if nothing.
+  std::string impossibleIn(const Eigen::ArrayX2d& positions) const {
+    constexpr double kMargin = 1.1;
+    if (!positions.allFinite()) return "has a number that is not finite";
+    const bool is_possible = of(positions) <= least_ + kMargin * (most_ - least_);
+    return is_possible ? "" : "has more energy than any frame before";
+  }
+
+ private:
+  double of(const Eigen::ArrayX2d& positions) const {
+    State state(chain_.size());
+    state.positions() = positions.matrix();
+    return computeEnergy(chain_, state).total();
+  }
+
+  const Chain& chain_;
+  double least_ = std::numeric_limits<double>::infinity();
+  double most_ = -std::numeric_limits<double>::infinity();
+};
 
 }  // namespace
 
 Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& limit,
                   const Chain* chain) {
-  constexpr double kComparable = 1e-3;   // more rounding errors end a comparison; of the scale
-  constexpr double kEnergyMargin = 1.1;  // of the range of the motion
+  constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
   const std::unique_ptr<Motion> motion = make();
   const std::unique_ptr<Motion> companion = make();
+  std::optional<EnergyRange> energies;
+  if (chain != nullptr) energies.emplace(*chain);
   std::mt19937 random(1);  // the same on every machine
   Agreement agreement;
   bool is_comparable = true;
   double rounding = 0.0;  // m
   double scale = 0.0;     // largest coordinate, m
-  double least_energy = std::numeric_limits<double>::infinity();
-  double most_energy = -least_energy;
   companion->disturb(random);
   std::int64_t index = frames.start;
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver() || !motion->advanceTo(index, limit)) break;
     const Eigen::ArrayX2d positions = motion->positions();
-    scale = std::max(scale, largestFinite(positions));
-    if (chain != nullptr && positions.allFinite()) {
-      const double energy = potentialEnergy(*chain, positions);
-      least_energy = std::min(least_energy, energy);
-      most_energy = std::max(most_energy, energy);
-    }
+    if (energies && positions.allFinite()) energies->add(positions);
     if (is_comparable) {
       if (!companion->advanceTo(index, limit)) break;
       const double spread = largestDistance(positions, companion->positions());
       rounding = spread <= rounding ? rounding : spread;  // NaN replaces it
+      scale = std::max(scale, largestFinite(positions));
       is_comparable = rounding <= kComparable * scale || scale == 0.0;
       if (motion->tolerance() == 0.0) companion->disturb(random);
     }
-    if (!is_comparable && chain == nullptr) break;
+    if (!is_comparable && !energies) break;
     if (index < frame->index) continue;  // missing
     if (is_comparable) {
       agreement.departure = departureOf(*frame, positions, rounding + motion->tolerance());
@@ -85,12 +104,9 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
       ++agreement.frames;
       agreement.last_frame = index;
     } else if (positions.allFinite()) {
-      const bool is_finite = frame->positions.allFinite();
-      const double most = least_energy + kEnergyMargin * (most_energy - least_energy);
-      if (!is_finite || potentialEnergy(*chain, frame->positions) > most) {
-        agreement.departure = Departure{index, 0, 0.0, -1.0,
-                                        is_finite ? "has more energy than any frame before"
-                                                  : "has a number that is not finite"};
+      const std::string impossible = energies->impossibleIn(frame->positions);
+      if (!impossible.empty()) {
+        agreement.departure = Departure{index, 0, 0.0, -1.0, impossible};
         return agreement;
       }
     }

@@ -96,7 +96,7 @@ class ProgramMotion : public Motion {
       force_factor_.push_back(std::pow(particles.masses[other], program.force_mass_power));
       const bool falls = !program.gravity_on_last_only || i + 1 == size;
       const double factor = std::pow(particles.masses[i], program.gravity_mass_power);
-      gravity_.push_back((falls ? factor : 0.0) * Vector(program.gravity_x, program.gravity));
+      gravity_.emplace_back((falls ? factor : 0.0) * Vector(program.gravity_x, program.gravity));
     }
     slopes_.assign(program.tableau.stages, Rows(state_.size(), Row::Zero()));
   }
