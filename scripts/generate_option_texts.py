@@ -16,7 +16,6 @@ PROJECT = pathlib.Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r'(?P<begin>[^\n]*BEGIN of generated (?P<kind>\w+)(?: except (?P<others>[\w ,]*\w))?[^\n]*\n)'
                    r'(?P<text>.*?)(?P<end>[^\n]*END of generated)', re.DOTALL)
 WIDTH = 100
-NOT_IN_THE_NODE = {'wanted_error'}  # for --check
 
 
 def meaning_with_unit(option):
@@ -82,8 +81,6 @@ KINDS = {'yaml': (yaml_entry, 'run', ''),
 def generated(match, options):
     render, groups, head = KINDS[match['kind']]
     others = set((match['others'] or '').replace(',', ' ').split())
-    if 'display' in groups:
-        others |= NOT_IN_THE_NODE
     chosen = [o for o in options if o['group'] in groups.split() and o['key'] not in others]
     return match['begin'] + head + ''.join(map(render, chosen)) + match['end']
 

@@ -30,7 +30,6 @@ def simulate(
     rest_length: float = ...,
     gravity: float = ...,
     air_drag: float = ...,
-    wanted_error: float = ...,
     threads: int = ...,
     sleep: float = ...,
     # END of generated keywords
@@ -58,7 +57,6 @@ def check(
     rest_length: float = ...,
     gravity: float = ...,
     air_drag: float = ...,
-    wanted_error: float = ...,
     threads: int = ...,
     sleep: float = ...,
     # END of generated keywords

@@ -34,7 +34,6 @@ Scenario shortScenario(const std::string& method) {
   scenario.method = findMethod(method);
   scenario.frames = 3;
   scenario.steps_per_frame = 2;
-  scenario.wanted_error = 1e-2;
   return scenario;
 }
 

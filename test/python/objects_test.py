@@ -150,8 +150,7 @@ class CtrlC(unittest.TestCase):
         integrators = [sp.make_integrator(name, chain, tolerance=1e-9) for name in ('Runge-Kutta-4', 'Auto')]
         calls = [lambda: integrators[0].advance(state, 1e-4, 10**9), lambda: integrators[1].advance(state, 1e5, 1),
                  lambda: sp.simulate(SCENE, frames=10**8 // 50, steps_per_frame=500, time_step=1e-4),
-                 lambda: sp.simulate(SCENE, frames=2, method='Auto', frame_interval=1e6, damping=0),
-                 lambda: sp.check(SCENE, frames=3000, time_step=1e-3, wanted_error=1e-9)]
+                 lambda: sp.simulate(SCENE, frames=2, method='Auto', frame_interval=1e6, damping=0)]
         for call in calls:
             seconds = self.interrupted(call)
             print('ends after %.3f s' % seconds)  # measured: at most 0.023

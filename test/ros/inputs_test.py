@@ -37,7 +37,7 @@ def numbers_of(text):
 
 CONSTANTS_OF_RUN = ['method=Runge-Kutta-4', 'frames=20', 'steps_per_frame=10', 'time_step=0.01', 'tolerance=1e-6',
                     'frame_interval=0.1', 'stiffness=50', 'damping=1', 'rest_length=1', 'gravity=9.81', 'air_drag=0',
-                    'wanted_error=0', 'threads=1', 'sleep=0']
+                    'threads=1', 'sleep=0']
 
 
 def start(**values):

@@ -46,8 +46,6 @@ struct Scenario {
   double gravity = 9.81;                         ///< m/s²
   double air_drag = 0.0;                         ///< N·s/m
 
-  double wanted_error = 0.0;  ///< m, `--check` finds the cheapest method for it; 0: off
-
   std::int64_t threads = 0;  ///< largest number; 0: one per processor core
   double sleep = 0.0;        ///< speed in m/s below which a chain is at rest; 0: off
 

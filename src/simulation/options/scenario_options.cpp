@@ -74,8 +74,6 @@ std::vector<Option> scenarioOptions(Scenario& s) {
       {"gravity", Number{&s.gravity, Range::any()}, "m/s²", "gravity g (points down)"},
       {"air_drag", Number{&s.air_drag, Range::atLeast(0)}, "N·s/m",
        "drag k_air of the air: the force -k_air v on each particle"},
-      {"wanted_error", Number{&s.wanted_error, Range::atLeast(0)}, "m",
-       "position error for which --check finds the cheapest method; 0: none"},
       {"threads", Count{&s.threads, Range::atLeast(0)}, "",
        "largest number of threads; 0: one per processor core; results do not depend on it"},
       {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",
