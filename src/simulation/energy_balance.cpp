@@ -14,40 +14,16 @@ namespace {
 /// The least energy scale is that of all springs stretched by this share of their length.
 constexpr double kLeastStretch = 1e-6;
 
-EnergyScaleSums sumsOf(const Chain& chain, const State& start) {
-  EnergyScaleSums sums;
-  sums.add(chain, start);
-  return sums;
-}
-
 }  // namespace
-
-void EnergyScaleSums::add(const Chain& chain, const State& start) {
-  requireSize(chain.size(), start.size());
-  const SpringLaw& spring = chain.spring();
-  for (Eigen::Index i = chain.size() - 1; i > 0; --i) {
-    weight += chain.masses()[i] * std::abs(chain.gravity());
-    depth += weight * spring.rest_length;
-    if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
-    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
-    least += 0.5 * spring.stiffness * stretch * stretch;
-  }
-}
 
 EnergyBalance::EnergyBalance(const Chain& chain, const State& start, bool track_dissipation,
                              double start_time)
-    : EnergyBalance(chain, computeEnergy(chain, start), sumsOf(chain, start), track_dissipation,
-                    start_time) {
-  start_height_ = start.y()[0];
-}
-
-EnergyBalance::EnergyBalance(Chain piece, const Energy& start, const EnergyScaleSums& sums,
-                             bool track_dissipation, double start_time)
-    : chain_(std::move(piece)),
+    : chain_(chain),
       start_time_(start_time),
       track_dissipation_(track_dissipation),
-      start_energy_(start.total()) {
-  widenScale(sums, start_energy_);
+      start_energy_(computeEnergy(chain, start).total()),
+      start_height_(start.y()[0]) {
+  widenScale(start, start_energy_);
 }
 
 double EnergyBalance::change(const Chain& chain, const State& before, const State& after,
@@ -57,16 +33,26 @@ double EnergyBalance::change(const Chain& chain, const State& before, const Stat
   track_dissipation_ = track_dissipation;
   changed_ = true;
   const double energy_after = energyOf(after).total();
-  widenScale(sumsOf(chain, after), energy_after);
+  widenScale(after, energy_after);
   const double supplied_after = supplied + energy_after - energy_before;
   most_supplied_ = std::max({most_supplied_, std::abs(supplied), std::abs(supplied_after)});
   return supplied_after;
 }
 
-void EnergyBalance::widenScale(const EnergyScaleSums& sums, double energy) {
+void EnergyBalance::widenScale(const State& start, double energy) {
+  requireSize(chain_.size(), start.size());
   const SpringLaw& spring = chain_.spring();
-  if (spring.stiffness == 0.0) fall_ = 0.5 * sums.weight * std::abs(chain_.gravity());
-  constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + sums.depth, sums.least});
+  // Sums from the free end: weight beyond a spring, -E_min, and springs that are hardly stretched.
+  double weight = 0.0, depth = 0.0, least = 0.0;
+  for (Eigen::Index i = chain_.size() - 1; i > 0; --i) {
+    weight += chain_.masses()[i] * std::abs(chain_.gravity());
+    depth += weight * spring.rest_length;
+    if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
+    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
+    least += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain_.gravity());
+  constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + depth, least});
   if (!std::isfinite(energy) || !std::isfinite(constant_scale_) || !std::isfinite(fall_)) {
     throw InputError(
         "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
@@ -91,14 +77,9 @@ double EnergyBalance::scale(double time) const {
 
 EnergyEntry EnergyBalance::entry(double time, const State& state, double dissipated,
                                  double supplied) const {
-  return entry(time, energyOf(state), dissipated, supplied);
-}
-
-EnergyEntry EnergyBalance::entry(double time, const Energy& energy, double dissipated,
-                                 double supplied) const {
   EnergyEntry entry;
   entry.time = time;
-  entry.energy = energy;
+  entry.energy = energyOf(state);
   entry.supplied = supplied;
   entry.gain = entry.energy.total() - start_energy_ - supplied;
   // Energy that is taken back leaves its rounding and step errors in the chain.

@@ -100,23 +100,6 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
       tolerance_(options.tolerance),
       start_time_(options.start_time) {}
 
-Judge::Judge(Chain piece, EnergyBalance balance, const JudgeOptions& options)
-    : chain_(std::move(piece)),
-      balance_(std::move(balance)),
-      symplectic_step_(options.symplectic_step),
-      tolerance_(options.tolerance),
-      start_time_(options.start_time) {}
-
-const Verdict& Judge::judge(double time, const Energy& energy, double dissipated) {
-  Verdict verdict = energyVerdict(time, energy, dissipated, 0.0);
-  if (verdict.kind == VerdictKind::kOk) verdict = positionVerdict(nullptr);
-  return remember(std::move(verdict));
-}
-
-const Verdict& Judge::judgeEnergy(double time, const State& state, double dissipated) {
-  return remember(energyVerdict(time, state, dissipated, 0.0));
-}
-
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference, double supplied) {
   Verdict verdict = energyVerdict(time, state, dissipated, supplied);
@@ -165,21 +148,16 @@ void Judge::change(const Chain& chain, EnergyBalance balance, const JudgeOptions
 }
 
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
-  Verdict verdict = energyVerdict(time, balance_.energyOf(state), dissipated, supplied);
-  if (verdict.kind == VerdictKind::kDiverged) locate(verdict, chain_, state);
-  return verdict;
-}
-
-Verdict Judge::energyVerdict(double time, const Energy& energy, double dissipated,
-                             double supplied) {
-  entry_ = balance_.entry(time, energy, dissipated, supplied);
+  entry_ = balance_.entry(time, state, dissipated, supplied);
   const double spread = 2.0 * kPromise * tolerance_;  // m, of the length of a spring
   const double tolerated =
       static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
   double allowance = tolerated > 0.0 ? tolerated / balance_.scale(time) : 0.0;
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
-    return {VerdictKind::kDiverged, time, 0, divergedText(entry_)};
+    Verdict verdict{VerdictKind::kDiverged, time, 0, divergedText(entry_)};
+    locate(verdict, chain_, state);
+    return verdict;
   }
   double gain = entry_.relative_gain;
   double residual = entry_.relative_residual.value_or(0.0);

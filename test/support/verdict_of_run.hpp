@@ -24,13 +24,13 @@ inline Verdict verdictOfRun(const Scene& scene, const Method& method, double tim
   State state = scene.start;
   Judge judge(scene.chain, state,
               JudgeOptions{with_energy, method.symplectic ? time_step : 0.0, 0.0});
-  judge.judgeEnergy(0.0, state, 0.0);  // as every run does
+  judge.judge(0.0, state, 0.0, nullptr);  // as every run does
   const std::int64_t steps =
       std::max<std::int64_t>(1, std::llround(std::min(0.1, duration) / time_step));
   for (std::int64_t n = 0; static_cast<double>(n) * time_step < duration; n += steps) {
     integrator->advance(state, time_step, steps);
     const double time = static_cast<double>(n + steps) * time_step;
-    if (judge.judgeEnergy(time, state, integrator->dissipatedEnergy()).kind >= enough) break;
+    if (judge.judge(time, state, integrator->dissipatedEnergy(), nullptr).kind >= enough) break;
   }
   return judge.worst();
 }

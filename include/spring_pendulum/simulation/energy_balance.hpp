@@ -27,16 +27,6 @@ struct EnergyEntry {
   std::optional<double> relative_residual;
 };
 
-/// What the energy scale needs to know about a start, summed from the free end to the fixed one.
-struct EnergyScaleSums {
-  double weight = 0.0;  ///< of all particles so far, N
-  double depth = 0.0;   ///< -E_min, J
-  double least = 0.0;   ///< energy of springs stretched by a millionth of their length, J
-
-  /// Adds all moving particles of a chain, or of a piece of one, and their springs.
-  void add(const Chain& chain, const State& start);
-};
-
 /// Computes the balance of states of one motion, relative to the energy scale. The scale is the energy
 /// available to the motion: the difference between the larger of E(0) and 0 (all springs unstretched
 /// and all particles at the height of P_1) and the minimum, the chain hanging at rest, where spring i
@@ -57,18 +47,12 @@ class EnergyBalance {
   /// \throws InputError if an energy of the start exceeds the range of double
   EnergyBalance(const Chain& chain, const State& start, bool track_dissipation,
                 double start_time = 0.0);
-  /// For a chain of which a machine has only a piece.
-  /// \param start energy of the whole chain at the start
-  EnergyBalance(Chain piece, const Energy& start, const EnergyScaleSums& sums,
-                bool track_dissipation, double start_time);
-
   /// Returns the balance of a state.
   /// \param time       s, at least the start time
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
   /// \param supplied   `Integrator::suppliedEnergy()`, J
   EnergyEntry entry(double time, const State& state, double dissipated,
                     double supplied = 0.0) const;
-  EnergyEntry entry(double time, const Energy& energy, double dissipated, double supplied) const;
 
   /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
   Energy energyOf(const State& state) const;
@@ -85,7 +69,7 @@ class EnergyBalance {
   double scale(double time) const;
 
  private:
-  void widenScale(const EnergyScaleSums& sums, double energy);
+  void widenScale(const State& start, double energy);
 
   Chain chain_;
   double start_time_;  ///< s

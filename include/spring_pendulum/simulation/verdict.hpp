@@ -81,8 +81,6 @@ class Judge {
 
   /// \throws InputError as EnergyBalance
   Judge(const Chain& chain, const State& start, const JudgeOptions& options);
-  /// For a chain of which a machine has only a piece. Judge with `judge(time, energy, dissipated)`.
-  Judge(Chain piece, EnergyBalance balance, const JudgeOptions& options);
 
   /// Judges the state at `time` s by its energy and its positions.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
@@ -90,13 +88,6 @@ class Judge {
   /// \param supplied   `Integrator::suppliedEnergy()`, J
   const Verdict& judge(double time, const State& state, double dissipated,
                        const ReferenceRun* reference, double supplied = 0.0);
-
-  /// Judges a state of which only the energy is known.
-  const Verdict& judge(double time, const Energy& energy, double dissipated);
-
-  /// Judges the state by its energy only: the verdict is never `kNotChecked`. Does not allocate unless
-  /// the verdict is bad.
-  const Verdict& judgeEnergy(double time, const State& state, double dissipated);
 
   /// Discards all judged frames.
   void restart();
@@ -126,7 +117,6 @@ class Judge {
   void measure(const State& state, const ReferenceRun* reference);
   void noteTolerance(const ReferenceRun& reference);
   Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
-  Verdict energyVerdict(double time, const Energy& energy, double dissipated, double supplied);
   /// Whether the last judged state has the energy of the reference.
   bool hasEnergyOf(const ReferenceRun* reference) const;
   Verdict positionVerdict(const ReferenceRun* reference) const;

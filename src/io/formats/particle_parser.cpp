@@ -40,11 +40,6 @@ std::string_view ParticleParser::nextLine(std::string_view& text) {
   return line;
 }
 
-bool ParticleParser::isParticle(std::string_view line) {
-  line = contentOf(line);
-  return !nextWord(line).empty();
-}
-
 void ParticleParser::parse(std::string_view lines) {
   while (!lines.empty()) parseLine(nextLine(lines));
 }

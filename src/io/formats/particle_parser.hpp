@@ -12,13 +12,11 @@
 
 namespace spring_pendulum {
 
-/// Parses a particle file or, for a program on several machines, some of its lines.
+/// Parses a particle file.
 class ParticleParser {
  public:
-  /// \param name       name of the text in error messages
-  /// \param first_line number of the first line that is parsed
-  explicit ParticleParser(std::string_view name, std::int64_t first_line = 1)
-      : name_(name), line_number_(first_line - 1) {}
+  /// \param name of the text in error messages
+  explicit ParticleParser(std::string_view name) : name_(name) {}
 
   /// Parses lines. The mass of the first particle is not checked.
   /// \throws InputError with file and line
@@ -26,8 +24,6 @@ class ParticleParser {
   /// Parses one line without its newline.
   void parseLine(std::string_view line);
 
-  /// Whether a line contains more than blanks and a comment.
-  static bool isParticle(std::string_view line);
   /// Removes and returns the first line of a text, without its newline.
   static std::string_view nextLine(std::string_view& text);
 
@@ -50,7 +46,7 @@ class ParticleParser {
   std::string_view name_;
   std::vector<Row> rows_;
   std::vector<std::array<double, 2>> velocities_;  ///< empty if the file has none
-  std::int64_t line_number_;
+  std::int64_t line_number_ = 0;
   std::int64_t last_line_ = 0;  ///< line of the last particle
 };
 

@@ -28,6 +28,13 @@ std::string_view takeUntil(std::string_view& text, std::string_view end) {
   return taken;
 }
 
+/// The first line of a state file.
+struct StateHead {
+  std::int64_t particles = 0;
+  std::int64_t frame = 0;
+  double time = 0.0;  ///< s
+};
+
 std::optional<StateHead> findHead(std::string_view text) {
   std::string_view line = ParticleParser::nextLine(text);
   if (!takeUntil(line, "# state of ").empty()) return {};
@@ -36,24 +43,6 @@ std::optional<StateHead> findHead(std::string_view text) {
   const auto time = parseNumber(takeUntil(line, " s"));
   if (!particles || !frame || !time || *frame < 0) return {};
   return StateHead{*particles, *frame, *time};
-}
-
-void writeState(OutputFile& file, AlignedNumbers::ConstView masses, const State& state,
-                std::int64_t frame, double time) {
-  file.write(StateHead{state.size(), frame, time}.text());
-  for (Eigen::Index first = 0; first < state.size(); first += kLinesAtOnce) {
-    file.write(stateLines(masses, state, first, std::min(state.size(), first + kLinesAtOnce)));
-  }
-  file.finish();
-}
-
-}  // namespace
-
-std::string StateHead::text() const {
-  return fmt::format(
-      "# state of {} particles at frame {}, t = {} s\n"
-      "# x [m]  y [m]  mass [kg]  vx [m/s]  vy [m/s]\n",
-      particles, frame, numberText(time));
 }
 
 StateHead parseStateHead(std::string_view text, const Scenario& scenario) {
@@ -85,6 +74,7 @@ void checkStateEnd(const StateHead& head, std::int64_t particles, bool has_veloc
       has_velocities ? "" : " without velocities", ends_line ? "" : ", the last line without end"));
 }
 
+/// Lines that read back as the same bits.
 std::string stateLines(AlignedNumbers::ConstView masses, const State& state, Eigen::Index first,
                        Eigen::Index last) {
   std::string text(static_cast<std::size_t>(last - first) * 5 * (kLongestNumber + 1), '\0');
@@ -95,6 +85,20 @@ std::string stateLines(AlignedNumbers::ConstView masses, const State& state, Eig
   text.resize(static_cast<std::size_t>(end - text.data()));
   return text;
 }
+
+void writeState(OutputFile& file, AlignedNumbers::ConstView masses, const State& state,
+                std::int64_t frame, double time) {
+  file.write(
+      fmt::format("# state of {} particles at frame {}, t = {} s\n"
+                  "# x [m]  y [m]  mass [kg]  vx [m/s]  vy [m/s]\n",
+                  state.size(), frame, numberText(time)));
+  for (Eigen::Index first = 0; first < state.size(); first += kLinesAtOnce) {
+    file.write(stateLines(masses, state, first, std::min(state.size(), first + kLinesAtOnce)));
+  }
+  file.finish();
+}
+
+}  // namespace
 
 Particles readStateFile(const Scenario& scenario) {
   const std::string text = readTextFile(scenario.particles);

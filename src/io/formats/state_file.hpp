@@ -17,31 +17,6 @@
 
 namespace spring_pendulum {
 
-/// The first line of a state file.
-struct StateHead {
-  std::int64_t particles = 0;
-  std::int64_t frame = 0;
-  double time = 0.0;  ///< s
-
-  /// The comment lines at the beginning of the file.
-  std::string text() const;
-};
-
-/// Parses the first line of the state file of a scenario.
-/// \throws InputError if it is missing, or its time is not that of its frame in this scenario
-StateHead parseStateHead(std::string_view text, const Scenario& scenario);
-
-/// Checks that a state file is complete.
-/// \param ends_line whether the file ends with a newline
-/// \throws InputError
-void checkStateEnd(const StateHead& head, std::int64_t particles, bool has_velocities,
-                   bool ends_line, const std::string& name);
-
-/// Returns lines `x y m vx vy` that read back as the same bits.
-/// \param first,last the particles first <= i < last
-std::string stateLines(AlignedNumbers::ConstView masses, const State& state, Eigen::Index first,
-                       Eigen::Index last);
-
 /// Reads the state file `Scenario::particles`. Numbers keep the sign of -0.0: a fixed-step run from
 /// this state has the bits of the run that saved it.
 /// \throws FileError, InputError
