@@ -42,6 +42,12 @@ double roundedDown(double step) {
   return std::isnormal(unit) ? std::floor(step / unit * (1.0 + 1e-4)) * unit : step;
 }
 
+/// Simulated time of a run, s.
+double durationOf(const Scenario& scenario) {
+  const FrameSteps step = frameSteps(scenario);
+  return std::clamp(step.timeOfFrame(scenario.frames - 1), step.time_step, 1e300);
+}
+
 struct Trial {
   bool finished = false;  ///< false: the allowed work was used up, or the trial was stopped
   bool judged = false;  ///< whether the true positions were known, or are too sensitive to be known
@@ -70,9 +76,8 @@ class Trials {
     scenario_.on_divergence = OnDivergence::kStop;
     scenario_.threads = 1;
     scenario_.sleep = 0.0;
-    const FrameSteps step = frameSteps(scenario_);
-    interval_ = step.timeOfFrame(1);
-    duration_ = std::clamp(step.timeOfFrame(scenario_.frames - 1), step.time_step, 1e300);
+    interval_ = frameSteps(scenario_).timeOfFrame(1);
+    duration_ = durationOf(scenario_);
     const Method& method = scenario_.method;
     const bool has_kernel = method.tableau != nullptr && chain.isPlain() &&
                             findAdvanceKernel(fastestChainKernels(), *method.tableau) != nullptr;
@@ -274,11 +279,11 @@ std::string stabilityWarning(const Chain& chain, const State& start, const Scena
                              bool tries_run) {
   const Method& method = scenario.method;
   if (!method.hasFixedStep() || scenario.frames < 2) return {};
-  Trials trials(chain, start, scenario);
-  const bool clearly = isClearlyUnstable(method, chain, scenario.time_step, trials.duration());
+  const bool clearly = isClearlyUnstable(method, chain, scenario.time_step, durationOf(scenario));
   std::string found;
   if (!clearly) {
     if (!tries_run) return {};
+    Trials trials(chain, start, scenario);  // copies the state
     const Trial trial =
         trials.run(trials.scenario(), ReferenceUse::kNever, VerdictKind::kGainedEnergy, kShortWork);
     if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
