@@ -94,9 +94,9 @@ const std::vector<Mistake>& knownMistakes() {
       // The force
       {"no_damping", kAny, "leaves out the damping", [](P& p) { p.damping = 0; }},
       {"damping_sign", kAny, "has the wrong sign of the damping", [](P& p) { p.damping = -p.damping; }},
-      {"damping_not_projected", kAny, "damps the whole relative velocity instead of its part along the spring", [](P& p) { p.damping_kind = Damping::kAllDirections; }},
-      {"damping_own_velocity", kAny, "damps the velocity of the particle instead of the relative velocity of both ends", [](P& p) { p.damping_kind = Damping::kOwnVelocity; }},
-      {"damping_not_unit", kAny, "projects the relative velocity on p_j - p_i instead of the unit vector r", [](P& p) { p.damping_kind = Damping::kUnnormalisedProjection; }},
+      {"damping_not_projected", kAny, "damps the whole relative velocity instead of its part along the spring", [](P& p) { p.damping_kind = Damping::kWhole; }},
+      {"damping_own_velocity", kAny, "damps the velocity of the particle instead of the relative velocity of both ends", [](P& p) { p.damping_kind = Damping::kOwn; }},
+      {"damping_not_unit", kAny, "projects the relative velocity on p_j - p_i instead of the unit vector r", [](P& p) { p.damping_kind = Damping::kNotUnit; }},
       {"damping_absolute", kAny, "takes the absolute value of the damping", [](P& p) { p.damping_kind = Damping::kAbsolute; }},
       {"direction_not_unit", kAny, "multiplies the force by p_j - p_i instead of the unit vector r", [](P& p) { p.direction = Direction::kSeparation; }},
       {"degrees", kAny, "gives cos and sin an angle in degrees", [](P& p) { p.direction = Direction::kDegrees; }},

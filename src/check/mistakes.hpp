@@ -14,13 +14,7 @@ namespace spring_pendulum {
 
 /// The exercise with whatever is changed in it. The initialisers are the right program.
 struct StudentProgram {
-  enum class Damping {
-    kAlongSpring,
-    kAllDirections,
-    kOwnVelocity,
-    kUnnormalisedProjection,
-    kAbsolute
-  };
+  enum class Damping { kProjected, kWhole, kOwn, kNotUnit, kAbsolute };
   enum class Direction { kUnit, kSeparation, kDegrees, kDegreesOfSpring };
   enum class Length { kRight, kInteger, kSquared, kSquaredEverywhere };
   enum class Springs { kAll, kAllButLast, kEverySecond };
@@ -66,7 +60,7 @@ struct StudentProgram {
   bool reverses_particles = false;
   bool single_precision = false;
   bool velocity_by_euler = false;
-  Damping damping_kind = Damping::kAlongSpring;
+  Damping damping_kind = Damping::kProjected;
   Direction direction = Direction::kUnit;
   Length length = Length::kRight;
   Springs springs = Springs::kAll;

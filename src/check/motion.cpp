@@ -155,12 +155,11 @@ class ProgramMotion : public Motion {
     if (program_.length == Length::kSquared) length = square;
     const Vector direction = program_.direction == Direction::kSeparation ? d : r;
     const Vector tension = program_.stiffness * (length - rest_length) * direction;
-    const double rate =
-        (w * (program_.damping_kind == Damping::kUnnormalisedProjection ? d : r)).sum();
+    const double rate = (w * (program_.damping_kind == Damping::kNotUnit ? d : r)).sum();
     switch (program_.damping_kind) {
-      case Damping::kAllDirections:
+      case Damping::kWhole:
         return tension + program_.damping * w;
-      case Damping::kOwnVelocity:
+      case Damping::kOwn:
         return tension - program_.damping * here.tail<2>();
       case Damping::kAbsolute:
         return tension + program_.damping * std::abs(rate) * direction;

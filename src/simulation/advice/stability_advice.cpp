@@ -206,12 +206,12 @@ Found accurateStep(Trials& trials, const Chain& chain, const Scenario& scenario,
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, trials.start());
   const double error = trial.position_error.largest;
   const double factor = std::pow(allowed / error, 1.0 / std::max(method.order, 1));
+  double failed = kInfinity;
+  if (isBad(trial.verdict.kind)) failed = scenario.time_step;
   bool is_judged = true;
   Found found = largestPassingStep(
       std::isfinite(error) ? scenario.time_step * factor : scenario.time_step,
-      std::min(stable, trials.duration()),
-      isBad(trial.verdict.kind) ? scenario.time_step : kInfinity,
-      [&](double step) -> std::optional<bool> {
+      std::min(stable, trials.duration()), failed, [&](double step) -> std::optional<bool> {
         const Trial tried = trials.runWithStep(step, ReferenceUse::kAuto, VerdictKind::kInaccurate);
         is_judged = is_judged && (tried.judged || !tried.isStable());
         if (!tried.finished || !is_judged) return std::nullopt;
