@@ -105,7 +105,7 @@ class Document(unittest.TestCase):
                 self.assertGreater(min(last.tensions), 0.0)
                 self.assertLess(abs(last.energy_error), 1e-3)
                 force = wrench.wait_for(1)[-1].wrench.force
-                self.assertAlmostEqual(math.hypot(force.x, force.z), last.tensions[9], delta=5.0)
+                self.assertAlmostEqual(math.hypot(force.x, force.z + 9.81), last.tensions[9], delta=5.0)
                 self.assertLess(force.x, 0.0)
                 self.assertFalse(any(name.startswith('frame_') for name in os.listdir(folder)))
             finally:
