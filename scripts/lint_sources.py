@@ -26,7 +26,6 @@ ROOMS = {
     'simulation': {'options': 1, 'advice': 3},
     'io': {'files': 1, 'formats': 2, 'program': 3},
     'check': {},
-    'mpi': {},
     'ros': {'parameters': 1, 'messages': 2, 'inputs': 3, 'node': 4},
 }
 # Files directly in the folder of a layer come before its rooms, in these layers after them ...
@@ -145,10 +144,41 @@ def folder_errors(files):
             yield f'{folder}: {count} files, allowed are {MOST_FILES}'
 
 
+# Lines of code that a newcomer has to hold in the head: rooms with their public headers, and a program with its room.
+# A change that does not fit takes something else out; a budget only falls.
+BUDGETS = {
+    'base, model': (1540, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
+    'integration': (6530, 'src/integration', 'include/spring_pendulum/integration'),
+    'simulation': (2960, 'src/simulation', 'include/spring_pendulum/simulation'),
+    'io': (3140, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),
+    'ros': (4810, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),
+    'check': (1790, 'src/check', 'src/check_frames.cpp'),
+    'sweep': (2300, 'src/sweep', 'src/sweep.cpp'),
+    'src, include': (23080, 'src', 'include'),
+    'web': (3610, 'web'),
+    'python': (1390, 'python'),
+    'test': (19300, 'test'),
+}
+MOST_TRACKED = 760  # files
+
+
+def budget_errors():
+    """Prints the lines of each room beside its budget."""
+    tracked = git('ls-files')
+    yield from [f'{len(tracked)} files are tracked, allowed are {MOST_TRACKED}'] if len(tracked) > MOST_TRACKED else []
+    for room, (budget, *places) in BUDGETS.items():
+        paths = [path for path in tracked if not path.startswith('test/data/')
+                 and any(path == place or path.startswith(place + '/') for place in places)]
+        lines = sum((PROJECT / path).read_bytes().count(b'\n') for path in paths if (PROJECT / path).is_file())
+        print(f'{room}: {lines} lines of {budget}')
+        if lines > budget:
+            yield f'{room}: {lines} lines, allowed are {budget}'
+
+
 def check():
     files = sources()
     graph = include_graph(files)
-    errors = [*order_errors(graph), *file_errors(files), *folder_errors(files)]
+    errors = [*order_errors(graph), *file_errors(files), *folder_errors(files), *budget_errors()]
     if round_trip := circle(graph):
         errors.append('circle of includes: ' + ' -> '.join(map(str, round_trip)))
     print('\n'.join(errors), end='\n' if errors else '')
