@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Compares three methods with the same step size and draws compare_methods.png.
 Usage: compare_methods.py [PARTICLE_FILE]"""
+import pathlib
 import sys
 import warnings
 
@@ -8,7 +9,9 @@ from matplotlib import pyplot as plt
 
 import spring_pendulum as sp
 
-particles = sys.argv[1] if len(sys.argv) > 1 else 'particle.txt'
+SCENE = pathlib.Path(__file__).resolve().parents[2] / 'data/particle.txt'
+
+particles = sys.argv[1] if len(sys.argv) > 1 else SCENE
 options = dict(damping=0, time_step=0.05, steps_per_frame=1, frames=161)
 warnings.simplefilter('ignore', RuntimeWarning)  # Euler diverges; that is the point
 

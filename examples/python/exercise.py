@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Simulates the exercise and draws exercise.png. Usage: exercise.py [PARTICLE_FILE [METHOD]]"""
+import pathlib
 import sys
 
 import spring_pendulum as sp
 
-particles = sys.argv[1] if len(sys.argv) > 1 else 'particle.txt'
+SCENE = pathlib.Path(__file__).resolve().parents[2] / 'data/particle.txt'
+
+particles = sys.argv[1] if len(sys.argv) > 1 else SCENE
 method = sys.argv[2] if len(sys.argv) > 2 else 'Runge-Kutta-4'
 
 run = sp.simulate(particles, method=method)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Draws work_precision.png: run time against error on your own scene, beside SciPy's DOP853 with a
 right-hand side in NumPy. Usage: work_precision.py [PARTICLE_FILE]"""
+import pathlib
 import sys
 import time
 
@@ -10,7 +11,9 @@ from scipy.integrate import solve_ivp
 
 import spring_pendulum as sp
 
-particles = sys.argv[1] if len(sys.argv) > 1 else 'particle.txt'
+SCENE = pathlib.Path(__file__).resolve().parents[2] / 'data/particle.txt'
+
+particles = sys.argv[1] if len(sys.argv) > 1 else SCENE
 duration = 5.0  # s
 start = sp.simulate(particles, frames=1)
 masses, count = start.chain.masses[:, None], len(start.chain)

@@ -61,6 +61,8 @@ void checkTableau(std::string_view method, const ButcherTableau& tableau) {
                     "and above the diagonal",
                     i + 1, method));
   }
+  if (orderConditionResidual(tableau, tableau.b, 1) <= kRounding) return;
+  throw InputError(fmt::format("method '{}': the weights b must add up to 1", method));
 }
 
 Method methodOfTableau(const std::string& name, const ButcherTableau& tableau) {
@@ -68,9 +70,6 @@ Method methodOfTableau(const std::string& name, const ButcherTableau& tableau) {
   Method method;
   method.name = name;
   method.order = orderOf(tableau);
-  if (method.order == 0) {
-    throw InputError(fmt::format("method '{}': the weights b must add up to 1", name));
-  }
   method.stages = static_cast<int>(tableau.stages);
   method.real_stability_limit = stabilityLimit(tableau, -1.0);
   method.imaginary_stability_limit = stabilityLimit(tableau, {0.0, 1.0});
