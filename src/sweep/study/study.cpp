@@ -21,8 +21,8 @@ constexpr std::uint32_t kDisplacement = 1;
 constexpr std::uint32_t kVelocity = 2;
 
 /// Options that belong to a single run, not to a case.
-constexpr std::string_view kOfOneRun[] = {"resume",     "output",       "no_frames", "energy",
-                                          "save_state", "threads"};
+constexpr std::string_view kOfOneRun[] = {"resume", "output",     "no_frames",
+                                          "energy", "save_state", "threads"};
 
 double draw(const Distribution& distribution, RandomNumbers& numbers) {
   const double a = distribution.first, b = distribution.second;
