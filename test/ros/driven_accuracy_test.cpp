@@ -1,7 +1,8 @@
 // A cable whose ends follow odometry at 50 Hz: the node's way from inputs to accelerations, and the
 // motion against a solution with 113 bits under the same accelerations.
-#include "ros/inputs/held_inputs.hpp"
-#include "ros/inputs/holders.hpp"
+#include "ros/inputs/driver.hpp"
+#include "ros/inputs/follower.hpp"
+#include "ros/inputs/robots.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,10 +42,10 @@ class Robot {
         from_{start.x()[particle], start.y()[particle]},
         phase_(phase),
         random_(seed),
-        follower_(HolderCheck("odom", 1.0)) {}
+        follower_(InputCheck("odom", 1.0)) {}
 
   /// Sends the odometry until the present time, and holds the particle.
-  void follow(const Run& run, Holders& holders) {
+  void follow(const Run& run, Driver& driver) {
     for (; next_ * kInputInterval <= run.nextTime() + 1e-9; ++next_) {
       const double stamp = next_ * kInputInterval;
       Target seen = handAt(stamp, from_, phase_);
@@ -55,7 +56,7 @@ class Robot {
     const PlaneVector<double> here{run.state().x()[particle_], run.state().y()[particle_]};
     const auto target = follower_.targetAt(run.nextTime(), here, run.nextTime() - run.time());
     ASSERT_TRUE(target.has_value());
-    holders.hold(particle_, *target);
+    driver.on(Hold{particle_, *target});
   }
 
   /// Distance of the particle from its holder, m.
@@ -100,13 +101,13 @@ Outcome carried(const std::string& method, double tolerance, std::int64_t steps 
   std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   run.advance(*integrator);
   test::PreciseMotion precise(scene);
-  Holders holders(run);
+  Driver driver(run);
   Robot left(0, scene.start, 0.3, 1), right(6, scene.start, 2.0, 2);
   Outcome outcome;
   for (int k = 0; k < kStates; ++k) {
-    left.follow(run, holders);
-    right.follow(run, holders);
-    holders.apply(run, integrator, run.nextTime(), false);
+    left.follow(run, driver);
+    right.follow(run, driver);
+    driver.apply(run, integrator, run.nextTime(), false);
     precise.drive(run.chain());
     const double before = run.time();
     run.advance(*integrator);

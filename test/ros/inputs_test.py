@@ -37,7 +37,7 @@ def numbers_of(text):
 
 CONSTANTS_OF_RUN = ['method=Runge-Kutta-4', 'frames=20', 'steps_per_frame=10', 'time_step=0.01', 'tolerance=1e-6',
                     'frame_interval=0.1', 'stiffness=50', 'damping=1', 'rest_length=1', 'gravity=9.81', 'air_drag=0',
-                    'threads=1', 'sleep=0']
+                    'threads=1', 'sleep=0', 'on_divergence=stop']
 
 
 def start(**values):
@@ -318,6 +318,23 @@ class Repeated(unittest.TestCase):
                 with open(path, 'wb') as file:
                     file.write(whole[:length])
                 self.check_refused(folder, path, 'cannot be read as a bag', 1)
+
+    def test_repeats_a_run_that_continues_after_a_divergence(self):
+        values = {'method': 'Euler', 'time_step': '0.1', 'frames': '60', 'on_divergence': 'continue'}
+        constants = [text.split('=')[0] + '=' + values.get(*text.split('=')) for text in CONSTANTS_OF_RUN]
+        with Folder() as folder:
+            path = os.path.join(folder, 'inputs.bag')
+            write_inputs(path, start(scenario=constants), change(1, 59.0, scenario=constants, end=True))
+            done = self.replay(folder, path)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(', 60 frames, ', done.stdout)
+
+    def test_a_recorder_gets_all_inputs_of_a_short_run(self):
+        inputs = Listener('inputs', PendulumInput)
+        with PendulumNode(frames=3, at_end='exit') as node:
+            self.assertEqual(node.wait(), 0, node.output())
+        inputs.close()
+        self.assertEqual([(m.number, m.start, m.end) for m in inputs.messages], [(0, True, False), (1, False, True)])
 
     def test_ends_where_the_node_ended_and_tells_if_that_is_unknown(self):
         with Folder() as folder:

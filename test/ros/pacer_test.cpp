@@ -30,10 +30,10 @@ TEST(Pacer, FactorZeroMakesEverythingDueAtOnce) {
 TEST(Pacer, CatchesUpWithALittleDelayButNotWithALongOne) {
   Pacer pacer(1.0, 0.0);
   pacer.start(0.0, kStart);
-  pacer.note(1.0, after(1.05));
+  pacer.reached(1.0, after(1.05));
   EXPECT_NEAR((pacer.dueTime(2.0) - kStart).toSec(), 2.0, 1e-6);
   EXPECT_TRUE(pacer.isLate(1.0, after(1.07)));
-  pacer.note(2.0, after(10.0));
+  pacer.reached(2.0, after(10.0));
   EXPECT_NEAR((pacer.dueTime(3.0) - kStart).toSec(), 11.0, 1e-6);
 }
 
@@ -41,7 +41,7 @@ TEST(Pacer, MeasuresItsSpeed) {
   Pacer pacer(3.0, 0.0);
   pacer.start(0.0, kStart);
   EXPECT_EQ(pacer.speed(), 0.0);
-  pacer.note(1.5, after(0.5));
+  pacer.reached(1.5, after(0.5));
   EXPECT_NEAR(pacer.speed(), 3.0, 1e-5);
 }
 

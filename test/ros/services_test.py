@@ -69,6 +69,31 @@ class Services(unittest.TestCase):
         self.check_stands_still()
         self.assertEqual(self.last().frame, 0)
 
+    def test_a_pause_at_the_last_frame_of_a_loop_is_kept(self):
+        with PendulumNode(particles=SCENE, frames=3, at_end='loop', wait_for_subscribers=1):
+            self.state.wait_for_any(lambda m: m.frame == 2)
+            wait_until(lambda: self.last().frame == 2 and self.call('pause', SetBool, True), 'the pause')
+            frame, count = self.last().frame, len(self.state.messages)
+            self.state.wait_for(count + 4)  # 2 s, a loop would start after 1 s
+            self.assertEqual({m.frame for m in self.state.messages[count + 1:]}, {frame})
+
+    def test_resets_and_rests_need_no_memory(self):
+        with Folder() as folder:
+            scene = folder + '/chain.txt'
+            with open(scene, 'w') as file:
+                file.writelines('0 %g 1\n' % -i for i in range(10000))
+            with PendulumNode(particles=scene, frames=1000, real_time_factor=1.0, at_end='hold') as node:
+                self.call('pause', SetBool, True)
+                calls = [rospy.ServiceProxy('/pendulum/' + name, Trigger, persistent=True) for name in ('reset', 'at_rest')]
+                before = 0
+                for k in range(1000):
+                    for call in calls:
+                        call()
+                    if k == 99:
+                        before = node.resident_bytes()
+                # The first hundred fill the 32 MB of inputs that are kept. Measured: below 1 MB.
+                self.assertLess(node.resident_bytes() - before, 50e6)
+
     def test_step_at_the_end_is_refused_and_reset_plays_again(self):
         status = Listener('status', PendulumStatus)
         with PendulumNode(particles=SCENE, frames=3, at_end='hold', wait_for_subscribers=2) as node:

@@ -9,8 +9,10 @@ import rospy
 import rostest
 from geometry_msgs.msg import Vector3
 from rosgraph_msgs.msg import Clock
-from spring_pendulum.msg import PendulumState
-from spring_pendulum.srv import ApplyForce
+from spring_pendulum.msg import PendulumInput, PendulumState
+from spring_pendulum.srv import ApplyForce, Set
+from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import InteractiveMarkerFeedback
 
 from pendulum_process import Listener, PendulumNode, wait_until
 
@@ -26,6 +28,45 @@ class SimTime(unittest.TestCase):
         listener.close()
         self.assertGreater(len(listener.messages), 11)
         self.assert_increasing(listener)
+
+    def test_every_interaction_in_four_states_of_the_clock(self):
+        clock = rospy.Publisher('/clock', Clock, queue_size=10, latch=True)
+        inputs = Listener('inputs', PendulumInput)
+        for state in ('none', 'stopped', 'own', 'real'):
+            rospy.set_param('/use_sim_time', state != 'real')
+            if state == 'stopped':
+                clock.publish(Clock(rospy.Time(100)))
+            del inputs.messages[:]
+            with PendulumNode(frames=100000, real_time_factor=1.0, at_end='hold',
+                              publish_clock=state == 'own') as node:
+                self.interact(node, state != 'none')
+                self.assertGreater(min(m.header.stamp.to_nsec() for m in inputs.wait_for(3)), 0)
+                node.interrupt()
+                self.assertEqual(node.wait(), 0, node.output())
+        rospy.set_param('/use_sim_time', True)
+        inputs.close()
+
+    def interact(self, node, has_clock):
+        def call(name, kind, *arguments):
+            rospy.wait_for_service('/pendulum/' + name, timeout=60)
+            return rospy.ServiceProxy('/pendulum/' + name, kind)(*arguments)
+        hand = rospy.Publisher('handles/feedback', InteractiveMarkerFeedback, queue_size=10)
+        message = InteractiveMarkerFeedback(client_id='test', marker_name='particle_3',
+                                            event_type=InteractiveMarkerFeedback.POSE_UPDATE)
+        message.header.frame_id = 'nowhere'
+
+        def is_warned():  # the connection may still be that to an earlier node
+            hand.publish(message)
+            return any('handle particle_3: no transform' in line for line in node.lines('WARN'))
+        if has_clock:  # at ROS time 0, the server of interactive_markers rejects all feedback
+            wait_until(is_warned, 'the warning')
+        for frame in ('pendulum_camera', 'nowhere'):
+            call('apply_force', ApplyForce, 3, frame, Vector3(1, 0, 0), 0.0, 1.0)
+        for name, kind, *arguments in (('pause', SetBool, True), ('step', Trigger), ('set', Set, 'damping', '0.5'),
+                                       ('at_rest', Trigger), ('clear_forces', Trigger), ('pause', SetBool, False),
+                                       ('reset', Trigger)):
+            answer = call(name, kind, *arguments)
+            self.assertTrue(answer.success, answer.message)
 
     def test_without_a_clock_every_call_answers_and_a_signal_ends_the_node(self):
         with PendulumNode(frames=100000, real_time_factor=1.0, at_end='hold', held='last',

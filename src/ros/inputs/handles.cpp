@@ -1,5 +1,6 @@
 #include "ros/inputs/handles.hpp"
 
+#include "base/numbers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 
@@ -55,11 +56,11 @@ std::vector<std::ptrdiff_t> Handles::chosen(std::ptrdiff_t particles) {
 }
 
 Handles::Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& options,
-                 Holders& holders, Frames& frames, MenuActions actions)
+                 const Driver& driver, Frames& frames, RequestHandler take)
     : run_(run),
-      holders_(holders),
+      driver_(driver),
       frames_(frames),
-      actions_(std::move(actions)),
+      take_(std::move(take)),
       frame_id_(options.frame_id),
       y_(options.y_offset),
       farthest_(10.0 * std::max(chainLength(run.chain(), run.start()), 1.0)),
@@ -90,53 +91,59 @@ void Handles::insert(std::ptrdiff_t particle, double size) {
   menu_.apply(server_, marker.name);
 }
 
-void Handles::addEntry(const std::string& title, std::function<void(std::ptrdiff_t)> action) {
-  menu_.insert(title, [this, action = std::move(action)](const Feedback& feedback) {
+void Handles::ask(const Request& request) {
+  try {
+    take_(request);
+  } catch (const InputError& error) {
+    ROS_WARN_STREAM(error.what());
+  }
+}
+
+void Handles::addEntry(const std::string& title, std::function<Request(std::ptrdiff_t)> request) {
+  menu_.insert(title, [this, request = std::move(request)](const Feedback& feedback) {
     for (const std::ptrdiff_t particle : particles_) {
-      if (feedback->marker_name == nameOf(particle)) action(particle);
+      if (feedback->marker_name == nameOf(particle)) ask(request(particle));
     }
-    actions_.show();
     checkMenu();
   });
 }
 
 void Handles::makeMenu() {
-  addEntry("Pause or go on", [this](std::ptrdiff_t) { actions_.toggle_pause(); });
-  addEntry("Step", [this](std::ptrdiff_t) { actions_.step(); });
-  addEntry("Reset", [this](std::ptrdiff_t) { actions_.reset(); });
-  addEntry("Save state", [this](std::ptrdiff_t) { actions_.save_state(); });
-  addEntry("Hold here", [this](std::ptrdiff_t i) { holders_.hold(i); });
-  addEntry("Release", [this](std::ptrdiff_t i) { holders_.release(i); });
-  const Scenario& launched = run_.scenario();
-  addSwitch("Damping", &Scenario::damping,
-            launched.damping > 0.0 ? launched.damping : Scenario{}.damping);
-  addSwitch("Gravity", &Scenario::gravity,
-            launched.gravity != 0.0 ? launched.gravity : Scenario{}.gravity);
-  addMethods();
-}
-
-void Handles::addSwitch(const std::string& title, double Scenario::*constant, double on) {
-  const Entry entry = menu_.insert(title, [this, constant, on](const Feedback&) {
-    double& value = holders_.wanted().*constant;
-    value = value == 0.0 ? on : 0.0;
-    checkMenu();
+  addEntry("Pause or go on", [](std::ptrdiff_t) { return Pause{}; });
+  addEntry("Step", [this](std::ptrdiff_t) {
+    ask(Pause{true});
+    return Step{};
   });
-  checks_[entry] = [this, constant] { return holders_.wanted().*constant != 0.0; };
-}
-
-void Handles::addMethods() {
-  const Entry parent = menu_.insert("Method");
+  addEntry("Reset", [](std::ptrdiff_t) { return Reset{}; });
+  addEntry("Save state", [](std::ptrdiff_t) { return SaveState{}; });
+  addEntry("Hold here", [](std::ptrdiff_t i) { return Hold{i, {}}; });
+  addEntry("Release", [](std::ptrdiff_t i) { return Release{i}; });
+  const Scenario& launched = run_.scenario();
+  addSwitch("Damping", "damping", &Scenario::damping,
+            launched.damping > 0.0 ? launched.damping : Scenario{}.damping);
+  addSwitch("Gravity", "gravity", &Scenario::gravity,
+            launched.gravity != 0.0 ? launched.gravity : Scenario{}.gravity);
+  const Entry methods = menu_.insert("Method");
   for (const Method& method : methodTable()) {
-    const Entry entry = menu_.insert(parent, method.name, [this, &method](const Feedback&) {
-      holders_.wanted().method = method;
+    const Entry entry = menu_.insert(methods, method.name, [this, &method](const Feedback&) {
+      ask(SetConstant{"method", method.name});
       checkMenu();
     });
-    checks_[entry] = [this, &method] { return &holders_.wanted().method.get() == &method; };
+    checks_[entry] = [this, &method] { return &driver_.wanted().method.get() == &method; };
   }
 }
 
+void Handles::addSwitch(const std::string& title, const std::string& name,
+                        double Scenario::*constant, double on) {
+  const Entry entry = menu_.insert(title, [this, name, constant, on](const Feedback&) {
+    ask(SetConstant{name, numberText(driver_.wanted().*constant == 0.0 ? on : 0.0)});
+    checkMenu();
+  });
+  checks_[entry] = [this, constant] { return driver_.wanted().*constant != 0.0; };
+}
+
 void Handles::checkMenu() {
-  if (!hands_.empty()) return;
+  if (!drags_.empty()) return;
   bool changed = false;
   for (const auto& [entry, is_on] : checks_) {
     const bool on = is_on();
@@ -170,35 +177,33 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
     case InteractiveMarkerFeedback::MOUSE_DOWN:
     case InteractiveMarkerFeedback::KEEP_ALIVE:
     case InteractiveMarkerFeedback::POSE_UPDATE: {
-      const bool is_new = hands_.count(particle) == 0;
+      const bool is_new = drags_.count(particle) == 0;
       if (is_new && feedback->event_type == InteractiveMarkerFeedback::KEEP_ALIVE) return;
       const bool was_held =
-          is_new ? holders_.isHeld(particle) || particle == 0 : hands_[particle].was_held;
+          is_new ? driver_.isHeld(particle) || particle == 0 : drags_[particle].was_held;
       if (feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) {
         const auto position = planePosition(feedback);
         if (!position) return;
         const double dx = position->x - run_.state().x()[particle];
         const double dy = position->y - run_.state().y()[particle];
         if (std::hypot(dx, dy) <= farthest_) {  // false for a position that is not finite
-          holders_.hold(particle, {*position, {}});
+          ask(Hold{particle, Target{*position, {}, {}}});
         } else {
           if (warnings_.isDue())
             ROS_WARN_STREAM("handle " << feedback->marker_name
-                                      << ": the hand is too far away to be followed");
+                                      << ": the mouse is too far away to be followed");
         }
       } else if (is_new) {
-        holders_.hold(particle);
+        ask(Hold{particle, {}});
       }
-      hands_[particle] = {ros::SteadyTime::now(), was_held};
-      actions_.show();
+      drags_[particle] = {ros::SteadyTime::now(), was_held};
       return;
     }
     case InteractiveMarkerFeedback::MOUSE_UP: {
-      const auto hand = hands_.find(particle);
-      if (hand == hands_.end()) return;
-      if (!hand->second.was_held) holders_.release(particle);
-      hands_.erase(hand);
-      actions_.show();
+      const auto drag = drags_.find(particle);
+      if (drag == drags_.end()) return;
+      if (!drag->second.was_held) ask(Release{particle});
+      drags_.erase(drag);
       return;
     }
     default:
@@ -206,17 +211,17 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
   }
 }
 
-void Handles::watch() {
+void Handles::releaseSilent() {
   const ros::SteadyTime now = ros::SteadyTime::now();
-  for (auto hand = hands_.begin(); hand != hands_.end();) {
-    if ((now - hand->second.heard).toSec() < kLongestSilence) {
-      ++hand;
+  for (auto drag = drags_.begin(); drag != drags_.end();) {
+    if ((now - drag->second.heard).toSec() < kLongestSilence) {
+      ++drag;
       continue;
     }
-    ROS_WARN_STREAM("no word from the hand at particle " << hand->first + 1
-                                                         << " for a second: released");
-    if (!hand->second.was_held) holders_.release(hand->first);
-    hand = hands_.erase(hand);
+    ROS_WARN_STREAM("particle " << drag->first + 1
+                                << ": no input from the mouse for 1 s: released");
+    if (!drag->second.was_held) ask(Release{drag->first});
+    drag = drags_.erase(drag);
   }
 }
 
@@ -239,7 +244,7 @@ void Handles::show() {
 }
 
 void Handles::reset() {
-  hands_.clear();
+  drags_.clear();
 }
 
 }  // namespace spring_pendulum

@@ -1,9 +1,9 @@
 // Handles in rviz: interactive markers with which particles are grabbed, and their context menu.
 #pragma once
 
-#include "ros/inputs/answer.hpp"
+#include "ros/inputs/driver.hpp"
 #include "ros/inputs/frames.hpp"
-#include "ros/inputs/holders.hpp"
+#include "ros/messages/throttle.hpp"
 #include "ros/parameters/node_options.hpp"
 
 #include <ros/node_handle.h>
@@ -19,26 +19,17 @@
 
 namespace spring_pendulum {
 
-/// What the menu asks of the program.
-struct MenuActions {
-  std::function<void()> toggle_pause;
-  std::function<void()> step;
-  std::function<void()> reset;
-  std::function<void()> save_state;
-  std::function<void()> show;  ///< shows the state again soon
-};
-
 /// Handles on all particles of a short chain and on twenty of a long one. A dragged particle follows the
 /// hand and is released when the button is, or when the hand is silent for a second.
 class Handles {
  public:
-  Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Holders& holders,
-          Frames& frames, MenuActions actions);
+  Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& options, const Driver& driver,
+          Frames& frames, RequestHandler take);
 
   /// Releases hands that are silent. Must be called before every state.
-  void watch();
+  void releaseSilent();
   /// Whether the mouse drags a particle.
-  bool isGrabbed() const { return !hands_.empty(); }
+  bool isGrabbed() const { return !drags_.empty(); }
   /// Moves the handles to the particles. Costs nothing without rviz.
   void show();
   /// Lets go of all particles.
@@ -52,7 +43,7 @@ class Handles {
   using Feedback = visualization_msgs::InteractiveMarkerFeedbackConstPtr;
   using Entry = interactive_markers::MenuHandler::EntryHandle;
 
-  struct Hand {
+  struct Drag {
     ros::SteadyTime heard;  ///< last feedback
     bool was_held;          ///< whether the particle was held before
   };
@@ -60,9 +51,12 @@ class Handles {
   void insert(std::ptrdiff_t particle, double size);
   geometry_msgs::Pose poseOf(std::ptrdiff_t particle) const;
   void makeMenu();
-  void addEntry(const std::string& title, std::function<void(std::ptrdiff_t)> action);
-  void addSwitch(const std::string& title, double Scenario::*constant, double on);
-  void addMethods();
+  /// Asks the node, and logs a refusal.
+  void ask(const Request& request);
+  /// \param request makes the request for a particle
+  void addEntry(const std::string& title, std::function<Request(std::ptrdiff_t)> request);
+  void addSwitch(const std::string& title, const std::string& name, double Scenario::*constant,
+                 double on);
   /// Checks the entries of what is in effect, unless a hand would lose its particle by that.
   void checkMenu();
   void onFeedback(std::ptrdiff_t particle, const Feedback& feedback);
@@ -70,9 +64,9 @@ class Handles {
   std::optional<PlaneVector<double>> planePosition(const Feedback& feedback);
 
   const Run& run_;
-  Holders& holders_;
+  const Driver& driver_;
   Frames& frames_;
-  MenuActions actions_;
+  RequestHandler take_;
   std::string frame_id_;
   double y_;
   double farthest_;  ///< m from the particle, of a believable hand
@@ -81,7 +75,7 @@ class Handles {
   std::map<Entry, std::function<bool()>> checks_;
   std::map<Entry, bool> checked_;
   std::vector<std::ptrdiff_t> particles_;
-  std::map<std::ptrdiff_t, Hand> hands_;  ///< by dragged particle
+  std::map<std::ptrdiff_t, Drag> drags_;  ///< by dragged particle
   Throttle warnings_;
   ros::Publisher updates_;  ///< counts the subscribers of the server
 };

@@ -21,9 +21,9 @@
 namespace spring_pendulum {
 namespace {
 
-/// Whether the frames depend on an option: the method and all numbers.
+/// Whether the frames depend on an option besides the start: the method, all numbers, and where a run ends.
 bool isRecorded(const Option& option) {
-  return std::holds_alternative<Number>(option.value) ||
+  return option.key == "on_divergence" || std::holds_alternative<Number>(option.value) ||
          std::holds_alternative<Count>(option.value) ||
          std::holds_alternative<MethodName>(option.value);
 }

@@ -1,7 +1,6 @@
 #include "ros/messages/marker_builder.hpp"
 
 #include "ros/messages/state_builder.hpp"
-#include "ros/messages/text_width.hpp"
 #include "ros/parameters/color.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
@@ -133,9 +132,9 @@ MarkerBuilder::MarkerBuilder(const Run& run, const NodeOptions& options) : optio
 void MarkerBuilder::fitView(const Run& run, const State& state) {
   const bool drawable = run.isFinite() && run.isShown();
   // The other rows keep to the view of the first one.
-  const bool may_widen = drawable && isFirstRow() && !holds_camera_;
+  const bool may_widen = drawable && isFirstRow() && !camera_frozen_;
   if (!view_) {
-    view_.emplace(run, textLines());
+    view_.emplace(run, options_.held.empty(), textLines());
     if (may_widen) view_->widenFor(state);
   } else if (!may_widen || !view_->widenFor(state)) {
     return;
@@ -174,19 +173,17 @@ void MarkerBuilder::placeText() {
                                view_->box().top + 0.5 * lines * view_->lineDistance());
 }
 
-/// Places a row of text at the upper left edge of the picture, wherever the camera is: rows of several
+/// Places the text at its row in the upper part of the picture, wherever the camera is: rows of several
 /// nodes keep their distance from each other.
 void MarkerBuilder::placeRow(visualization_msgs::Marker& text) const {
-  const double width = textWidth(text.text) * text.scale.z;
-  const double right = 0.5 * width - view_->rowReach();
   const double rows_above = static_cast<double>(options_.text_rows - options_.text_row) - 0.5;
   const double up = view_->halfHeight() - rows_above * view_->lineDistance();
   if (options_.camera_frame.empty()) {
     text.pose.position =
-        pointAt(view_->box().centerX() + right, options_.y_offset, view_->cameraHeight() + up);
+        pointAt(view_->box().centerX(), options_.y_offset, view_->cameraHeight() + up);
   } else {
     text.header.frame_id = options_.camera_frame;
-    text.pose.position = pointAt(view_->cameraDistance(), -right, up);
+    text.pose.position = pointAt(view_->cameraDistance(), 0.0, up);
   }
 }
 
@@ -336,6 +333,9 @@ void MarkerBuilder::paint(const Run& run) {
   particles.colors.assign(particles.points.size(), divergedColor());
   if ((!diverged || !options_.color.empty()) && particles.points.size() > 1) {
     particles.colors = mass_colors_;
+    for (std::size_t n = 1; n < drawn_.size(); ++n) {
+      if (run.chain().isHeld(drawn_[n])) particles.colors[n] = anchorColor();
+    }
   }
 }
 

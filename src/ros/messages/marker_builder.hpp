@@ -37,7 +37,7 @@ class MarkerBuilder {
                                                const std::string& pace);
 
   /// Keeps the camera where it is, for example while the mouse drags a particle.
-  void holdCamera(bool hold) { holds_camera_ = hold; }
+  void freezeCamera(bool freeze) { camera_frozen_ = freeze; }
 
   /// Pose of a camera that shows the whole scene: x forward, z up. Valid after `build`.
   geometry_msgs::TransformStamped camera(const std_msgs::Header& header) const;
@@ -75,7 +75,7 @@ class MarkerBuilder {
   std::deque<TrailPoint> trail_;
   std::optional<SceneView> view_;  ///< set when the first state is drawn
   int camera_changes_ = 0;
-  bool holds_camera_ = false;
+  bool camera_frozen_ = false;
   visualization_msgs::MarkerArray markers_;
 };
 

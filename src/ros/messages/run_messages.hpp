@@ -26,7 +26,7 @@ class RunMessages {
 
   /// Adds the tip to the trail, also of a state without markers.
   void trackTip(const Run& run) { markers_.trackTip(run); }
-  void holdCamera(bool hold) { markers_.holdCamera(hold); }
+  void freezeCamera(bool freeze) { markers_.freezeCamera(freeze); }
   const visualization_msgs::MarkerArray& markers(const Run& run, const std_msgs::Header& header,
                                                  const std::string& pace = "") {
     return markers_.build(run, header, pace);

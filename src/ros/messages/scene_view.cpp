@@ -1,6 +1,5 @@
 #include "ros/messages/scene_view.hpp"
 
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 
 #include <algorithm>
@@ -13,15 +12,11 @@ constexpr double kAspect = 1.3;         ///< least ratio of width to height of t
 constexpr double kMargin = 0.05;        ///< around the scene, in sizes of the picture
 constexpr double kTextHeight = 0.04;    ///< in sizes of the picture
 constexpr double kLineDistance = 1.35;  ///< in text heights
-constexpr double kRowReach = 1.2;       ///< in half heights; the window of rviz is 1.27 wide
 constexpr double kGridLines = 8.0;      ///< least number in the height of the picture
 const double kHalfViewTangent = std::sqrt(2.0) - 1.0;  ///< tan of rviz's half angle, 22.5 degrees
 
-constexpr double kMostReaches = 4.0;  ///< largest shown distance from the anchor
-constexpr double kGrowth = 0.25;      ///< relative growth of the frame when the chain leaves it
-constexpr double kMostGrowth = 3.0;   ///< largest size of the frame, in extents of the motion
-constexpr double kMostWork = 8e-3;    ///< of the probe, s, see Integrator::work
-constexpr double kLargestProbeStep = 0.02;  // s
+constexpr double kGrowth = 0.25;      ///< of the picture when the chain leaves it, in sizes
+constexpr double kMostGrowth = 16.0;  ///< largest picture, in sizes of the first one
 
 Box boxOf(const State& state) {
   return {state.x().minCoeff(), state.x().maxCoeff(), state.y().minCoeff(), state.y().maxCoeff()};
@@ -32,18 +27,17 @@ Box intersection(const Box& a, const Box& b) {
           std::min(a.top, b.top)};
 }
 
-/// The larger of the length at the start and the sum of rest lengths, m; never 0.
-double reachOf(const Chain& chain, const State& start) {
-  const Eigen::Index springs = chain.size() - 1;
-  const double reach = std::max(springLengths(start, 0, springs),
-                                static_cast<double>(springs) * chain.spring().rest_length);
-  return reach > 0.0 ? reach : 1.0;
-}
-
-/// The square around the anchor.
-Box around(const State& start, double distance) {
-  const double x = start.x()[0], y = start.y()[0];
-  return {x - distance, x + distance, y - distance, y + distance};
+/// Length of the chain at rest, m; at most ten times its length without forces.
+double hangingLength(const Chain& chain) {
+  const SpringLaw& spring = chain.spring();
+  const double relaxed = static_cast<double>(chain.size() - 1) * spring.rest_length;
+  if (spring.stiffness == 0.0) return relaxed;
+  double length = relaxed, weight = 0.0;
+  for (Eigen::Index i = chain.size() - 1; i > 0; --i) {
+    weight += chain.masses()[i] * std::abs(chain.gravity());
+    length += weight / spring.stiffness;
+  }
+  return relaxed > 0.0 ? std::min(length, 10.0 * relaxed) : length;
 }
 
 bool contains(const Box& outer, const Box& inner) {
@@ -60,33 +54,6 @@ Box padded(const Box& box, double share) {
   return {box.left - margin, box.right + margin, box.bottom - margin, box.top + margin};
 }
 
-/// Stable step size of Runge-Kutta-4, s: for a spring between two particles of the least mass; 0 if
-/// the springs are too fast.
-double probeStep(const Chain& chain) {
-  const double mass = chain.masses().tail(chain.size() - 1).minCoeff();
-  const double frequency = 2.0 * std::sqrt(chain.spring().stiffness / mass);
-  const double rate = 4.0 * chain.spring().damping / mass;
-  return std::min(kLargestProbeStep, 1.0 / (frequency + rate));
-}
-
-/// Bounds of the motion within `duration` s, or within a bounded work.
-Box probeMotion(const Chain& chain, const State& start, double duration) {
-  Box box = boxOf(start);
-  if (chain.size() < 2) return box;
-  const double step = probeStep(chain);
-  if (step == 0.0) return box;
-  const auto integrator = makeIntegrator("Runge-Kutta-4", chain);
-  State state = start;
-  constexpr int kStepsPerLook = 4;
-  const double looks = std::floor(duration / step) / kStepsPerLook;
-  for (double look = 0.0; look < looks && integrator->work() < kMostWork; ++look) {
-    integrator->advance(state, step, kStepsPerLook);
-    if (!state.values().allFinite()) break;
-    box.include(boxOf(state));
-  }
-  return box;
-}
-
 }  // namespace
 
 void Box::include(const Box& other) {
@@ -96,18 +63,25 @@ void Box::include(const Box& other) {
   top = std::max(top, other.top);
 }
 
-SceneView::SceneView(const Run& run, int text_lines) : text_lines_(text_lines) {
-  const Scenario& scenario = run.scenario();
+SceneView::SceneView(const Run& run, bool hangs, int text_lines) : text_lines_(text_lines) {
   const State& start = run.start();
-  const double reach = reachOf(run.chain(), start);
-  const double duration = frameSteps(scenario).timeOfFrame(scenario.frames - 1);
-  Box scene =
-      intersection(probeMotion(run.chain(), start, duration), around(start, kMostReaches * reach));
-  scene.include(boxOf(start));
-  if (sizeOf(scene) < 0.1 * reach) scene.include(around(start, 0.5 * reach));
+  const Eigen::Index springs = run.chain().size() - 1;
+  double length = springLengths(start, 0, springs);
+  if (hangs) length = std::max(length, hangingLength(run.chain()));
+  if (!(length > 0.0)) length = 1.0;
+  Box scene = boxOf(start);
+  const double x = start.x()[0], y = start.y()[0];
+  if (hangs) {
+    const double end = run.chain().gravity() < 0.0 ? y + length : y - length;
+    const double aside = std::max(x - scene.left, scene.right - x);
+    scene.include({x - aside, x + aside, std::min(y, end), std::max(y, end)});
+  }
+  if (sizeOf(scene) < 0.5 * length) {
+    const double half = 0.5 * length;
+    scene.include({x - half, x + half, y - half, y + half});
+  }
   box_ = padded(scene, kMargin);
   largest_ = padded(box_, 0.5 * (kMostGrowth - 1.0));
-  largest_.include(around(start, kMostGrowth * kMostReaches * reach));
 }
 
 bool SceneView::widenFor(const State& state) {
@@ -151,10 +125,6 @@ double SceneView::cameraHeight() const {
 
 double SceneView::halfHeight() const {
   return 0.5 * std::max(box_.height() + text_lines_ * lineDistance(), box_.width() / kAspect);
-}
-
-double SceneView::rowReach() const {
-  return kRowReach * halfHeight();
 }
 
 double SceneView::cameraDistance() const {

@@ -18,12 +18,13 @@ struct Box {
   double centerX() const { return 0.5 * (left + right); }
 };
 
-/// A frame around the start and the whole motion, which is estimated with coarse steps and bounded
-/// work. If the motion leaves the frame later, the frame widens in steps.
+/// A frame around the start and, for a chain that hangs from P_1, its length at rest. When the chain
+/// leaves the frame, the frame widens in steps.
 class SceneView {
  public:
+  /// \param hangs      whether only P_1 is held
   /// \param text_lines lines of text above the scene
-  SceneView(const Run& run, int text_lines);
+  SceneView(const Run& run, bool hangs, int text_lines);
 
   /// Widens the frame if the chain has left it.
   /// \returns whether the frame changed
@@ -36,8 +37,6 @@ class SceneView {
   double textHeight() const;
   /// Half the height of the picture in the plane, with the text, m.
   double halfHeight() const;
-  /// Distance of the left edge of rows of text from the middle, m.
-  double rowReach() const;
   /// Distance of the lines of text, m.
   double lineDistance() const;
   /// Distance of the grid lines, m: 1, 2 or 5 times a power of ten.

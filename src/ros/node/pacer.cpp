@@ -5,9 +5,9 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kLateness = 0.1;     // s, largest delay that the run makes up for
-constexpr double kMeasureOver = 0.5;  // s, duration of a measurement of the speed
-constexpr double kLongestWait = 1e9;  // s; ros::Duration has 32 bits for seconds
+constexpr double kLateness = 0.1;         // s, largest delay that the run makes up for
+constexpr double kMeasureOver = 0.5;      // s, duration of a measurement of the speed
+constexpr double kLongestDuration = 1e9;  // s; ros::Duration has 32 bits for seconds
 
 }  // namespace
 
@@ -19,8 +19,8 @@ void Pacer::start(double simulated_time, ros::SteadyTime now) {
 
 ros::SteadyTime Pacer::dueTime(double simulated_time) const {
   if (factor_ <= 0.0) return start_;
-  return start_ +
-         ros::WallDuration(std::min((simulated_time - start_simulated_) / factor_, kLongestWait));
+  return start_ + ros::WallDuration(
+                      std::min((simulated_time - start_simulated_) / factor_, kLongestDuration));
 }
 
 bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {
@@ -35,7 +35,7 @@ bool Pacer::isShown(double simulated_time) {
   return true;
 }
 
-void Pacer::note(double simulated_time, ros::SteadyTime now) {
+void Pacer::reached(double simulated_time, ros::SteadyTime now) {
   const double seconds = (now - measured_).toSec();
   if (seconds >= kMeasureOver) {
     speed_ = (simulated_time - measured_simulated_) / seconds;

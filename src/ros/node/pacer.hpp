@@ -21,7 +21,7 @@ class Pacer {
 
   ros::SteadyTime dueTime(double simulated_time) const;
   /// Must be called when `simulated_time` is reached.
-  void note(double simulated_time, ros::SteadyTime now);
+  void reached(double simulated_time, ros::SteadyTime now);
   /// Whether states between the frames should be left out to keep up.
   bool isLate(double simulated_time, ros::SteadyTime now) const;
 

@@ -13,8 +13,8 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kPollInterval = 0.01;  // s between two checks for subscribers
-constexpr double kLongestWait = 1e9;    // s; ros::Duration has 32 bits for seconds
+constexpr double kPollInterval = 0.01;    // s between two checks for subscribers
+constexpr double kLongestDuration = 1e9;  // s; ros::Duration has 32 bits for seconds
 
 /// Limit of the queue of states, bytes. A slow subscriber loses messages instead of increasing the
 /// memory of the node.
@@ -52,7 +52,7 @@ bool Publisher::isWatched() const {
 
 void Publisher::waitForSubscribers(const NodeOptions& options) {
   const ros::SteadyTime start = ros::SteadyTime::now();
-  const ros::WallDuration timeout(std::min(options.wait_timeout, kLongestWait));
+  const ros::WallDuration timeout(std::min(options.wait_timeout, kLongestDuration));
   const auto is_ready = [&] { return subscribers() >= options.wait_for_subscribers; };
   if (is_ready()) return;
   PendulumStatus waiting;

@@ -31,11 +31,9 @@ class Publisher {
   void waitForSubscribers(const NodeOptions& options);
 
   /// Keeps the camera where it is, see MarkerBuilder.
-  void holdCamera(bool hold) { build_.holdCamera(hold); }
+  void freezeCamera(bool freeze) { build_.freezeCamera(freeze); }
 
-  /// Publishes the state on all topics with subscribers, and the status if it has changed. In slow
-  /// motion, the markers are left to `publishBetween`.
-  /// \returns the header of the messages; nothing if the state was not due
+  /// Publishes the state on all topics with subscribers, and the status if it has changed.   /// \returns the header of the messages; nothing if the state was not due
   std::optional<std_msgs::Header> publish(const Run& run, const Showing& showing);
 
   /// Removes the markers from rviz, which keeps them when the node has ended.

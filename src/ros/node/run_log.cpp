@@ -1,6 +1,7 @@
 #include "ros/node/run_log.hpp"
 
 #include "base/numbers.hpp"
+#include "io/files/paths.hpp"
 #include "io/program/closing.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
@@ -13,7 +14,6 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
-#include <filesystem>
 #include <utility>
 
 namespace spring_pendulum {
@@ -63,10 +63,8 @@ void logFatal(const std::string& text) {
 
 void logStart(const Run& run, const NodeOptions& options, const RunFiles& files) {
   const Scenario& scenario = run.scenario();
-  ROS_INFO_STREAM(scenario.method.get().name
-                  << " on "
-                  << std::filesystem::absolute(scenario.particles).lexically_normal().string()
-                  << ", " << files.description());
+  ROS_INFO_STREAM(scenario.method.get().name << " on " << fullPath(scenario.particles) << ", "
+                                             << files.description());
   const std::string warning = stabilityWarning(run.chain(), run.start(), scenario, true);
   if (!warning.empty()) ROS_WARN_STREAM(warning);
   const std::string memory = memoryRemark(scenario, run.chain().size());
@@ -86,8 +84,8 @@ std::string RunLog::closingLine() const {
                                 publisher_.markersBuilt(), publisher_.statesBuilt()));
 }
 
-void RunLog::note() {
-  if (holds_ && run_.time() < last_time_) {  // after a reset
+void RunLog::update() {
+  if (continues_ && run_.time() < last_time_) {  // after a reset
     said_verdict_ = VerdictKind::kOk;
     said_frames_ = 0;
     said_tolerance_.clear();
@@ -115,7 +113,7 @@ void RunLog::note() {
   if (!run_.isOver() || said_frames_ != 0) return;
   said_frames_ = run_.shownFrames();
   ROS_INFO_STREAM(closingLine());
-  if (holds_) {
+  if (continues_) {
     ROS_INFO_STREAM(method << ": the last frame stays shown until Ctrl-C (at_end: hold)");
   }
 }

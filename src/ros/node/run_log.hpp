@@ -21,15 +21,19 @@ void logStart(const Run& run, const NodeOptions& options, const RunFiles& files)
 
 class RunLog {
  public:
-  /// All but `holds` must outlive the log.
-  /// \param holds whether the node continues after the end of the run
+  /// All but `continues` must outlive the log.
+  /// \param continues whether the node continues after the end of the run
   RunLog(const Run& run, const std::unique_ptr<Integrator>& integrator, const RunFiles& files,
-         const Publisher& publisher, bool holds)
-      : run_(run), integrator_(integrator), files_(files), publisher_(publisher), holds_(holds) {}
+         const Publisher& publisher, bool continues)
+      : run_(run),
+        integrator_(integrator),
+        files_(files),
+        publisher_(publisher),
+        continues_(continues) {}
 
   /// Must be called after every action. Logs once each: a bad verdict, a divergence with its
   /// remedy, the choices of Auto, the end of the run.
-  void note();
+  void update();
 
   /// Logs the closing line of a run that did not reach its end, or continued after it.
   void finish() const;
@@ -42,7 +46,7 @@ class RunLog {
   const std::unique_ptr<Integrator>& integrator_;
   const RunFiles& files_;
   const Publisher& publisher_;
-  bool holds_;
+  bool continues_;
   VerdictKind said_verdict_ = VerdictKind::kOk;
   double last_time_ = 0.0;        ///< s, of the last action
   std::int64_t said_frames_ = 0;  ///< number of frames at the closing line; 0: not logged yet

@@ -32,7 +32,8 @@ std::vector<Option> displayOptions(NodeOptions& o) {
       {"frame_id", Text{&o.frame_id, "NAME", "a name without a leading '/'", isFrameName}, "",
        "tf frame of all messages; the chain moves in its x-z plane"},
       {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
-       "states published per second, within 10 %, also between frames; the frame files do not "
+       "states published per second, also between frames (a method with error control divides a "
+       "frame by a power of two); the frame files do not "
        "change; 0: frames only"},
       {"track_dissipation", Flag{&o.track_dissipation}, "",
        "always integrate the dissipated energy; false: only where it is cheap, as in Exercise3"},

@@ -132,8 +132,10 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
   for (const Option& option : options.options()) {
     if (option.applies_to == (fixed_step ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep))
       continue;
-    if (!option.text().empty())
-      configuration.values += fmt::format("_{}:={} ", option.key, option.text());
+    const std::string text = option.text();
+    if (text.empty()) continue;
+    const bool is_word = text.find_first_of(" #'\"\\$&;|<>()*?`!~") == std::string::npos;
+    configuration.values += fmt::format(is_word ? "_{}:={} " : "_{}:='{}' ", option.key, text);
   }
   return configuration;
 }

@@ -1,36 +1,21 @@
-// Particles that robots hold: input from topics or tf, output of the force on each holder.
+// From the inputs of a robot that holds a particle to the targets of the particle.
 #pragma once
 
-#include "ros/inputs/frames.hpp"
-#include "ros/inputs/holders.hpp"
-#include "ros/parameters/node_options.hpp"
+#include "ros/inputs/requests.hpp"
 
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/TransformStamped.h>
-#include <ros/node_handle.h>
-
-#include <cstddef>
 #include <deque>
-#include <memory>
-#include <nav_msgs/Odometry.h>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace spring_pendulum {
 
-/// Parses a list of particles "1, 5, last".
-/// \returns their numbers, counted from 0
-/// \throws InputError for a word that is no particle of the chain, or one given twice
-std::vector<std::ptrdiff_t> parseParticleList(const std::string& text, std::ptrdiff_t particles,
-                                              const std::string& key);
-
 /// Validates the pose stream of one holder and logs each problem once.
-class HolderCheck {
+class InputCheck {
  public:
   /// \param name    of the input, for messages
   /// \param longest largest believable jump, m
-  HolderCheck(std::string name, double longest) : name_(std::move(name)), longest_(longest) {}
+  InputCheck(std::string name, double longest) : name_(std::move(name)), longest_(longest) {}
 
   enum class Answer { kRefused, kFollows, kReturns };
 
@@ -70,7 +55,7 @@ class HolderCheck {
 /// Turns the inputs of one holder into targets of its particle.
 class Follower {
  public:
-  explicit Follower(HolderCheck check) : check_(std::move(check)) {}
+  explicit Follower(InputCheck check) : check_(std::move(check)) {}
 
   /// Takes an input that is believable.
   /// \param has_velocity otherwise, the velocity follows from earlier inputs
@@ -85,7 +70,7 @@ class Follower {
   std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
   /// Whether no input came for half a second.
   bool isSilent(double now) const;
-  /// See HolderCheck.
+  /// See InputCheck.
   std::string takeMessage() { return check_.takeMessage(); }
   /// Forgets the inputs, after a reset.
   void restart();
@@ -102,44 +87,11 @@ class Follower {
   void approach(Target& target, const PlaneVector<double>& here, double distance, double now,
                 double interval);
 
-  HolderCheck check_;
+  InputCheck check_;
   std::deque<Sample> samples_;  ///< the newest last
   bool met_ = false;            ///< whether the particle has reached its holder
   double left_ = 0.0;           ///< s, when it began to come to its holder; 0: not yet
   double expected_ = 0.0;       ///< s, when it should have met it
-};
-
-/// All particles held by robots (`~held`).
-class HeldInputs {
- public:
-  /// \throws InputError for a list of particles that the chain does not have
-  HeldInputs(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Holders& holders,
-             Frames& frames);
-  ~HeldInputs();
-
-  /// Reads tf and stops particles whose input is silent. Must be called before every state.
-  void watch();
-  /// Publishes the forces on the holders and the transforms of `~tf_particles`.
-  void show(const std_msgs::Header& header);
-  /// Holds the particles where they are, after a reset.
-  void reset();
-
- private:
-  struct Held;
-
-  void take(Held& held, const std_msgs::Header& header, const geometry_msgs::Vector3& position,
-            const std::optional<geometry_msgs::Vector3>& velocity);
-  void lookUp(Held& held, double now);
-  static void say(Held& held);
-  void addWeight(std::ptrdiff_t particle, geometry_msgs::Vector3& force) const;
-
-  const Run& run_;
-  Holders& holders_;
-  Frames& frames_;
-  double y_;
-  std::vector<std::unique_ptr<Held>> held_;
-  std::vector<std::ptrdiff_t> tf_particles_;
-  ros::Publisher tf_;
 };
 
 }  // namespace spring_pendulum

@@ -1,8 +1,9 @@
 // Held particles reach their targets and stay there, and bad inputs are told from good ones.
-#include "ros/inputs/holders.hpp"
+#include "ros/inputs/driver.hpp"
 
+#include "ros/inputs/follower.hpp"
 #include "ros/inputs/handles.hpp"
-#include "ros/inputs/held_inputs.hpp"
+#include "ros/inputs/robots.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ struct Live {
   void go(double seconds) {
     const double end = run.time() + seconds;
     while (run.time() < end - 1e-9) {
-      holders.apply(run, integrator, run.nextTime(), false);
+      driver.apply(run, integrator, run.nextTime(), false);
       run.advancePart(*integrator);
     }
   }
@@ -42,13 +43,13 @@ struct Live {
   std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   int changes = 0;
   InputLog log{0.0, {}, [this](const PendulumInput&) { ++changes; }};
-  Holders holders{run, &log};
+  Driver driver{run, &log};
 };
 
-TEST(Holders, BringAParticleToRestAtItsTarget) {
+TEST(Driver, BringAParticleToRestAtItsTarget) {
   Live live;
   live.go(0.1);
-  live.holders.hold(5, {{4.0, -2.0}, {}});
+  live.driver.on(Hold{5, Target{{4.0, -2.0}, {}}});
   live.go(0.5);  // parts of 0.03 s and 0.04 s
   EXPECT_NEAR(live.run.state().x()[5], 4.0, 1e-3);
   EXPECT_NEAR(live.run.state().y()[5], -2.0, 1e-3);
@@ -60,13 +61,13 @@ TEST(Holders, BringAParticleToRestAtItsTarget) {
   EXPECT_FALSE(isBad(live.run.verdict().kind)) << live.run.verdict().text;
 }
 
-TEST(Holders, FollowAMovingTargetWithoutLag) {
+TEST(Driver, FollowAMovingTargetWithoutLag) {
   Live live;
   double time = 0.0;
   for (int k = 0; k < 60; ++k) {
     time = live.run.time();
-    live.holders.hold(0, {{0.5 * time, 0.2 * time}, {0.5, 0.2}});
-    live.holders.apply(live.run, live.integrator, live.run.nextTime(), false);
+    live.driver.on(Hold{0, Target{{0.5 * time, 0.2 * time}, {0.5, 0.2}}});
+    live.driver.apply(live.run, live.integrator, live.run.nextTime(), false);
     live.run.advancePart(*live.integrator);
   }
   time = live.run.time();
@@ -74,71 +75,70 @@ TEST(Holders, FollowAMovingTargetWithoutLag) {
   EXPECT_NEAR(live.run.state().y()[0], 0.2 * time, 1e-9);
 }
 
-TEST(Holders, LeaveAFreeRunAlone) {
+TEST(Driver, LeaveAFreeRunAlone) {
   Live live;
   live.go(2.0);
   EXPECT_EQ(live.changes, 0);
   EXPECT_FALSE(live.run.isChanged());
 }
 
-TEST(Holders, ChangeEachConstantThatIsWanted) {
+TEST(Driver, ChangesEachConstantThatIsWanted) {
   Live live;
-  const auto change = [&live](auto set) {
+  for (const SetConstant& wanted : {SetConstant{"stiffness", "60"},
+                                    {"damping", "0.5"},
+                                    {"rest_length", "1.1"},
+                                    {"gravity", "1.6"},
+                                    {"air_drag", "0.1"},
+                                    {"method", "Auto"},
+                                    {"tolerance", "1e-9"}}) {
     const int before = live.changes;
-    set(live.holders.wanted());
+    live.driver.on(wanted);
     live.go(0.1);
-    EXPECT_EQ(live.changes, before + 1);
-  };
-  change([](Scenario& wanted) { wanted.stiffness = 60.0; });
-  change([](Scenario& wanted) { wanted.damping = 0.5; });
-  change([](Scenario& wanted) { wanted.rest_length = 1.1; });
-  change([](Scenario& wanted) { wanted.gravity = 1.6; });
-  change([](Scenario& wanted) { wanted.air_drag = 0.1; });
-  change([](Scenario& wanted) { wanted.method = findMethod("Auto"); });
-  change([](Scenario& wanted) { wanted.tolerance = 1e-9; });
+    EXPECT_EQ(live.changes, before + 1) << wanted.name;
+  }
   EXPECT_EQ(live.run.scenario().tolerance, 1e-9);
 }
 
-TEST(Holders, PlaceParticlesWhilePaused) {
+TEST(Driver, PlaceParticlesWhilePaused) {
   Live live;
   live.go(0.5);
-  live.holders.hold(3, {{1.0, 1.0}, {}});
-  live.holders.apply(live.run, live.integrator, live.run.nextTime(), true);
+  live.driver.on(Hold{3, Target{{1.0, 1.0}, {}}});
+  live.driver.apply(live.run, live.integrator, live.run.nextTime(), true);
   EXPECT_EQ(live.run.state().x()[3], 1.0);
   EXPECT_EQ(live.run.state().vx()[3], 0.0);
   EXPECT_TRUE(live.run.chain().isHeld(3));
-  live.holders.release(3);
+  live.driver.on(Release{3});
   live.go(0.5);
   EXPECT_FALSE(live.run.chain().isHeld(3));
   EXPECT_FALSE(isBad(live.run.verdict().kind)) << live.run.verdict().text;
 }
 
-TEST(Holders, GiveTheImpulseOfAForce) {
+TEST(Driver, GiveTheImpulseOfAForce) {
   Scenario weightless;
   weightless.gravity = weightless.stiffness = weightless.damping = 0.0;
   Live live(weightless);
-  live.holders.push({4, {2.0, -1.0}, 0.05, 0.61});
+  live.driver.on(ApplyForceTo{4, {2.0, -1.0}, 0.05, 0.56});
   live.go(1.0);
   EXPECT_NEAR(live.run.state().vx()[4], 2.0 * 0.56, 1e-12);
   EXPECT_NEAR(live.run.state().vy()[4], -1.0 * 0.56, 1e-12);
 }
 
-TEST(Holders, SwitchBetweenStepControlsAtAFrame) {
+TEST(Driver, SwitchBetweenStepControlsAtAFrame) {
   Live live;
-  live.holders.wanted().method = findMethod("Auto");
+  live.driver.on(SetConstant{"method", "Auto"});
   live.run.advancePart(*live.integrator);
   ASSERT_FALSE(live.run.isAtFrame());
   live.go(1.0);
   EXPECT_EQ(live.run.scenario().method.get().name, "Auto");
-  live.holders.reset(live.run, live.integrator);
+  live.driver.reset(live.run, live.integrator);
   EXPECT_EQ(live.run.time(), 0.0);
   EXPECT_EQ(live.run.state().values(), live.run.start().values());
 }
 
-using Answer = HolderCheck::Answer;
+using Answer = InputCheck::Answer;
 
-TEST(HolderCheck, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
-  HolderCheck check("odom", 1.0);
+TEST(InputCheck, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
+  InputCheck check("odom", 1.0);
   EXPECT_FALSE(check.isAlive(0.0));
   EXPECT_EQ(check.check({0.0, 0.0}, {}, 1.0, 1.0), Answer::kReturns);
   EXPECT_EQ(check.check({0.5, 0.0}, {}, 1.1, 1.1), Answer::kFollows);
@@ -160,13 +160,13 @@ TEST(HolderCheck, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
 }
 
 // After any inputs, a steady one is followed within a second.
-TEST(HolderCheck, FollowsASteadyInputAgain) {
+TEST(InputCheck, FollowsASteadyInputAgain) {
   std::mt19937 random(4);
   const auto draw = [&random](double size) {
     return size * (static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5);
   };
   for (int round = 0; round < 200; ++round) {
-    HolderCheck check("odom", 1.0);
+    InputCheck check("odom", 1.0);
     double now = 1.0;
     for (int i = 0; i < 20; ++i, now += 0.03) {
       check.check({draw(20.0), draw(20.0)}, {draw(30.0), 0.0}, draw(100.0), now);
@@ -190,7 +190,7 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
   };
   Live live;
   live.run.advance(*live.integrator);
-  Follower follower(HolderCheck("odom", 3.0));
+  Follower follower(InputCheck("odom", 3.0));
   double largest = 0.0, next_input = 0.0;
   while (live.run.time() < 8.0) {
     const double now = live.run.nextTime();  // the state that is computed is shown now
@@ -201,8 +201,8 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
     }
     const State& state = live.run.state();
     const auto target = follower.targetAt(now, {state.x()[5], state.y()[5]}, now - live.run.time());
-    if (target) live.holders.hold(5, *target);
-    live.holders.apply(live.run, live.integrator, now, false);
+    if (target) live.driver.on(Hold{5, *target});
+    live.driver.apply(live.run, live.integrator, now, false);
     live.run.advancePart(*live.integrator);
     if (live.run.time() < 4.0) continue;
     const Target holder = holderAt(live.run.time());
@@ -219,7 +219,7 @@ TEST(Follower, IsWithItsHolderOnACircle) {
 }
 
 TEST(Follower, ComesBackSlowlyAfterASilence) {
-  Follower follower(HolderCheck("odom", 10.0));
+  Follower follower(InputCheck("odom", 10.0));
   for (double t = 0.0; t < 1.0; t += 0.03) follower.take({{0.0, 0.0}, {}, {}}, true, t, t);
   EXPECT_LT(std::hypot(follower.targetAt(1.0, {0.0, 0.0}, 0.03)->position.x, 0.0), 1e-12);
   follower.take({{4.0, 0.0}, {}, {}}, true, 3.0, 3.0);
@@ -227,7 +227,7 @@ TEST(Follower, ComesBackSlowlyAfterASilence) {
   EXPECT_EQ(follower.takeMessage(), "odom: the particle comes to it from 4 m away");
 }
 
-TEST(HeldInputs, ParseListsOfParticles) {
+TEST(Robots, ParseListsOfParticles) {
   using List = std::vector<std::ptrdiff_t>;
   EXPECT_EQ(parseParticleList("", 5, "held"), List{});
   EXPECT_EQ(parseParticleList("1, last", 5, "held"), (List{0, 4}));

@@ -1,22 +1,17 @@
-// Who holds which particle, and the accelerations that bring held particles to their targets.
+// What acts on a run from outside: held particles, forces, changed constants.
 #pragma once
 
 #include "ros/inputs/input_messages.hpp"
+#include "ros/inputs/requests.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace spring_pendulum {
-
-/// Where a held particle shall be.
-struct Target {
-  PlaneVector<double> position{};      ///< m
-  PlaneVector<double> velocity{};      ///< m/s
-  PlaneVector<double> acceleration{};  ///< m/s²
-};
 
 /// A force that acts for a while.
 struct TimedForce {
@@ -29,28 +24,24 @@ struct TimedForce {
 /// Collects what acts on a run, and changes the run between two of its states. Particles are counted
 /// from 0. In each interval between two states a held particle has the constant acceleration that
 /// brings it to rest relative to its target within two intervals.
-class Holders {
+class Driver {
  public:
-  /// \param log learns of every change; must outlive the holders
-  explicit Holders(const Run& run, InputLog* log = nullptr);
+  /// \param log learns of every change; must outlive the driver
+  explicit Driver(const Run& run, InputLog* log = nullptr);
 
+  /// Act on a request from the next state on, see RequestHandler.
+  std::string on(const SetConstant& request);
+  std::string on(const ApplyForceTo& request);
+  std::string on(const ClearForces& request);
+  std::string on(const ComeToRest& request);
   /// Holds a particle, or sets a new target for a held one.
-  void hold(std::ptrdiff_t particle, const Target& target) { targets_[particle] = target; }
-  /// Holds a particle where it is.
-  void hold(std::ptrdiff_t particle);
+  std::string on(const Hold& request);
   /// Lets go of a particle, which keeps its velocity; P_1 stops where it is.
-  void release(std::ptrdiff_t particle);
+  std::string on(const Release& request);
+
   bool isHeld(std::ptrdiff_t particle) const { return targets_.count(particle) > 0; }
-
-  /// Returns false if a thousand forces act already.
-  bool push(const TimedForce& force);
-  /// Returns the number of forces that acted or were to act.
-  std::size_t clearForces();
-
   /// The scenario whose method and constants hold from the next state on.
-  Scenario& wanted() { return wanted_; }
-  /// Continues from another state.
-  void jumpTo(const State& state) { jump_ = std::make_unique<State>(state); }
+  const Scenario& wanted() const { return wanted_; }
 
   /// Changes the run for the interval until `next_time` s, if anything has changed.
   /// \param paused places held particles at their targets instead, at rest

@@ -1,16 +1,35 @@
-#include "ros/inputs/holders.hpp"
+#include "ros/inputs/driver.hpp"
 
+#include "base/numbers.hpp"
+#include "base/spelling.hpp"
+#include "simulation/options/option_set.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/integration/smallest_tolerance.hpp>
+#include <spring_pendulum/model/equilibrium.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
 
 /// A held particle nearer to its target than this, m and m/s, is at rest.
 constexpr double kSettled = 1e-9;
+/// Constants that change while the chain moves. The node itself changes real_time_factor.
+const std::vector<std::string> kLive = {"method",   "tolerance",       "stiffness",
+                                        "damping",  "rest_length",     "gravity",
+                                        "air_drag", "real_time_factor"};
+/// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
+/// the range of double, or takes hours per frame.
+constexpr double kLargest = 1e9;
+/// Largest acceleration by a force, in lengths of the chain per s².
+constexpr double kLargestAcceleration = 1e6;
 constexpr std::size_t kMostForces = 1000;
 /// Largest speed of a particle on the way to its target, in lengths of the chain per second.
 constexpr double kLengthsPerSecond = 5.0;
@@ -38,33 +57,89 @@ bool isSame(const Scenario& a, const Scenario& b) {
 
 }  // namespace
 
-Holders::Holders(const Run& run, InputLog* log)
+Driver::Driver(const Run& run, InputLog* log)
     : run_(run),
       log_(log),
       fastest_(kLengthsPerSecond * std::max(chainLength(run.chain(), run.start()), 1.0)),
       wanted_(run.scenario()) {}
 
-void Holders::hold(std::ptrdiff_t particle) {
-  hold(particle, {{run_.state().x()[particle], run_.state().y()[particle]}, {}});
+std::string Driver::on(const SetConstant& request) {
+  const std::string& name = request.name;
+  if (std::find(kLive.begin(), kLive.end(), name) == kLive.end()) {
+    throw InputError(unknownName("live constant", name, kLive));
+  }
+  Scenario wanted = wanted_;
+  OptionSet all(scenarioOptions(wanted));
+  const Option& option = all.find(name, "set");
+  all.set(option, request.value, name);
+  checkScenario(wanted);
+  const double largest = std::max({wanted.stiffness, wanted.damping, wanted.rest_length,
+                                   std::abs(wanted.gravity), wanted.air_drag});
+  if (largest > kLargest) {
+    throw InputError(fmt::format("{}: must be at most {:g} while the chain moves", name, kLargest));
+  }
+  if (!wanted.method.get().hasFixedStep()) {
+    checkTolerance(wanted.tolerance, wanted.chainOf(run_.chain().masses()),
+                   run_.isOver() ? run_.start() : run_.state());
+  }
+  wanted_ = wanted;
+  return fmt::format("{} is {} from the next state on", name, option.text());
 }
 
-void Holders::release(std::ptrdiff_t particle) {
-  if (targets_.erase(particle) > 0 && particle == 0) hold(0);
+std::string Driver::on(const ApplyForceTo& request) {
+  const auto& [particle, force, start_time, duration] = request;
+  const Chain& chain = run_.chain();
+  if (particle < 0 || particle >= chain.size()) {
+    throw InputError(fmt::format("particle {} does not exist: the chain has particles 1 to {}",
+                                 particle + 1, chain.size()));
+  }
+  if (particle == 0 || isHeld(particle)) {
+    throw InputError(fmt::format("particle {} is held: a force would not move it", particle + 1));
+  }
+  if (!std::isfinite(start_time) || !std::isfinite(duration)) {
+    throw InputError("start_time and duration must be finite");
+  }
+  const double strongest = kLargestAcceleration * chain.masses()[particle] *
+                           std::max(chainLength(chain, run_.start()), 1.0);
+  if (!(std::hypot(force.x, force.y) <= strongest)) {
+    throw InputError(
+        fmt::format("force must be at most {:.3g} N on particle {}", strongest, particle + 1));
+  }
+  if (forces_.size() >= kMostForces) {
+    throw InputError("too many forces act already; call ~clear_forces");
+  }
+  const double begin = std::max(start_time, run_.time());
+  const double end = duration < 0.0 ? std::numeric_limits<double>::infinity() : begin + duration;
+  forces_.push_back({particle, force, begin, end});
+  return fmt::format("particle {}: ({:.6g}, {:.6g}) N from t = {:.6g} s {}", particle + 1, force.x,
+                     force.y, begin,
+                     std::isinf(end) ? "until clear_forces" : fmt::format("to {:.6g} s", end));
 }
 
-bool Holders::push(const TimedForce& force) {
-  if (forces_.size() >= kMostForces) return false;
-  forces_.push_back(force);
-  return true;
+std::string Driver::on(const ClearForces& /*request*/) {
+  const std::size_t count = std::exchange(forces_, {}).size();
+  return counted(static_cast<std::int64_t>(count), "force") + " cleared";
 }
 
-std::size_t Holders::clearForces() {
-  const std::size_t count = forces_.size();
-  forces_.clear();
-  return count;
+std::string Driver::on(const ComeToRest& /*request*/) {
+  if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
+  const Chain wanted = wanted_.chainOf(run_.chain().masses());
+  jump_ = std::make_unique<State>(equilibrium(wanted.drivenBy(run_.chain().drive()), run_.state()));
+  return "the chain hangs at rest from the next state on";
 }
 
-Drive Holders::driveUntil(double next_time, State& state) {
+std::string Driver::on(const Hold& request) {
+  const std::ptrdiff_t i = request.particle;
+  targets_[i] = request.target.value_or(Target{{run_.state().x()[i], run_.state().y()[i]}, {}, {}});
+  return fmt::format("particle {} is held", i + 1);
+}
+
+std::string Driver::on(const Release& request) {
+  if (targets_.erase(request.particle) > 0 && request.particle == 0) on(Hold{0, {}});
+  return fmt::format("particle {} is released", request.particle + 1);
+}
+
+Drive Driver::driveUntil(double next_time, State& state) {
   Drive drive;
   const double interval = std::max(next_time - run_.time(), 1e-6);
   for (const auto& [i, target] : targets_) {
@@ -96,7 +171,7 @@ Drive Holders::driveUntil(double next_time, State& state) {
   return drive;
 }
 
-Scenario Holders::possible() const {
+Scenario Driver::possible() const {
   Scenario scenario = wanted_;
   const Method& method = run_.scenario().method;
   if (wanted_.method.get().hasFixedStep() != method.hasFixedStep() && !run_.isAtFrame()) {
@@ -105,8 +180,8 @@ Scenario Holders::possible() const {
   return scenario;
 }
 
-void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double next_time,
-                    bool paused) {
+void Driver::apply(Run& run, std::unique_ptr<Integrator>& integrator, double next_time,
+                   bool paused) {
   if (run.isOver()) return;
   // Most runs are left alone: for them, no state is copied.
   if (targets_.empty() && forces_.empty() && !jump_ && !run.chain().isDriven() &&
@@ -145,7 +220,7 @@ void Holders::apply(Run& run, std::unique_ptr<Integrator>& integrator, double ne
   }
 }
 
-void Holders::reset(Run& run, std::unique_ptr<Integrator>& integrator, const Particles* to) {
+void Driver::reset(Run& run, std::unique_ptr<Integrator>& integrator, const Particles* to) {
   const double time = run.time();
   const State& state = to != nullptr ? to->state : run.start();
   targets_.clear();
