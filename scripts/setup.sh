@@ -52,7 +52,7 @@ packages_of() {
     arm64) echo g++-aarch64-linux-gnu qemu-user ;;
     benchmark)
       echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev python3 \
-           libpython3-dev python3-scipy ;;
+           libpython3-dev python3-scipy python3-matplotlib ;;
     *) die "setup.sh: unknown component '$1'" ;;
   esac
 }
