@@ -55,6 +55,7 @@ show_progress() {
 long_measurements='WithinAFactorOfTwo/(feather|alternating)|NeverComesBeforeAStableRun'
 long_measurements+='|RandomScenes\.KeepTheTolerance|OnLongAndLightChains|TenMillionSteps'
 long_measurements+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat'
+long_measurements+='|HangingChain\.MovesAsItsModes/[23]'
 long_measurements+='|StaysWithinItsUncertainty/(feather|alternating)'
 long_tests=$long_measurements'|RandomOptions|ExtremeValues|StopsForEachRunWhereItsOwnWould'
 
