@@ -411,7 +411,9 @@ document.getElementById('speed').addEventListener('change', ({target}) => {
 });
 slider.max = SLIDER_STEPS;
 slider.addEventListener('pointerdown', () => { touchingSlider = true; });
-slider.addEventListener('pointerup', () => { touchingSlider = false; });
+for (const end of ['pointerup', 'pointercancel']) {
+  slider.addEventListener(end, () => { touchingSlider = false; });
+}
 slider.addEventListener('input', () => {
   setPlaying(false);
   seek(lastTime() * slider.value / SLIDER_STEPS);

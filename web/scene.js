@@ -75,7 +75,7 @@ function add() {
 }
 
 function remove() {
-  const i = play.selected > 0 ? play.selected : scene.x.length - 1;
+  const i = play.selected >= 0 ? play.selected : scene.x.length - 1;
   if (i < 1) {
     say('the first particle stays: the chain hangs on it');
     return;
