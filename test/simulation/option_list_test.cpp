@@ -28,7 +28,7 @@ TEST(OptionList, DescribesWhatMakeScenarioAccepts) {
     if (option.users.empty() && option.key != "energy")
       given.emplace_back(option.key, option.value);
   }
-  EXPECT_EQ(given.size(), 18U);
+  EXPECT_EQ(given.size(), 17U);
   EXPECT_EQ(makeScenario(given).frames, 7);
 }
 

@@ -279,6 +279,7 @@ std::string stabilityWarning(const Chain& chain, const State& start, const Scena
                              bool tries_run) {
   const Method& method = scenario.method;
   if (!method.hasFixedStep() || scenario.frames < 2) return {};
+  checkScenario(scenario);
   const bool clearly = isClearlyUnstable(method, chain, scenario.time_step, durationOf(scenario));
   std::string found;
   if (!clearly) {
