@@ -70,6 +70,19 @@ TEST_F(Exercise3State, FixedStepRunsGoOnWithTheSameBits) {
   }
 }
 
+TEST_F(Exercise3State, EnergiesOfTheFirstPartStay) {
+  save("Runge-Kutta-4", {"--energy", "energy.csv"});
+  ASSERT_EQ(resume("Runge-Kutta-4", {"--energy", "energy.csv"}).errors, "");
+  std::istringstream rows(read("energy.csv"));
+  std::string row;
+  std::getline(rows, row);  // header
+  for (int frame = 0; frame < 12; ++frame) {
+    ASSERT_TRUE(std::getline(rows, row));
+    EXPECT_THAT(row, testing::StartsWith(std::to_string(frame) + ","));
+  }
+  EXPECT_FALSE(std::getline(rows, row));
+}
+
 TEST_F(Exercise3State, ErrorControlledRunsGoOnWithinTheTolerance) {
   ASSERT_EQ(runWith({"Auto", "particle.txt", "-o", "whole", "--frames", "12"}).errors, "");
   save("Auto");

@@ -3,6 +3,7 @@
 #include "base/numbers.hpp"
 
 #include <array>
+#include <fstream>
 
 namespace spring_pendulum {
 namespace {
@@ -14,7 +15,12 @@ constexpr const char* kHeader =
 
 }  // namespace
 
-EnergyFile::EnergyFile(const std::string& path) : file_(path), text_(kHeader) {}
+EnergyFile::EnergyFile(const std::string& path, std::int64_t first) : file_(path), text_(kHeader) {
+  std::ifstream earlier(first > 0 ? path : "");
+  for (std::string row; std::getline(earlier, row);) {
+    if (parseInteger(row.substr(0, row.find(','))).value_or(first) < first) text_ += row + '\n';
+  }
+}
 
 void EnergyFile::write(std::int64_t frame, const EnergyEntry& entry, double position_error) {
   text_ += std::to_string(frame);

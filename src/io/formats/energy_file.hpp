@@ -15,8 +15,8 @@ namespace spring_pendulum {
 /// Every number is the shortest text that reads back as the same double.
 class EnergyFile {
  public:
-  /// Same arguments and errors as OutputFile.
-  explicit EnergyFile(const std::string& path);
+  /// \param first frame of the first row; rows of earlier frames that the file has stay in it
+  explicit EnergyFile(const std::string& path, std::int64_t first = 0);
 
   /// \param entry          from an energy balance that tracks the dissipation
   /// \param position_error m; NaN if not measured

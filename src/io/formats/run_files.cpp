@@ -68,7 +68,7 @@ RunFiles::RunFiles(const Run& run, const std::string& config) : files_(new Files
   files_->next_frame = run.firstFrame();
   const Scenario& scenario = run.scenario();
   checkTouchedFiles(touchedFiles(scenario, config));
-  if (!scenario.energy.empty()) files_->energy.emplace(scenario.energy);
+  if (!scenario.energy.empty()) files_->energy.emplace(scenario.energy, run.firstFrame());
   if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);
   if (writesFrames(scenario)) {
     files_->frames.emplace(scenario.output, scenario.frames, run.firstFrame());
