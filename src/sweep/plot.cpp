@@ -22,6 +22,7 @@ bool runScript(std::vector<std::string> arguments) {
   const std::string script = (program.parent_path() / "plot_table.py").string();
   arguments.insert(arguments.begin(), {kPython, script});
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   pid_t child = 0;
