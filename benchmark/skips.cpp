@@ -107,7 +107,7 @@ Pair timeEnergySkip(Eigen::Index size, int rounds) {
   const auto run = [](Carried& carried, Judge& judge) {
     for (std::int64_t call = 0; call < carried.calls(); ++call) {
       carried.frame();
-      judge.judgeEnergy(0.0, carried.state(), carried.integrator().dissipatedEnergy());
+      judge.judge(0.0, carried.state(), carried.integrator().dissipatedEnergy(), nullptr);
     }
   };
   const auto timings =
