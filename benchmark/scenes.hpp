@@ -15,7 +15,7 @@ struct ReferenceScene {
   std::vector<double> exact;  ///< 4N, as Problem::start
 };
 
-/// The scenes of test/data/reference, smallest first.
+/// The scenes of test/data/reference, smallest first, and a stiff undamped cable.
 std::vector<ReferenceScene> referenceScenes();
 
 /// The horizontal chain of the exercise with any number of particles: 1 m apart, 1 kg each.

@@ -40,6 +40,10 @@ double largestSpringMode(const Chain& chain) {
   return most;
 }
 
+double fastestVibration(const Chain& chain) {
+  return std::sqrt(chain.spring().stiffness * largestSpringMode(chain));
+}
+
 double largestDampingRate(const Chain& chain) {
   const double springs = chain.spring().damping * largestSpringMode(chain);
   if (chain.airDrag() == 0.0) return springs;

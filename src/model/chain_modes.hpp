@@ -16,6 +16,9 @@ namespace spring_pendulum {
 /// Upper bound of the largest μ in 1/kg, at most 1e-4 (relative) above it; 0 without springs. O(N).
 double largestSpringMode(const Chain& chain);
 
+/// Upper bound of the angular frequency of an undamped mode in rad/s, sqrt(k_s μ). O(N).
+double fastestVibration(const Chain& chain);
+
 /// Upper bound of the largest damping rate of a mode in 1/s, k_d μ + k_air/m. O(N).
 double largestDampingRate(const Chain& chain);
 

@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace spring_pendulum {
 namespace {
 
@@ -74,8 +72,7 @@ AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keep
       tolerance_(tolerance),
       keeps_up_to_(keeps_up_to),
       fastest_rate_(largestDampingRate(chain)),
-      vibrates_fast_(std::sqrt(chain.spring().stiffness * largestSpringMode(chain)) >
-                     kFastVibration) {
+      vibrates_fast_(fastestVibration(chain) > kFastVibration) {
   const bool order_12 = needsOrder12(chain, tolerance);
   explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
   const bool implicit_only = fastest_rate_ >= kRateForImplicitOnly;

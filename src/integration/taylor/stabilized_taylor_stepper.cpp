@@ -3,7 +3,6 @@
 #include "model/chain_modes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace spring_pendulum {
@@ -25,8 +24,7 @@ constexpr double kLeastVibration = 1e-6;
 /// Time in s over which a velocity error counts as a position error: 1/rate of the fastest mode, at
 /// most 1 s.
 double timeOfVelocityError(const Chain& chain, double fastest_rate) {
-  const double fastest_vibration = std::sqrt(chain.spring().stiffness * largestSpringMode(chain));
-  return 1.0 / std::max({fastest_rate, fastest_vibration, 1.0});
+  return 1.0 / std::max({fastest_rate, fastestVibration(chain), 1.0});
 }
 
 double longestStep(const StabilizedPolynomial& polynomial, double rate) {

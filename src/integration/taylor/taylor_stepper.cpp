@@ -2,6 +2,7 @@
 
 #include "integration/error_control/free_fall.hpp"
 #include "integration/error_control/step_size_controller.hpp"
+#include "model/chain_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,10 @@ namespace {
 /// position error is at most 2.7 tolerances after 50 s of the weakly chaotic reference scene
 /// `horizontal_11` and far below one tolerance on all other reference scenes.
 constexpr double kErrorRate = 0.01;
+
+/// Angular frequency in rad/s up to which a velocity error counts as if it lasted. In a faster
+/// vibration it moves a particle by 1/frequency only.
+constexpr double kSlowVibration = 100.0;
 
 /// Growth from one coefficient to the next, 1/s, if the coefficients do not show it: larger than in
 /// any motion.
@@ -72,7 +77,8 @@ double longestAccurateStep(const LastCoefficients& last, std::ptrdiff_t order,
 TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
                              const ChainKernels& kernels)
     : chain_(chain),
-      allowed_rate_(kErrorRate * tolerance),
+      allowed_rate_(kErrorRate * tolerance *
+                    std::max(1.0, fastestVibration(chain) / kSlowVibration)),
       kernels_(kernels),
       constants_(chain),
       expansion_(constants_.chain(), order),

@@ -79,7 +79,7 @@ double growthPerStep(const Method& method, double swing, double decay) {
 }
 
 double springStepLimit(const Method& method, const Chain& chain, double duration) {
-  const double frequency = std::sqrt(chain.spring().stiffness * largestSpringMode(chain));
+  const double frequency = fastestVibration(chain);
   return stepForMode(method, frequency, largestDampingRate(chain), duration);
 }
 
