@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <pybind11/stl.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,10 +74,9 @@ State makeState(const py::object& x, const py::object& y, const py::object& vx,
 /// An integrator of one chain. It can be used by one thread at a time.
 class PythonIntegrator {
  public:
-  PythonIntegrator(const std::string& method, Chain chain, const IntegratorOptions& options)
-      : method_(findMethod(method)),
+  PythonIntegrator(const Method& method, Chain chain, const IntegratorOptions& options)
+      : method_(method),
         chain_(std::move(chain)),
-        options_(options),
         integrator_(makeIntegrator(method_, chain_, options)) {}
 
   void advance(State& state, double time_step, std::int64_t steps) {
@@ -99,7 +100,6 @@ class PythonIntegrator {
 
   const Method& method() const { return method_; }
   const Chain& chain() const { return chain_; }
-  const IntegratorOptions& options() const { return options_; }
   const Integrator& integrator() const {
     const Use use(*this);
     return *integrator_;
@@ -122,7 +122,6 @@ class PythonIntegrator {
 
   const Method& method_;
   Chain chain_;
-  IntegratorOptions options_;
   std::unique_ptr<Integrator> integrator_;
   mutable std::atomic<bool> busy_{false};
 };
@@ -191,27 +190,27 @@ void defineState(py::module_& module) {
       .def_property_readonly("velocities", &stateView<2, 2>)
       .def("__len__", &State::size)
       .def("__copy__", [](const State& state) { return state; })
-      .def("__deepcopy__", [](const State& state, const py::dict&) { return state; })
       .def("__repr__",
            [](const State& s) { return fmt::format("<State of {} particles>", s.size()); })
       .def(py::pickle(
           [](const py::object& self) {
-            return py::make_tuple(stateView<0, 4>(self).attr("copy")("F"));
+            return py::make_tuple(self.attr("x"), self.attr("y"), self.attr("vx"), self.attr("vy"));
           },
-          [](const py::tuple& t) {
-            const auto values = t[0].cast<py::array_t<double, py::array::f_style>>();
-            State state(values.shape(0));
-            std::copy_n(values.data(), values.size(), state.values().data());
-            return state;
-          }));
+          [](const py::tuple& t) { return makeState(t[0], t[1], t[2], t[3]); }));
 }
 
 void defineIntegrator(py::module_& module) {
   constexpr IntegratorOptions kDefaults;
-  const auto make = [](const std::string& method, const Chain& chain, double tolerance,
+  const auto make = [](const std::string& name, const Chain& chain, std::optional<double> tolerance,
                        bool track_dissipation, int threads) {
+    const Method& method = findMethod(name);
+    if (tolerance && method.hasFixedStep()) {
+      throw InputError(fmt::format(
+          "tolerance: {} takes fixed steps; choose the time_step of advance", method.name));
+    }
     return std::make_unique<PythonIntegrator>(
-        method, chain, IntegratorOptions{tolerance, track_dissipation, threads});
+        method, chain,
+        IntegratorOptions{tolerance.value_or(IntegratorOptions().tolerance), track_dissipation, threads});
   };
   py::class_<PythonIntegrator>(module, "Integrator", "Advances states of one chain.")
       .def("advance", &PythonIntegrator::advance, "state"_a, "time_step"_a, "steps"_a)
@@ -226,22 +225,12 @@ void defineIntegrator(py::module_& module) {
           [](const PythonIntegrator& i) { return i.integrator().dissipatedEnergy(); })
       .def_property_readonly("report",
                              [](const PythonIntegrator& i) { return i.integrator().report(); })
-      .def("__repr__",
-           [](const PythonIntegrator& i) {
-             return fmt::format("<Integrator {}, {} particles>", i.method().name, i.chain().size());
-           })
-      .def(py::pickle(
-          [](const PythonIntegrator& i) {
-            return py::make_tuple(i.method().name, i.chain(), i.options().tolerance,
-                                  i.options().track_dissipation, i.options().threads);
-          },
-          [make](const py::tuple& t) {
-            return make(t[0].cast<std::string>(), t[1].cast<const Chain&>(), t[2].cast<double>(),
-                        t[3].cast<bool>(), t[4].cast<int>());
-          }));
+      .def("__repr__", [](const PythonIntegrator& i) {
+        return fmt::format("<Integrator {}, {} particles>", i.method().name, i.chain().size());
+      });
   module.def("make_integrator", make, "method"_a, "chain"_a, py::kw_only(),
-             "tolerance"_a = kDefaults.tolerance,
-             "track_dissipation"_a = kDefaults.track_dissipation, "threads"_a = kDefaults.threads);
+             "tolerance"_a = py::none(), "track_dissipation"_a = kDefaults.track_dissipation,
+             "threads"_a = kDefaults.threads);
 }
 
 }  // namespace

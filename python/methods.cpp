@@ -19,21 +19,16 @@ ButcherTableau toTableau(const py::sequence& rows, const py::object& weights) {
   constexpr auto kMost = static_cast<py::ssize_t>(ButcherTableau::kMaxStages);
   if (b.size() < 1 || b.size() > kMost || static_cast<py::ssize_t>(rows.size()) != b.size()) {
     throw InputError(
-        fmt::format("a and b: must have one row and one weight for each of 1 to {} stages, got {} "
-                    "rows and {} weights",
-                    kMost, rows.size(), b.size()));
+        fmt::format("a and b: must have one row and one weight for each of 1 to {} stages", kMost));
   }
   ButcherTableau tableau;
   tableau.stages = static_cast<std::size_t>(b.size());
   std::copy_n(b.data(), b.size(), tableau.b.begin());
   for (std::size_t i = 0; i < tableau.stages; ++i) {
-    const py::object given = rows[i];
     const std::string name = fmt::format("a[{}]", i);
-    const Numbers row = toNumbers(given, name, 1);
-    if (row.size() > b.size()) {
-      throw InputError(
-          fmt::format("{}: must have at most {} numbers, got {}", name, b.size(), row.size()));
-    }
+    const Numbers row = toNumbers(rows[i], name, 1);
+    if (row.size() > b.size())
+      throw InputError(fmt::format("{}: at most {} numbers", name, b.size()));
     std::copy_n(row.data(), row.size(), tableau.a[i].begin());
   }
   return tableau;
@@ -69,10 +64,7 @@ void defineMethods(py::module_& module) {
       .def_property_readonly("fixed_step", &Method::hasFixedStep,
                              "Whether the method takes time_step; if not, a tolerance.")
       .def("__repr__",
-           [](const Method& m) { return fmt::format("<Method {}, order {}>", m.name, m.order); })
-      .def(py::pickle(
-          [](const Method& method) { return py::make_tuple(method.name); },
-          [](const py::tuple& state) { return findMethod(state[0].cast<std::string>()); }));
+           [](const Method& m) { return fmt::format("<Method {}, order {}>", m.name, m.order); });
   module.def(
       "methods",
       [] {

@@ -15,7 +15,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -26,7 +25,7 @@ namespace {
 
 using namespace py::literals;
 
-/// Numbers of a frame, in the order of `recordFrame`.
+/// Numbers of a frame, as `recordNumbers` writes them.
 constexpr py::ssize_t kFrameNumbers = 9;
 
 /// Unlike a program, Python writes frame files only if asked.
@@ -43,16 +42,9 @@ bool isPath(const py::object& value) {
 
 /// Encodes a name as the file system does.
 std::string pathText(const py::object& value) {
-  const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
-  if (!path) throw py::error_already_set();
-  if (py::isinstance<py::bytes>(path)) return path.cast<std::string>();
-  const auto bytes = py::reinterpret_steal<py::bytes>(PyUnicode_EncodeFSDefault(path.ptr()));
-  if (!bytes) throw py::error_already_set();
-  std::string text = bytes;
-  if (text.find('\0') != std::string::npos) {
-    throw InputError(fmt::format("{}: a path must not have a null character", reprOf(value)));
-  }
-  return text;
+  PyObject* bytes = nullptr;
+  if (PyUnicode_FSConverter(value.ptr(), &bytes) == 0) throw py::error_already_set();
+  return py::reinterpret_steal<py::bytes>(bytes);
 }
 
 /// Whether Python converts a value to a number without parsing text.
@@ -119,50 +111,17 @@ double orNan(const std::optional<double>& number) {
   return number.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The frames of a run in memory.
-class Recording {
- public:
-  Recording(py::ssize_t frames, py::ssize_t particles)
-      : numbers_({kFrameNumbers, frames}),
-        states_({frames, py::ssize_t{4}, particles}),
-        state_size_(4 * particles),
-        frames_(frames),
-        number_(numbers_.mutable_data()),
-        state_(states_.mutable_data()) {}
-
-  /// Needs no interpreter lock.
-  void add(const Run& run) {
-    std::copy_n(run.state().values().data(), state_size_, state_ + count_ * state_size_);
-    const EnergyEntry entry = run.energyEntry();
-    const double row[kFrameNumbers] = {entry.time,
-                                       entry.energy.kinetic,
-                                       entry.energy.gravity,
-                                       entry.energy.spring,
-                                       entry.energy.total(),
-                                       orNan(entry.dissipated),
-                                       orNan(entry.residual),
-                                       orNan(entry.relative_residual),
-                                       run.positionError().now};
-    for (py::ssize_t i = 0; i < kFrameNumbers; ++i) number_[i * frames_ + count_] = row[i];
-    ++count_;
+/// Writes the numbers of a frame into a column of a table with a row for each quantity.
+void recordNumbers(const Run& run, double* column, py::ssize_t frames) {
+  const EnergyEntry entry = run.energyEntry();
+  for (const double number :
+       {entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
+        entry.energy.total(), orNan(entry.dissipated), orNan(entry.residual),
+        orNan(entry.relative_residual), run.positionError().now}) {
+    *column = number;
+    column += frames;
   }
-
-  /// One row for each quantity.
-  py::object numbers() const {
-    return numbers_[py::make_tuple(py::ellipsis(), py::slice(0, count_, 1))];
-  }
-  /// Shape (F, 4, N).
-  py::object states() const { return states_[py::slice(0, count_, 1)]; }
-
- private:
-  py::array_t<double> numbers_;
-  py::array_t<double> states_;
-  py::ssize_t state_size_;
-  py::ssize_t frames_;
-  py::ssize_t count_ = 0;
-  double* number_;
-  double* state_;
-};
+}
 
 py::tuple tupleOf(const Verdict& verdict) {
   return py::make_tuple(std::string(toString(verdict.kind)), verdict.text, verdict.time);
@@ -179,37 +138,34 @@ std::string warningOf(const Run& run, const std::function<bool()>& stop) {
   return run.toleranceRemark();
 }
 
-Run makeRun(const Scenario& scenario, const Particles& particles, const RunOptions& options) {
-  try {
-    return {scenario, particles, options};
-  } catch (const std::invalid_argument&) {
-    throw;
-  } catch (const std::runtime_error& error) {  // needs more memory than there is
-    PyErr_SetString(PyExc_MemoryError, error.what());
-    throw py::error_already_set();
-  }
-}
-
 py::dict simulate(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
   const Particles start = particlesOf(particles, scenario);
   Interruption interruption;
-  Run run = makeRun(scenario, start, {true, 0.0, [&] { return interruption(); }});
+  Run run(scenario, start, {true, 0.0, [&] { return interruption(); }});
   const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
-  Recording recording(scenario.frames - start.frame, run.chain().size());
+  const py::ssize_t frames = scenario.frames - start.frame;
+  const py::ssize_t state_size = run.state().values().size();
+  py::array_t<double> numbers({kFrameNumbers, frames});
+  py::array_t<double> states({frames, py::ssize_t{4}, state_size / 4});
+  double* const number = numbers.mutable_data();
+  double* const state = states.mutable_data();
+  py::ssize_t count = 0;
   RunFiles output(run);
   std::string warning;
   {
     const Computation computation;
     while (run.advance(*integrator)) {
-      recording.add(run);
+      std::copy_n(run.state().values().data(), state_size, state + count * state_size);
+      recordNumbers(run, number + count++, frames);
       output.write(run);
     }
     output.finish();
     if (!run.wasStopped()) warning = warningOf(run, [&] { return interruption(); });
   }
   interruption.raise();
-  return py::dict("states"_a = recording.states(), "numbers"_a = recording.numbers(),
+  return py::dict("states"_a = states[py::slice(0, count, 1)],
+                  "numbers"_a = numbers[py::make_tuple(py::ellipsis(), py::slice(0, count, 1))],
                   "chain"_a = run.chain(), "method"_a = scenario.method.get().name,
                   "verdict"_a = tupleOf(run.verdict()), "warning"_a = warning,
                   "seconds"_a = run.seconds(),

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes what follows from the tables of options into config/, docs/ and python/.
+"""Writes what follows from the tables of options into config/ and docs/.
 
 Usage: generate_option_texts.py PROGRAM [check]
 PROGRAM prints the tables: test/support/option_table.cpp. With `check`, writes nothing and fails if a
@@ -63,19 +63,11 @@ def parameter_row(option):
                                        option['meaning'])
 
 
-def keyword(option):
-    placeholder = option['placeholder']
-    types = {'FILE': '_Path', 'DIR': '_Path', 'METHOD': 'str', 'N': 'int', '': 'bool'}
-    choices = 'Literal[%s]' % ', '.join(map(repr, placeholder.split('|')))
-    return '    %s: %s = ...,\n' % (option['key'], choices if '|' in placeholder else types.get(placeholder, 'float'))
-
-
 # How an option is written, the tables of its options, and the head of the list.
 KINDS = {'yaml': (yaml_entry, 'run', ''),
          'options': (option_row, 'run', '| option | meaning | unit | default |\n|---|---|---|---|\n'),
          'parameters': (parameter_row, 'display play',
-                        '| parameter | default | range | meaning |\n|---|---|---|---|\n'),
-         'keywords': (keyword, 'run', '')}
+                        '| parameter | default | range | meaning |\n|---|---|---|---|\n')}
 
 
 def generated(match, options):
@@ -89,7 +81,7 @@ def main(program, *check):
     lines = subprocess.run([program], check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
     options = [json.loads(line) for line in lines]
     has_ros = any(option['group'] == 'play' for option in options)
-    paths = ['config/pendulum.yaml', 'docs/exercise3.md', 'python/spring_pendulum/_functions.pyi']
+    paths = ['config/pendulum.yaml', 'docs/exercise3.md']
     if has_ros:
         paths += ['docs/ros.md']
     different = []

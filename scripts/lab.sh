@@ -22,4 +22,4 @@ compile "$folder"
 page=$project/output/pendulum_lab.html
 "$project/web/assemble.py" "$folder" "$page"
 say "page: $page"
-[ $# -eq 0 ] || exec "$project/web/browser_test.py" "$page" "$(program Exercise3)"
+[ $# -eq 0 ] || exec "$project/test/web/browser_test.py" "$page" "$(program Exercise3)"

@@ -36,7 +36,7 @@ packages_of() {
     rviz) echo rviz ;;
     python)
       echo pybind11-dev python3-dev python3-numpy python3-matplotlib python3-setuptools ;;
-    test) echo procps locales-all mypy python3-scipy jupyter-nbconvert python3-ipykernel ;;
+    test) echo procps locales-all python3-scipy jupyter-nbconvert python3-ipykernel ;;
     test-ros)
       echo python3-rostest librostest-dev python3-rosmsg xvfb xauth x11-utils xdotool libgl1-mesa-dri \
            imagemagick ;;

@@ -50,7 +50,7 @@ Returns:
 Raises:
     InputError: a wrong value, an unknown keyword or a malformed file
     FileError: a file that cannot be read or written
-    MemoryError: the run needs more memory than there is
+    RuntimeError: the run needs more memory than there is
 
 Warns:
     RuntimeWarning: the motion diverged, or its energy or positions are wrong

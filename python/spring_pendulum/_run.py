@@ -1,15 +1,5 @@
 """What simulate and check return."""
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Tuple
-
-from . import _pictures
-from ._core import Chain
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    import numpy as np
-    Array = NDArray[np.float64]
+from typing import Any, NamedTuple, Optional
 
 
 class Verdict(NamedTuple):
@@ -18,19 +8,19 @@ class Verdict(NamedTuple):
     text: str
     time: float  # s
 
-    def __str__(self) -> str:
+    def __str__(self):
         return self.text
 
 
 class Energy(NamedTuple):
     """Energies at the frames, each of shape (F,), as in the file of the option energy."""
-    kinetic: Array  # J
-    gravity: Array  # J, 0 at the height of the first particle
-    spring: Array  # J
-    total: Array  # J
-    dissipated: Array  # J, by the dampers since the start
-    residual: Array  # J, total + dissipated - total at the start
-    relative_residual: Array  # in units of the energy scale of the scene
+    kinetic: Any  # J
+    gravity: Any  # J, 0 at the height of the first particle
+    spring: Any  # J
+    total: Any  # J
+    dissipated: Any  # J, by the dampers since the start
+    residual: Any  # J, total + dissipated - total at the start
+    relative_residual: Any  # in units of the energy scale of the scene
 
 
 class Report(NamedTuple):
@@ -41,7 +31,7 @@ class Report(NamedTuple):
     largest_stable_step: Optional[float]  # s; inf: the whole run; 0: none tried; None: not known, or no fixed steps
     largest_accurate_step: Optional[float]  # s
 
-    def __str__(self) -> str:
+    def __str__(self):
         return self.text.rstrip()
 
 
@@ -62,27 +52,19 @@ class Run:
         closing_line: what Exercise3 prints at the end
     """
 
-    def __init__(self, states: Array, numbers: Array, chain: Chain, method: str,
-                 verdict: Tuple[str, str, float], seconds: float, force_evaluations: int, closing_line: str) -> None:
-        self.positions: Array = states[:, :2].transpose(0, 2, 1)
-        self.velocities: Array = states[:, 2:].transpose(0, 2, 1)
-        self.time: Array = numbers[0]
+    def __init__(self, states, numbers, verdict, **others):
+        self.positions = states[:, :2].transpose(0, 2, 1)
+        self.velocities = states[:, 2:].transpose(0, 2, 1)
+        self.time = numbers[0]
         self.energy = Energy(*numbers[1:8])
-        self.position_error: Array = numbers[8]
-        self.chain = chain
-        self.method = method
+        self.position_error = numbers[8]
         self.verdict = Verdict(*verdict)
-        self.seconds = seconds
-        self.force_evaluations = force_evaluations
-        self.closing_line = closing_line
+        self.__dict__.update(others)
 
-    def __repr__(self) -> str:
+    def __repr__(self):
         return self.closing_line
 
-    def _repr_html_(self) -> str:
-        return _pictures.html_of(self)
-
-    def plot(self, axes: Any = None) -> Any:
+    def plot(self, axes=None):
         """Draws the chain at the first, the last and some other frames, and its energies.
 
         Args:
@@ -91,16 +73,5 @@ class Run:
         Returns:
             the matplotlib figure
         """
-        return _pictures.plot(self, axes)
-
-    def animate(self, path: Any = None, trail: float = 1.5) -> Any:
-        """Animates the chain at the speed of the motion.
-
-        Args:
-            path: GIF to write; None: none
-            trail: how long the path of the last particle stays visible, s
-
-        Returns:
-            the matplotlib FuncAnimation; keep it as long as it runs
-        """
-        return _pictures.animate(self, path, trail)
+        from ._pictures import plot
+        return plot(self, axes)

@@ -1,11 +1,9 @@
 """Run time against error, for one's own scene."""
-from __future__ import annotations
-
 import time
 import warnings
-from typing import Any, Iterable, List, NamedTuple, Optional
+from typing import NamedTuple
 
-from ._core import Chain, InputError, Integrator, Method, State, find_method, make_integrator, methods as all_methods
+from ._core import InputError, State, find_method, make_integrator, methods as all_methods
 from ._functions import simulate
 
 TIME_STEPS = tuple(0.05 / 2**k for k in range(8))
@@ -22,7 +20,7 @@ class Point(NamedTuple):
     force_evaluations: int
 
 
-def _least_time(integrator: Integrator, start: State, time_step: float, steps: int) -> float:
+def _least_time(integrator, start, time_step, steps):
     least, spent, count = float('inf'), 0.0, 0
     while count < 3 or (spent < 0.02 and count < 100):
         state = start.__copy__()
@@ -34,27 +32,25 @@ def _least_time(integrator: Integrator, start: State, time_step: float, steps: i
     return least
 
 
-def _measure(particles: Any, method: Method, value: float, duration: float, options: Any) -> Point:
+def _measure(particles, method, value, duration, options):
     control = 'time_step' if method.fixed_step else 'tolerance'
     steps = max(1, round(duration / value)) if method.fixed_step else 1
     time_step = duration / steps
-    settings: Any = ({'time_step': time_step, 'steps_per_frame': steps} if method.fixed_step else
-                {'tolerance': value, 'frame_interval': duration})
+    tolerance = {} if method.fixed_step else {'tolerance': value}
+    settings = ({'time_step': time_step, 'steps_per_frame': steps} if method.fixed_step else
+                {'frame_interval': duration, **tolerance})
     with warnings.catch_warnings():
         warnings.simplefilter('ignore', RuntimeWarning)  # the error tells
         run = simulate(particles, method=method.name, frames=2, reference='always', **settings, **options)
     error = float(run.position_error[-1]) if len(run.time) == 2 else float('inf')
     start = State(*run.positions[0].T, *run.velocities[0].T)
-    tolerance: Any = {} if method.fixed_step else {'tolerance': value}
     integrator = make_integrator(method.name, run.chain, threads=1, **tolerance)
     seconds = _least_time(integrator, start, time_step, steps)
     return Point(method.name, control, time_step if method.fixed_step else value, seconds, error,
                  run.force_evaluations)
 
 
-def work_precision(particles: Any, methods: Optional[Iterable[str]] = None, *, duration: float = 10.0,
-                   time_steps: Iterable[float] = TIME_STEPS, tolerances: Iterable[float] = TOLERANCES,
-                   **options: Any) -> List[Point]:
+def work_precision(particles, methods=None, *, duration=10.0, time_steps=TIME_STEPS, tolerances=TOLERANCES, **options):
     """Measures run time and error of methods on a scene, for a range of step sizes and tolerances.
 
     Args:

@@ -41,7 +41,7 @@ class Examples(unittest.TestCase):
         shutil.copy(EXAMPLES / 'chain.ipynb', self.folder)
         text = self.run_in_folder('jupyter', 'nbconvert', '--to', 'markdown', '--execute', '--stdout',
                                   '--ExecutePreprocessor.kernel_name=python3', 'chain.ipynb')
-        for expected in ('Euler: order 1.0', 'Runge-Kutta-4: order 4.0', '<td>Runge-Kutta-4</td>'):
+        for expected in ('Euler: order 1.0', 'Runge-Kutta-4: order 4.0', 'verdict: ok'):
             self.assertTrue(expected in text, expected)
 
     def test_the_document_is_true(self):
@@ -60,22 +60,12 @@ class Pictures(unittest.TestCase):
                          ['total', 'kinetic', 'gravity', 'spring', 'dissipated'])
         self.assertEqual(energy.lines[0].get_ydata().tolist(), run.energy.total.tolist())
         self.assertEqual(len(chain.collections), 5)
-        html = run._repr_html_()
-        self.assertIn('<td>Runge-Kutta-4</td>', html)
-        self.assertIn('data:image/png', html)
-
-    def test_animation_is_written(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder, 'chain.gif')
-            sp.simulate(SCENE, frames=4).animate(path)
-            self.assertEqual(path.read_bytes()[:6], b'GIF89a')
 
     def test_need_matplotlib_only_when_drawn(self):
-        run = sp.simulate(SCENE, frames=3)
+        sys.modules.pop('spring_pendulum._pictures', None)
         with mock.patch.dict(sys.modules, {'matplotlib': None}):
             with self.assertRaisesRegex(ImportError, 'install python3-matplotlib'):
-                run.plot()
-            self.assertNotIn('<img', run._repr_html_())
+                sp.simulate(SCENE, frames=3).plot()
         code = 'import sys, spring_pendulum as sp; print("matplotlib" in sys.modules or "scipy" in sys.modules)'
         self.assertEqual(subprocess.run([sys.executable, '-c', code], stdout=subprocess.PIPE, text=True).stdout, 'False\n')
 

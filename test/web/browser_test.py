@@ -18,7 +18,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-DATA = Path(__file__).resolve().parent.parent / 'data'
+DATA = Path(__file__).resolve().parents[2] / 'data'
 SCENES = sorted(path for path in DATA.glob('*.txt'))
 HANGING = 300  # s
 
