@@ -13,7 +13,7 @@
 #   lint       clang-format, clang-tidy, catkin_lint
 #   sanitize   clang's sanitizers and fuzzer, valgrind, coverage
 #   compilers  clang, for scripts/compilers.sh
-#   releases   packages for scripts/test_releases.sh
+#   releases   packages for scripts/test_releases.sh and scripts/release.sh
 #   arm64      a cross compiler for 64-bit ARM, and qemu
 #   benchmark  solvers to compare with, all optional
 set -euo pipefail
@@ -48,7 +48,7 @@ packages_of() {
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev valgrind gcovr ;;
     compilers) echo clang ;;
-    releases) echo debootstrap git ;;
+    releases) echo debootstrap dpkg-dev git ;;
     arm64) echo g++-aarch64-linux-gnu qemu-user ;;
     benchmark)
       echo libboost-dev libgsl-dev libsundials-dev libmujoco-dev libsimbody-dev python3 \
