@@ -42,7 +42,7 @@ packages_of() {
            imagemagick ;;
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lab)
-      echo emscripten cmake ninja-build libeigen3-dev libfmt-dev esbuild libjs-chart.js libjs-katex node-jszip \
+      echo emscripten cmake ninja-build libeigen3-dev libfmt-dev esbuild libjs-chart.js libjs-katex \
            python3-selenium chromium chromium-driver ;;
     cache) echo ccache ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;

@@ -55,8 +55,8 @@ function keepAddress() {
   address = setTimeout(() => history.replaceState(null, '', toAddress()), 300);
 }
 
-function setTheme(name) {
-  document.documentElement.dataset.theme = name;
+function setTheme(dark) {
+  document.documentElement.dataset.theme = dark ? 'dark' : 'light';
   tell('theme');
 }
 
@@ -66,16 +66,12 @@ function takeDrops() {
     document.body.classList.toggle('over', event.type === 'dragover');
   };
   for (const type of ['dragover', 'dragleave']) document.addEventListener(type, stop);
-  document.addEventListener('drop', async (event) => {
+  document.addEventListener('drop', (event) => {
     stop(event);
-    const {items} = event.dataTransfer;
-    const files = [...event.dataTransfer.files];  // gone after the first await
-    const dropped = [...items].find((item) => item.webkitGetAsEntry?.()?.isDirectory);
-    // Chromium lets a page from disk read a folder by its handle only; Firefox has no handles.
-    const folder = await (dropped?.getAsFileSystemHandle?.() ?? dropped?.webkitGetAsEntry());
-    if (folder || files.length > 1 || /\.zip$/i.test(files[0]?.name ?? '')) {
+    const files = [...event.dataTransfer.files];
+    if (files.length > 1) {
       showTab('check');
-      check.take(folder, files);
+      check.take(files);
     } else if (files[0]) {
       editor.openFile(files[0]);
     }
@@ -92,7 +88,6 @@ function fileOf(particles) {
 function showAll() {
   editor.showConstants();
   report.showRuns();
-  document.getElementById('layout').value = settings.layout;
   showTab(settings.tab);
   tell('file');
 }
@@ -115,7 +110,7 @@ window.pendulumLab = {
   /** Changes settings of the page and resolves when all runs have ended. */
   async set({particles, runs, ...changes} = {}) {
     if (particles !== undefined) settings.file = fileOf(particles);
-    for (const key of [...constants, 'frames', 'interval', 'reference', 'layout', 'tab']) {
+    for (const key of [...constants, 'frames', 'interval', 'reference', 'tab']) {
       if (changes[key] !== undefined) settings[key] = String(changes[key]);
     }
     if (runs) {
@@ -130,8 +125,7 @@ window.pendulumLab = {
     keepAddress();
   },
   state: () => ({
-    time: motion.play.time, playing: motion.play.on, pictures: motion.play.pictures,
-    firstPicture: motion.play.firstPicture, scene: {x: [...scene.x], y: [...scene.y], m: [...scene.m]},
+    time: motion.play.time, playing: motion.play.on, scene: {x: [...scene.x], y: [...scene.y], m: [...scene.m]},
     problem: document.getElementById('problem').textContent, settings: structuredClone(settings),
     sentences: report.sentences(),
     runs: tracks.map((track) => ({
@@ -139,7 +133,7 @@ window.pendulumLab = {
       end: track.end, positions: Array.from(track.positionsAt(motion.play.time) ?? []).slice(0, 2 * scene.x.length),
     })),
     truth: Array.from(truthTrack()?.positionsAt(motion.play.time, truthTrack().truths) ?? []),
-    plots: plots.values(),
+    plots: plots.values(), step: step.explained(),
   }),
   studies: studies.results,
   onScreen: motion.onScreen,
@@ -150,28 +144,20 @@ window.pendulumLab = {
 
 async function start() {
   const dark = matchMedia('(prefers-color-scheme: dark)');
-  setTheme(dark.matches ? 'dark' : 'light');
-  dark.addEventListener('change', () => setTheme(dark.matches ? 'dark' : 'light'));
-  document.getElementById('theme').addEventListener('click', () => {
-    setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
-  });
+  setTheme(dark.matches);
+  dark.addEventListener('change', () => setTheme(dark.matches));
   makeTabs();
   takeDrops();
   Object.assign(described, await tools.call('describe'));
   setDefaults();
   fromAddress(location.hash);
   for (const part of [motion, editor, report, plots, studies, stability, step, own, share, check]) part.start();
-  document.getElementById('layout').addEventListener('change', ({target}) => {
-    settings.layout = target.value;
-    keepAddress();
-    tell('fit');
-  });
   on('settings', keepAddress);
-  if (settings.own) await own.restore();
+  await own.register(settings.own);
   showAll();
   window.addEventListener('hashchange', async () => {
     fromAddress(location.hash);
-    if (settings.own) await own.restore();
+    await own.register(settings.own);
     showAll();
     restartSoon();
   });

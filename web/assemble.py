@@ -5,7 +5,6 @@
 """
 import base64
 import json
-import os
 import re
 import subprocess
 import sys
@@ -16,12 +15,10 @@ LIBRARIES = Path('/usr/share/javascript')
 
 
 def bundle():
-    """The modules of the page and JSZip in one script."""
-    # JSZip asks for the streams of Node.js, and does without them.
+    """The modules of the page in one script."""
     command = ['esbuild', str(WEB / 'app.js'), '--bundle', '--minify', '--charset=utf8', '--target=es2022',
-               '--external:stream', '--log-level=warning']
-    environment = {**os.environ, 'NODE_PATH': '/usr/share/nodejs'}
-    return subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
+               '--log-level=warning']
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 def minified(path):

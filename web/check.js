@@ -1,5 +1,4 @@
 // Checks the frames of a student's program, and draws them over the right motion.
-import JSZip from '/usr/share/nodejs/jszip/lib/index.js';
 import {Cancelled, Library} from './library.js';
 import {seek, showFrames} from './motion.js';
 import {paragraph} from './step.js';
@@ -7,8 +6,8 @@ import {scene} from './runs.js';
 import {get, methodOf, on, optionsOf, settings} from './state.js';
 
 const note = get('check-note');
-const MOST_BYTES = 2e8;
-const NAME = /(?:^|\/)(frame[^\d/]*(\d+)\.(?:txt|dat|csv))$/i;
+const MOST_BYTES = 1e8;
+const NAME = /^(frame[^\d]*(\d+)\.(?:txt|dat|csv))$/i;
 let library = null;
 
 const frameOf = (path) => {
@@ -18,42 +17,6 @@ const frameOf = (path) => {
 
 function say(...lines) {
   note.replaceChildren(...lines.map((line) => paragraph(line)));
-}
-
-/** All files of a dropped folder, given as a handle or as an entry. */
-async function filesIn(folder) {
-  if (folder.values) {
-    const handles = [];
-    for await (const handle of folder.values()) if (handle.kind === 'file') handles.push(handle);
-    return Promise.all(handles.map((handle) => handle.getFile()));
-  }
-  const reader = folder.createReader();
-  const files = [];
-  for (;;) {
-    const entries = await new Promise((resolve, reject) => { reader.readEntries(resolve, reject); });
-    if (entries.length === 0) return files;
-    for (const entry of entries) {
-      if (entry.isFile) files.push(await new Promise((resolve, reject) => { entry.file(resolve, reject); }));
-    }
-  }
-}
-
-async function readZip(file) {
-  if (file.size > MOST_BYTES) throw new Error(tooMuch(file.size));
-  const zip = await JSZip.loadAsync(file).catch(() => {
-    throw new Error(`${file.name}: could not be read as a zip file`);
-  });
-  const frames = [];
-  let bytes = 0;
-  for (const [path, entry] of Object.entries(zip.files)) {
-    const frame = frameOf(path);
-    if (!frame || entry.dir) continue;
-    // A small zip may hold a huge file.
-    bytes += entry._data?.uncompressedSize ?? 0;
-    if (bytes > MOST_BYTES) throw new Error(tooMuch(bytes));
-    frames.push({...frame, text: await entry.async('string')});
-  }
-  return frames;
 }
 
 const tooMuch = (bytes) => `${(bytes / 1e6).toFixed(0)} MB of frames are too much for this page: use check_frames`;
@@ -82,15 +45,14 @@ function drawOver(frames, interval) {
   });
 }
 
-/** Checks a dropped or chosen folder, zip or list of files. */
-export async function take(folder, files) {
+/** Checks the files of a folder. */
+export async function take(files) {
   showFrames(null);
   library?.cancel();
   library = new Library();
   try {
     say('Reading …');
-    const zip = files.find((file) => /\.zip$/i.test(file.name));
-    const frames = zip && !folder ? await readZip(zip) : await readFiles(folder ? await filesIn(folder) : files);
+    const frames = await readFiles(files);
     if (frames.length === 0) {
       say('No frames here: the files must be named frame_0000.txt, frame_0001.txt and so on.');
       return;
@@ -122,8 +84,7 @@ async function check(frames) {
 }
 
 export function start() {
-  get('check-folder').addEventListener('change', ({target}) => { take(null, [...target.files]); target.value = ''; });
-  get('check-zip').addEventListener('change', ({target}) => { take(null, [...target.files]); target.value = ''; });
+  get('check-folder').addEventListener('change', ({target}) => { take([...target.files]); target.value = ''; });
   get('check-cancel').addEventListener('click', () => { library?.cancel(); say('Cancelled.'); });
   on('tab', (tab) => { if (tab !== 'check') showFrames(null); });
 }

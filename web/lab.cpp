@@ -179,9 +179,7 @@ class LabRun {
     end.set("energyError", largest_energy_error_);
     end.set("evaluations", static_cast<double>(integrator_->forceEvaluations()));
     end.set("report", integrator_->report());
-    end.set("seconds", run_.seconds());
     end.set("measurements", run_.measurements());
-    end.set("frames", static_cast<double>(run_.frame() + 1));
     return end;
   }
 
@@ -193,12 +191,11 @@ class LabRun {
     if (run_.isAtFrame()) files_->write(run_);
     const EnergyEntry entry = run_.energyEntry();
     const PositionError error = run_.positionError();
-    times_.insert(
-        times_.end(),
-        {run_.time(), run_.isAtFrame() ? static_cast<double>(run_.frame()) : -1.0, error.now,
-         error.uncertainty, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
-         entry.dissipated.value_or(kNone), entry.residual.value_or(kNone),
-         entry.relative_residual.value_or(kNone), entry.relative_gain});
+    times_.insert(times_.end(),
+                  {run_.time(), run_.isAtFrame() ? static_cast<double>(run_.frame()) : -1.0,
+                   error.now, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
+                   entry.dissipated.value_or(kNone), entry.relative_residual.value_or(kNone),
+                   entry.relative_gain});
     if (entry.relative_residual) {
       largest_energy_error_ = std::fmax(largest_energy_error_, std::abs(*entry.relative_residual));
     }
@@ -240,9 +237,10 @@ ButcherTableau tableauOf(const val& rows, const val& b) {
   return tableau;
 }
 
-/// Returns ln |R| on a grid of width x height points of a rectangle of the complex plane.
+/// Returns ln |R| at points of the complex plane.
 /// \param method its name, or an object with a tableau a, b
-val growthGrid(const val& method, double left, double right, double top, int width, int height) {
+/// \param points real and imaginary part of each
+val growthAt(const val& method, const val& points) {
   ButcherTableau tableau;
   Method own;
   if (!method.isString()) {
@@ -250,13 +248,10 @@ val growthGrid(const val& method, double left, double right, double top, int wid
     own.tableau = &tableau;
   }
   const Method& row = method.isString() ? findMethod(method.as<std::string>()) : own;
+  const auto parts = emscripten::convertJSArrayToNumberVector<double>(points);
   std::vector<double> values;
-  for (int line = 0; line < height; ++line) {
-    const double y = top * line / (height - 1);
-    for (int column = 0; column < width; ++column) {
-      const double x = left + (right - left) * column / (width - 1);
-      values.push_back(growthPerStep(row, std::hypot(x, y), -2.0 * x));
-    }
+  for (std::size_t i = 0; i + 1 < parts.size(); i += 2) {
+    values.push_back(growthPerStep(row, std::hypot(parts[i], parts[i + 1]), -2.0 * parts[i]));
   }
   return numbers(values);
 }
@@ -285,8 +280,8 @@ val eigenvaluesAt(const val& settings, const val& masses, const val& values) {
   return numbers({parts, parts + 2 * found.size()});
 }
 
-/// Returns the states of all stages of one step of a tableau, their slopes, and the state after the
-/// step, each N×4 by columns.
+/// Returns the states of all stages of one step of a tableau or of Velocity-Verlet, their slopes, and the
+/// state after the step, each N×4 by columns. Other methods have one stage, the start.
 val explainStep(const val& settings, const val& masses, const val& values, double time_step) {
   const Scenario scenario = scenarioOf(settings);
   const Method& method = scenario.method;
@@ -297,11 +292,15 @@ val explainStep(const val& settings, const val& masses, const val& values, doubl
   };
   val stages = val::array();
   val slopes = val::array();
-  std::vector<State> k(method.tableau == nullptr ? 1 : method.tableau->stages);
+  const bool verlet = method.name == "Velocity-Verlet";
+  std::vector<State> k(method.tableau != nullptr ? method.tableau->stages : verlet ? 2 : 1);
   for (std::size_t i = 0; i < k.size(); ++i) {
     State stage = start;
     for (std::size_t j = 0; j < i; ++j) {
-      stage.values() += time_step * method.tableau->a[i][j] * k[j].values();
+      stage.values() += time_step * (verlet ? 1.0 : method.tableau->a[i][j]) * k[j].values();
+    }
+    if (verlet && i == 1) {  // new positions
+      stage.values().leftCols(2) += 0.5 * time_step * time_step * k[0].values().rightCols(2);
     }
     computeSlope(chain, stage, k[i]);
     stages.call<void>("push", flat(stage));
@@ -384,7 +383,7 @@ EMSCRIPTEN_BINDINGS(lab) {
   emscripten::function("options", &lab::optionRows);
   emscripten::function("readScene", &lab::readScene);
   emscripten::function("stableStep", &lab::stableStep);
-  emscripten::function("growthGrid", &lab::growthGrid);
+  emscripten::function("growthAt", &lab::growthAt);
   emscripten::function("eigenvalues", &lab::eigenvaluesAt);
   emscripten::function("explainStep", &lab::explainStep);
   emscripten::function("orderConditions", &lab::orderConditions);

@@ -1,4 +1,5 @@
 // The motion on a canvas, its buttons, and the particles as something to drag.
+import {bounded, gridLines, gridUnit} from './grid.js';
 import {lastTime, scene, tracks, truthTrack} from './runs.js';
 import {colorOf, css, dashes, methodOf, nameOf, on, settings, tell} from './state.js';
 
@@ -10,8 +11,7 @@ const playButton = document.getElementById('play');
 const SLIDER_STEPS = 10000;
 const DOTS = 400;  // longer chains are drawn as lines
 
-export const play = {time: 0, on: false, speed: 1, selected: -1, pictures: 0, firstPicture: null};
-let arrows = [];     // of the step that is explained: {x, y, dx, dy, color, label}
+export const play = {time: 0, on: false, stepped: false, speed: 1, selected: -1};
 let wrong = null;    // frames of a student: {positions: (time) => Float64Array or null, particle}
 let view = {x: 0, y: 0, scale: 40, fitted: false, own: false};  // own: chosen by the user
 let dirty = true;
@@ -19,11 +19,12 @@ const touches = new Map();
 let drag = null;
 
 export const redraw = () => { dirty = true; };
-export function showArrows(list) { arrows = list; redraw(); }
-export function showFrames(frames) { wrong = frames; redraw(); }
+export const showFrames = (frames) => { wrong = frames; redraw(); };
 
-export function seek(time) {
+/** @param stepped whether the time is the end of a step of the first run */
+export function seek(time, stepped = false) {
   play.time = Math.max(0, Math.min(lastTime(), Number.isFinite(time) ? time : 0));
+  play.stepped = stepped;
   redraw();
   tell('time', play.time);
 }
@@ -60,63 +61,40 @@ function reach() {
 function fit() {
   if (scene.x.length === 0) return;
   const [left, right, bottom, top] = reach();
-  const cells = cellsOf(settings.runs.length);
   const margin = 60 * devicePixelRatio;
   const scaleOf = (pixels, length) => Math.max(50, pixels - margin) / Math.max(length, 1e-9);
   view = {
     x: (left + right) / 2, y: (bottom + top) / 2, fitted: true, own: false,
-    scale: Math.min(scaleOf(canvas.width / cells[0], right - left), scaleOf(canvas.height / cells[1], top - bottom)),
+    scale: Math.min(scaleOf(canvas.width, right - left), scaleOf(canvas.height, top - bottom)),
   };
 }
 
-const cellsOf = (count) =>
-  (settings.layout === 'side' && count > 1 ? [2, Math.ceil(count / 2)] : [1, 1]);
-
-function cellAt(index) {
-  const [columns, rows] = cellsOf(settings.runs.length);
-  const width = canvas.width / columns;
-  const height = canvas.height / rows;
-  const cell = columns === 1 ? 0 : index;
-  return {left: (cell % columns) * width, top: Math.floor(cell / columns) * height, width, height};
-}
-
-const toScreen = (cell, x, y) => [
-  cell.left + cell.width / 2 + (x - view.x) * view.scale,
-  cell.top + cell.height / 2 - (y - view.y) * view.scale,
+const toScreen = (x, y) => [
+  canvas.width / 2 + (x - view.x) * view.scale, canvas.height / 2 - (y - view.y) * view.scale,
 ];
 
-// The multiples of a unit between two numbers, at most 1,000: far from the origin, adding a unit may not
-// change a number.
-export function gridLines(low, high, unit) {
-  const first = Math.ceil(low / unit);
-  const count = Math.min(1000, Math.ceil(high / unit) - first);
-  return count > 0 ? Array.from({length: count}, (_, k) => (first + k) * unit) : [];
-}
-
-function drawGrid(cell) {
-  const wanted = 80 * devicePixelRatio / view.scale;
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  const unit = power * [1, 2, 5, 10].find((factor) => factor * power >= wanted);
+function drawGrid() {
+  const unit = gridUnit(80 * devicePixelRatio / view.scale);
   context.strokeStyle = css('--grid');
   context.fillStyle = css('--faint');
   context.lineWidth = 1;
   context.beginPath();
-  const half = [cell.width / view.scale / 2, cell.height / view.scale / 2];
+  const half = [canvas.width / view.scale / 2, canvas.height / view.scale / 2];
   for (const x of gridLines(view.x - half[0], view.x + half[0], unit)) {
-    const [px] = toScreen(cell, x, 0);
-    context.moveTo(px, cell.top);
-    context.lineTo(px, cell.top + cell.height);
+    const [px] = toScreen(x, 0);
+    context.moveTo(px, 0);
+    context.lineTo(px, canvas.height);
   }
   for (const y of gridLines(view.y - half[1], view.y + half[1], unit)) {
-    const [, py] = toScreen(cell, 0, y);
-    context.moveTo(cell.left, py);
-    context.lineTo(cell.left + cell.width, py);
+    const [, py] = toScreen(0, y);
+    context.moveTo(0, py);
+    context.lineTo(canvas.width, py);
   }
   context.stroke();
-  context.fillText(`grid: ${Number(unit.toPrecision(1))} m`, cell.left + 8, cell.top + cell.height - 8);
+  context.fillText(`grid: ${Number(unit.toPrecision(1))} m`, 8, canvas.height - 8);
 }
 
-function drawChain(cell, positions, style) {
+function drawChain(positions, style) {
   const size = scene.x.length;
   context.strokeStyle = style.color;
   context.fillStyle = style.color;
@@ -125,7 +103,7 @@ function drawChain(cell, positions, style) {
   context.lineJoin = 'round';
   context.beginPath();
   for (let i = 0; i < size; ++i) {
-    const [x, y] = toScreen(cell, positions[i], positions[size + i]);
+    const [x, y] = toScreen(positions[i], positions[size + i]);
     const px = Math.max(-1e5, Math.min(1e5, x));
     const py = Math.max(-1e5, Math.min(1e5, y));
     if (i === 0) context.moveTo(px, py);
@@ -135,7 +113,7 @@ function drawChain(cell, positions, style) {
   context.setLineDash([]);
   if (!style.dots || size > DOTS) return;
   for (let i = 0; i < size; ++i) {
-    const [x, y] = toScreen(cell, positions[i], positions[size + i]);
+    const [x, y] = toScreen(positions[i], positions[size + i]);
     context.beginPath();
     if (i === 0) context.rect(x - style.dots, y - style.dots, 2 * style.dots, 2 * style.dots);
     else context.arc(x, y, Math.max(2, style.dots * Math.min(2.5, Math.cbrt(scene.m[i] || 1))), 0, 7);
@@ -149,32 +127,7 @@ function drawChain(cell, positions, style) {
   }
 }
 
-function drawArrows(cell) {
-  for (const {x, y, dx, dy, color, label} of arrows) {
-    const [px, py] = toScreen(cell, x, y);
-    const length = Math.hypot(dx, dy);
-    if (!(length > 0)) continue;
-    const pixels = Math.min(90, 25 + 8 * length) * devicePixelRatio;
-    const ex = px + (dx / length) * pixels;
-    const ey = py - (dy / length) * pixels;
-    const angle = Math.atan2(ey - py, ex - px);
-    context.strokeStyle = context.fillStyle = color;
-    context.lineWidth = 2 * devicePixelRatio;
-    context.beginPath();
-    context.moveTo(px, py);
-    context.lineTo(ex, ey);
-    for (const side of [-0.4, 0.4]) {
-      context.moveTo(ex, ey);
-      context.lineTo(ex - 9 * devicePixelRatio * Math.cos(angle + side),
-                     ey - 9 * devicePixelRatio * Math.sin(angle + side));
-    }
-    context.stroke();
-    context.fillText(label, ex + 4, ey - 4);
-  }
-}
-
 function drawRun(index) {
-  const cell = cellAt(index);
   const track = tracks[index];
   const run = settings.runs[index];
   if (!track || !run) return;
@@ -185,13 +138,12 @@ function drawRun(index) {
   let color = colorOf(index);
   if (alone && track.end?.bad) color = css('--doubt');
   if (alone && broken) color = css('--diverged');
-  drawChain(cell, positions, {
+  drawChain(positions, {
     color, width: 2.2, dash: broken && !alone ? [3, 6] : dashes[index], dots: 3.4 * devicePixelRatio,
   });
-  const line = settings.layout === 'side' && !alone ? 0 : index;
   context.fillStyle = color;
   context.fillText(nameOf(run) + (broken ? `: diverged at ${track.lastTime.toPrecision(4)} s` : ''),
-                   cell.left + 10, cell.top + 20 * devicePixelRatio * (line + 1));
+                   10, 20 * devicePixelRatio * (index + 1));
 }
 
 function draw() {
@@ -206,43 +158,15 @@ function draw() {
   context.clearRect(0, 0, width, height);
   context.font = `${13 * devicePixelRatio}px system-ui, sans-serif`;
   const truth = truthTrack();
-  const cells = settings.layout === 'side' && settings.runs.length > 1 ? settings.runs.length : 1;
-  for (let i = 0; i < cells; ++i) {
-    const cell = cellAt(i);
-    context.save();
-    context.beginPath();
-    context.rect(cell.left, cell.top, cell.width, cell.height);
-    context.clip();
-    drawGrid(cell);
-    const right = drag?.scene ?? truth?.positionsAt(play.time, truth.truths);
-    if (right) drawChain(cell, right, {color: css('--truth'), width: 8, dash: [], dots: 0});
-    if (cells > 1) {
-      drawRun(i);
-    } else {
-      for (let j = settings.runs.length - 1; j >= 0; --j) drawRun(j);
-      if (tracks.length === 0 && scene.x.length > 0) drawStart(cell);
-    }
-    const given = wrong?.positions(play.time);
-    if (given) drawChain(cell, given, {color: css('--diverged'), width: 2, dash: [4, 4], dots: 4});
-    if (i === 0) drawArrows(cell);
-    context.restore();
+  drawGrid();
+  const right = drag?.scene ?? truth?.positionsAt(play.time, truth.truths);
+  if (right) drawChain(right, {color: css('--truth'), width: 8, dash: [], dots: 0});
+  for (let j = settings.runs.length - 1; j >= 0; --j) drawRun(j);
+  if (tracks.length === 0) {
+    drawChain([...scene.x, ...scene.y], {color: css('--text'), width: 2, dash: [], dots: 4 * devicePixelRatio});
   }
-  if (cells > 1) drawBorders();
-  if (scene.x.length > 0) play.firstPicture ??= performance.now();
-}
-
-function drawStart(cell) {
-  drawChain(cell, Float64Array.from([...scene.x, ...scene.y]),
-            {color: css('--text'), width: 2, dash: [], dots: 4 * devicePixelRatio});
-}
-
-function drawBorders() {
-  context.strokeStyle = css('--grid');
-  context.lineWidth = 2;
-  for (let i = 0; i < settings.runs.length; ++i) {
-    const cell = cellAt(i);
-    context.strokeRect(cell.left, cell.top, cell.width, cell.height);
-  }
+  const given = wrong?.positions(play.time);
+  if (given) drawChain(given, {color: css('--diverged'), width: 2, dash: [4, 4], dots: 4});
 }
 
 let before = performance.now();
@@ -256,7 +180,6 @@ function tick(now) {
   }
   if (dirty) {
     dirty = false;
-    ++play.pictures;
     draw();
     const end = lastTime();
     if (document.activeElement !== slider || !touchingSlider) {
@@ -270,20 +193,12 @@ function tick(now) {
 let touchingSlider = false;
 
 // Dragging: at the start of the motion a particle, else the view.
-function cellUnder(px, py) {
-  const [columns, rows] = cellsOf(settings.runs.length);
-  return cellAt(Math.floor(px / (canvas.width / columns)) +
-                columns * Math.floor(py / (canvas.height / rows)));
-}
-
 function place(event) {
   const box = canvas.getBoundingClientRect();
   const px = (event.clientX - box.left) * devicePixelRatio;
   const py = (event.clientY - box.top) * devicePixelRatio;
-  const cell = cellUnder(px, py);
   return {
-    px, py, cell, x: view.x + (px - cell.left - cell.width / 2) / view.scale,
-    y: view.y - (py - cell.top - cell.height / 2) / view.scale,
+    px, py, x: view.x + (px - canvas.width / 2) / view.scale, y: view.y - (py - canvas.height / 2) / view.scale,
   };
 }
 
@@ -303,7 +218,7 @@ function particleAt({x, y}) {
 /** Where a particle is drawn, in CSS pixels from the corner of the canvas. */
 export function onScreen(particle) {
   const shown = tracks[0]?.positionsAt(play.time) ?? [...scene.x, ...scene.y];
-  return toScreen(cellAt(0), shown[particle], shown[scene.x.length + particle]).map((value) => value / devicePixelRatio);
+  return toScreen(shown[particle], shown[scene.x.length + particle]).map((value) => value / devicePixelRatio);
 }
 
 export function select(particle) {
@@ -345,7 +260,7 @@ function pinch(event) {
   const distance = Math.hypot(first.clientX - second.clientX, first.clientY - second.clientY);
   touches.set(event.pointerId, event);
   const [a, b] = [...touches.values()];
-  view.scale *= Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) / Math.max(1, distance);
+  view.scale = bounded(view.scale * Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) / Math.max(1, distance));
   view.own = true;
   drag = null;
   redraw();
@@ -365,7 +280,7 @@ canvas.addEventListener('pointercancel', release);
 canvas.addEventListener('wheel', (event) => {
   event.preventDefault();
   view.own = true;
-  view.scale = Math.min(1e12, Math.max(1e-12, view.scale * Math.exp(-0.001 * event.deltaY)));
+  view.scale = bounded(view.scale * Math.exp(-0.001 * event.deltaY));
   redraw();
 }, {passive: false});
 canvas.addEventListener('dblclick', () => { fit(); redraw(); });
@@ -383,7 +298,7 @@ canvas.addEventListener('keydown', (event) => {
   else if (event.key === ']') select((play.selected + 1) % size);
   else if (event.key === 'Delete' && play.selected >= 0) tell('remove');
   else if (event.key === 'Insert') tell('add');
-  else if (event.key === '+' || event.key === '-') view.scale *= event.key === '+' ? 1.25 : 0.8;
+  else if (event.key === '+' || event.key === '-') view.scale = bounded(view.scale * (event.key === '+' ? 1.25 : 0.8));
   else return;
   event.preventDefault();
   redraw();
@@ -391,7 +306,7 @@ canvas.addEventListener('keydown', (event) => {
 
 export const actions = {
   play: () => setPlaying(!play.on),
-  step: () => { setPlaying(false); seek(play.time + stepOf(settings.runs[0])); },
+  step: () => { setPlaying(false); seek(play.time + stepOf(settings.runs[0]), true); },
   frame: () => { setPlaying(false); seek(play.time + Number(settings.interval)); },
   back: () => { setPlaying(false); seek(play.time - Number(settings.interval)); },
   reset: () => { setPlaying(false); seek(0); },

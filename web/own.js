@@ -2,7 +2,7 @@
 import {drawRegion, makeRegionChart} from './stability.js';
 import {formula, fraction} from './step.js';
 import {tools, useOwnMethods} from './runs.js';
-import {MOST_RUNS, defaultOf, described, get, newRun, on, settings, tell} from './state.js';
+import {MOST_RUNS, MOST_STAGES, described, get, newRun, on, settings, tell} from './state.js';
 
 const kept = {
   'Heun': {a: [[], ['1']], b: ['1/2', '1/2']},
@@ -11,7 +11,6 @@ const kept = {
   '3/8 rule': {a: [[], ['1/3'], ['-1/3', '1'], ['1', '-1', '1']], b: ['1/8', '3/8', '3/8', '1/8']},
   'wrong Runge-Kutta-4': {a: [[], ['1/2'], ['0', '1/2'], ['0', '0', '1']], b: ['1/4', '1/4', '1/4', '1/4']},
 };
-const MOST_STAGES = 16;
 const table = get('tableau');
 const note = get('own-note');
 let chart;
@@ -62,7 +61,6 @@ function resize(stages) {
   show();
 }
 
-const letters = ['i', 'j', 'k', 'l', 'm'];
 /** The left side of an order condition, from its rooted tree. */
 function leftSide(tree) {
   let used = 0;
@@ -70,7 +68,7 @@ function leftSide(tree) {
     const leaves = branches.filter((branch) => branch.length === 0).length;
     const power = leaves === 0 ? '' : `c_${index}${leaves > 1 ? `^${leaves}` : ''}`;
     return power + branches.filter((branch) => branch.length > 0).map((branch) => {
-      const inner = letters[++used];
+      const inner = 'ijklm'[++used];
       return `\\textstyle\\sum_${inner} a_{${index}${inner}} ${weight(branch, inner)}`;
     }).join('');
   };
@@ -123,23 +121,24 @@ function showConditions(conditions) {
     ok.className = holds(condition) ? 'ok' : 'not-ok';
   }
   get('conditions').replaceChildren(body);
+  get('own-run').disabled = order === 0;
   note.textContent = order === 0 ? 'The weights b do not add up to 1: the method does not even follow a constant velocity.' :
     `This method has order ${order}${order === 5 ? ' or more' : ''}.`;
 }
 
-function methodOfOwn() {
-  const {name, a, b} = settings.own;
-  return {name, ...numbersOf({a, b})};
-}
+const numbered = (methods) => methods.map(({name, ...texts}) => ({name, ...numbersOf(texts)}));
 
-/** Registers the method of the settings, after a page was opened with one. */
-export async function restore() {
+/** Registers methods, or those of before if the library refuses one. Returns whether it took them. */
+export async function register(methods, before = []) {
   try {
-    await useOwnMethods([methodOfOwn()]);
+    await useOwnMethods(numbered(methods));
+    settings.own = methods;
+    return true;
   } catch (error) {
+    await useOwnMethods(numbered(before));
+    settings.own = before;
     note.textContent = error.message;
-    settings.own = null;
-    await useOwnMethods([]);
+    return false;
   }
 }
 
@@ -149,15 +148,14 @@ async function run() {
     note.textContent = `A method named ${name} exists: choose another name.`;
     return;
   }
-  const before = settings.own?.name;
-  settings.own = {name, ...structuredClone(tableau)};
-  await restore();
-  if (!settings.own) return;
-  let chosen = settings.runs.find((other) => other.method === before || other.method === name);
-  if (!chosen && settings.runs.length < MOST_RUNS) settings.runs.push(chosen = newRun(name));
-  if (!chosen) chosen = settings.runs.at(-1);
-  chosen.method = name;
-  chosen.time_step ||= defaultOf('time_step');
+  const others = settings.own.filter((method) => method.name !== name);
+  if (others.length >= MOST_RUNS) others.shift();
+  if (!await register([...others, {name, ...structuredClone(tableau)}], settings.own)) return;
+  note.textContent = `${name} is in the table of runs.`;
+  if (!settings.runs.some((other) => other.method === name)) {
+    if (settings.runs.length === MOST_RUNS) settings.runs.pop();
+    settings.runs.push(newRun(name));
+  }
   tell('own');
   tell('settings');
 }
@@ -177,9 +175,10 @@ export function start() {
   on('tab', (tab) => {
     if (tab !== 'own') return;
     if (tableau) judge();
-    else if (settings.own) {
-      tableau = {a: structuredClone(settings.own.a), b: [...settings.own.b]};
-      get('own-name').value = settings.own.name;
+    else if (settings.own.length > 0) {
+      const {name, ...texts} = settings.own.at(-1);
+      tableau = structuredClone(texts);
+      get('own-name').value = name;
       show();
     } else choose();
   });

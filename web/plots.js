@@ -1,4 +1,4 @@
-// Plots with Chart.js: lines named at their end, colours of the theme, a cursor that follows the time.
+// Plots with Chart.js: a legend, colours of the theme, the value under the mouse, a cursor that follows the time.
 import {play} from './motion.js';
 import {lastTime, tracks} from './runs.js';
 import {colorOf, css, dashes, nameOf, on, settings} from './state.js';
@@ -7,38 +7,10 @@ import {colorOf, css, dashes, nameOf, on, settings} from './state.js';
 const MOST_POINTS = 800;
 const charts = [];
 
-/** Writes the name of each line at its last point. */
-const labels = {
-  id: 'labels',
-  afterDatasetsDraw(chart) {
-    const {ctx, chartArea} = chart;
-    const taken = [];
-    ctx.save();
-    ctx.font = '12px system-ui, sans-serif';
-    chart.data.datasets.forEach((dataset, index) => {
-      const points = chart.getDatasetMeta(index).data.filter((point) => Number.isFinite(point.y));
-      const last = points.at(-1);
-      if (!last || !dataset.label || dataset.unlabelled) return;
-      const width = ctx.measureText(dataset.label).width;
-      const x = Math.max(chartArea.left + 2, Math.min(last.x - width, chartArea.right - width - 4));
-      let y = Math.min(Math.max(last.y - 6, chartArea.top + 12), chartArea.bottom - 4);
-      while (taken.some((other) => Math.abs(other - y) < 13) && y < chartArea.bottom - 13) y += 13;
-      taken.push(y);
-      ctx.fillStyle = css('--panel');
-      ctx.globalAlpha = 0.75;
-      ctx.fillRect(x - 2, y - 10, width + 4, 13);
-      ctx.globalAlpha = 1;
-      ctx.fillStyle = dataset.borderColor;
-      ctx.fillText(dataset.label, x, y);
-    });
-    ctx.restore();
-  },
-};
-
 function axis(title, type) {
   return {
     type, title: {display: true, text: title, color: css('--text')},
-    ticks: {color: css('--faint'), maxTicksLimit: 8,
+    ticks: {color: css('--faint'), maxTicksLimit: 8, includeBounds: type === 'logarithmic',
             callback: (value) => (type === 'logarithmic' && Math.abs(Math.log10(value) % 1) > 1e-9 ?
               '' : Number(value.toPrecision(3)).toString())},
     grid: {color: css('--grid')},
@@ -54,10 +26,15 @@ export function makeChart(id, {title, x, y, xType = 'linear', yType = 'linear', 
       animation: false, responsive: true, maintainAspectRatio: false, normalized: true, parsing: false,
       showLine: true, elements: {point: {radius: 0}, line: {borderWidth: 2}},
       scales: {x: axis(x, xType), y: axis(y, yType)},
-      plugins: {legend: {display: false}, title: {display: true, text: title, color: css('--text')}},
+      interaction: {mode: 'nearest', intersect: false},
+      plugins: {
+        title: {display: true, text: title, color: css('--text')},
+        legend: {position: 'bottom', labels: {
+          boxWidth: 24, boxHeight: 0, color: css('--text'), filter: ({datasetIndex}, {datasets}) => !datasets[datasetIndex].unlabelled}},
+      },
       ...options,
     },
-    plugins: [labels, ...extra],
+    plugins: extra,
   });
   chart.canvas.setAttribute('aria-label', title);
   charts.push({chart, x, y, xType, yType});
@@ -140,7 +117,7 @@ on('theme', () => {
     const {scales, plugins} = chart.options;
     scales.x = {...scales.x, ...axis(x, xType)};
     scales.y = {...scales.y, ...axis(y, yType)};
-    plugins.title.color = css('--text');
+    plugins.title.color = plugins.legend.labels.color = css('--text');
     chart.update('none');
   }
 });

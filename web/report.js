@@ -1,6 +1,6 @@
 // The table of runs, and what happened in three sentences.
 import {cancelRuns, running, scene, tracks} from './runs.js';
-import {MOST_RUNS, colorOf, dashes, described, methodOf, nameOf, newRun, on, settings, tell} from './state.js';
+import {MOST_RUNS, colorOf, described, keyOf, methodOf, nameOf, newRun, on, settings, tell} from './state.js';
 
 const body = document.querySelector('#runs tbody');
 const list = document.getElementById('sentences');
@@ -16,19 +16,10 @@ const cell = (row, content) => {
 };
 
 function swatch(index) {
-  const canvas = document.createElement('canvas');
-  canvas.className = 'swatch';
-  canvas.width = 56;
-  canvas.height = 24;
-  const context = canvas.getContext('2d');
-  context.strokeStyle = colorOf(index);
-  context.lineWidth = 5;
-  context.setLineDash(dashes[index].map((length) => 2 * length));
-  context.beginPath();
-  context.moveTo(0, 12);
-  context.lineTo(56, 12);
-  context.stroke();
-  return canvas;
+  const line = document.createElement('span');
+  line.className = 'swatch';
+  line.style.borderTop = `3px ${['solid', 'dashed', 'dotted', 'dashed'][index]} ${colorOf(index)}`;
+  return line;
 }
 
 function choiceOf(run) {
@@ -43,7 +34,7 @@ function choiceOf(run) {
 
 function sizeOf(run) {
   const input = document.createElement('input');
-  const key = methodOf(run.method)?.fixed ?? true ? 'time_step' : 'tolerance';
+  const key = keyOf(run.method);
   input.value = run[key];
   input.inputMode = 'decimal';
   input.setAttribute('aria-label', key === 'time_step' ? 'step size in s' : 'tolerance in m');
@@ -114,6 +105,11 @@ export function showResults() {
   }));
 }
 
+const meanings = {
+  drift: ': energy and what the dampers took no longer add up to the energy at the start, by over 1 % of the energy scale',
+  'gained energy': ': the energy is above that at the start by over 1 % of the energy scale, which no force can do',
+};
+
 /** What happened, why, and what to do about it, from what the library measured. */
 export function sentences() {
   const ended = settings.runs.map((run, i) => ({run, track: tracks[i], method: methodOf(run.method)}))
@@ -123,7 +119,7 @@ export function sentences() {
   const others = ended.filter(({track}) => !track.diverged);
   const what = [
     ...diverged.map(({run, track}) => `${nameOf(run)} diverges at t = ${short(track.end.time, 3)} s`),
-    ...others.map(({run, track}) => (track.end.bad ? `${nameOf(run)} ends with the verdict "${track.end.kind}"` :
+    ...others.map(({run, track}) => (track.end.bad ? `${nameOf(run)} ends with the verdict "${track.end.kind}"${meanings[track.end.kind] ?? ''}` :
       track.end.bound >= 0 ? `${nameOf(run)} stays within ${short(track.end.bound)} m of the true motion` :
         `${nameOf(run)} ends with the verdict "${track.end.kind}"`)),
   ].join('; ');
@@ -150,7 +146,8 @@ function why(ended, diverged) {
   }
   return ended.every(({method}) => !method.fixed) ?
     'Error-controlled methods choose their steps so that the error stays near the tolerance.' :
-    'The step is inside the stability region, so errors come from the truncated Taylor series and stay small.';
+    'The step is inside the stability region, so nothing grows; errors come from the truncated Taylor series' +
+      (ended.some(({track}) => track.end.bad) ? ' and are too large with this step.' : '.');
 }
 
 function remedy(ended) {

@@ -2,8 +2,7 @@
 import {Cancelled, Library, setOwnMethods} from './library.js';
 import {MOST_RUNS, described, methodOf, on, optionsOf, settings, tell} from './state.js';
 
-const COLUMNS = ['time', 'frame', 'error', 'uncertainty', 'kinetic', 'gravity', 'spring', 'dissipated',
-                 'residual', 'relativeResidual', 'relativeGain'];
+const COLUMNS = ['time', 'frame', 'error', 'kinetic', 'gravity', 'spring', 'dissipated', 'relativeResidual', 'relativeGain'];
 const MOST_BYTES = 3e8;  // of all runs
 const LONG_CHAIN = 300;  // particles, from here on fewer pictures between the frames
 const VERY_LONG_CHAIN = 2000;
@@ -72,8 +71,6 @@ export const tools = new Library();  // for short questions
 export const scene = {x: [], y: [], m: [], vx: [], vy: [], failure: ''};
 export const tracks = [];
 const workers = Array.from({length: MOST_RUNS}, () => new Library());
-
-export const ownMethods = () => described.methods.filter((method) => method.own);
 
 /** Replaces the methods of the user; the library is loaded anew. */
 export async function useOwnMethods(methods) {

@@ -10,7 +10,6 @@ const LARGEST_FILE = 2e7;  // bytes; a file of 100,000 particles has some 5 MB
 const area = document.getElementById('particles');
 const choice = document.getElementById('scene');
 const problem = document.getElementById('problem');
-const mass = document.getElementById('mass');
 
 export const say = (text) => { problem.textContent = text; };
 
@@ -141,28 +140,14 @@ export function start() {
     if (target.files[0]) openFile(target.files[0]);
     target.value = '';
   });
-  mass.addEventListener('change', () => {
-    const i = play.selected;
-    if (i < 0) return;
-    replace(({m}) => { m[i] = mass.value.trim(); });
-  });
   on('moved', ({particle, x, y}) => replace((all) => { all.x[particle] = x; all.y[particle] = y; }));
   on('add', add);
   on('remove', remove);
   on('file', showFile);
-  on('selected', showSelected);
   on('scene', () => {
     say(scene.failure);
-    showSelected();
     redraw();
   });
   showFile();
   showConstants();
-}
-
-function showSelected() {
-  const i = play.selected;
-  mass.disabled = i < 1;
-  document.getElementById('which').textContent = i < 0 ? '(choose one)' : i + 1;
-  if (mass !== document.activeElement) mass.value = i < 1 ? '' : scene.m[i] ?? '';
 }

@@ -6,7 +6,8 @@ import {scene, tools, tracks} from './runs.js';
 import {colorOf, css, methodOf, nameOf, on, oneAtATime, optionsOf, settings, theme} from './state.js';
 
 const MOST_PARTICLES = 40;  // the eigenvalues of a longer chain take too long
-const GRID = [240, 200];
+const GRID = [320, 120];
+const GROWING = 1e-12;  // ln |R| above rounding
 
 /** Paints the region below the points: ln |R| at most 0. */
 const painter = {
@@ -23,19 +24,16 @@ const painter = {
   },
 };
 
-function pictureOf(growth, [width, height]) {
+function pictureOf(growth) {
   const picture = document.createElement('canvas');
-  picture.width = width;
-  picture.height = 2 * height - 1;
+  [picture.width, picture.height] = [GRID[0], 2 * GRID[1] - 1];
   const context = picture.getContext('2d');
   const image = context.createImageData(picture.width, picture.height);
-  const [red, green, blue] = theme() === 'dark' ? [92, 179, 255] : [0, 89, 179];
+  const color = theme() === 'dark' ? [92, 179, 255] : [0, 89, 179];
   for (let row = 0; row < picture.height; ++row) {
-    const from = Math.abs(row - (height - 1));
-    for (let column = 0; column < width; ++column) {
-      const value = growth[from * width + column];
-      const at = 4 * (row * width + column);
-      image.data.set([red, green, blue, value <= 1e-12 ? 90 : 0], at);
+    const from = Math.abs(row - (GRID[1] - 1)) * GRID[0];
+    for (let i = 0; i < GRID[0]; ++i) {
+      image.data.set([...color, growth[from + i] <= GROWING ? 90 : 0], 4 * (row * GRID[0] + i));
     }
   }
   context.putImageData(image, 0, 0);
@@ -49,22 +47,31 @@ export function makeRegionChart(id) {
   });
 }
 
+/** ln |R| at points of the complex plane. */
+const growthAt = (method, points) =>
+  tools.call('growth', {method: method.name ?? method, points: points.flatMap(({x, y}) => [x, y])});
+
 /**
  * Draws the region of a method and points hλ; both axes have the same scale.
  * @param method a row of the method table, or a tableau {a, b}
  */
 export async function drawRegion(chart, method, points, color) {
   const bounded = (limit, least) => Math.max(least, Math.min(Number.isFinite(limit) ? limit : 6, 40));
-  const left = Math.min(-1.25 * bounded(method.realLimit, 2.6), ...points.map(({x}) => Math.max(1.1 * x, -60)));
-  const top = Math.max(1.35 * bounded(method.imaginaryLimit, 2.6), 0.6 * -left,
-                       ...points.map(({y}) => Math.min(1.1 * y, 60)));
-  const box = {left, right: -0.25 * left, top};
-  const growth = await tools.call('growth', {method: method.name ?? method, ...box, width: GRID[0], height: GRID[1]});
-  chart.region = {...box, picture: pictureOf(growth, GRID)};
-  Object.assign(chart.options.scales.x, {min: left, max: box.right});
+  let left = Math.min(-1.25 * bounded(method.realLimit, 2.6), ...points.map(({x}) => Math.max(1.1 * x, -60)));
+  const up = Math.max(1.35 * bounded(method.imaginaryLimit, 2.6), ...points.map(({y}) => Math.min(1.1 * y, 60)));
+  chart.resize();  // it may just have appeared
+  const {width, height} = chart.chartArea ?? {width: 1, height: 1};
+  const unit = Math.max(-1.25 * left / width, 2 * up / height);  // per pixel
+  left -= (unit * width + 1.25 * left) / 2;  // what is too wide, on both sides
+  const [right, top] = [left + unit * width, unit * height / 2];
+  const grid = Array.from({length: GRID[0] * GRID[1]}, (_, n) => ({
+    x: left + (right - left) * (n % GRID[0]) / (GRID[0] - 1), y: top * Math.floor(n / GRID[0]) / (GRID[1] - 1),
+  }));
+  chart.region = {left, right, top, picture: pictureOf(await growthAt(method, grid))};
+  Object.assign(chart.options.scales.x, {min: left, max: right});
   Object.assign(chart.options.scales.y, {min: -top, max: top});
-  setLines(chart, [{data: points, showLine: false, pointRadius: 5, pointStyle: 'rectRot', borderColor: css('--text'),
-                    backgroundColor: color, label: 'hλ', unlabelled: true}]);
+  setLines(chart, [{data: points, showLine: false, pointRadius: 4, pointStyle: 'circle', borderColor: color,
+                    backgroundColor: 'transparent', borderWidth: 1.5, label: 'hλ', unlabelled: true}]);
 }
 
 const choice = document.getElementById('stability-run');
@@ -80,9 +87,9 @@ export function fillRuns(select) {
 }
 
 /** The state of a run at the time of the page, N×4 by columns. */
-export function stateOf(index) {
+export function stateOf(index, time = play.time) {
   const track = tracks[index];
-  return track?.states[track.indexAt(play.time)];
+  return track?.states[track.indexAt(time)];
 }
 
 const update = oneAtATime(show, (error) => { text.textContent = error.message; });
@@ -105,17 +112,18 @@ async function show() {
   await drawRegion(chart, method, points, colorOf(index));
   note.textContent = method.fixed ? `h = ${run.time_step} s, t = ${play.time.toFixed(2)} s` :
     `h = ${short(step, 3)} s, the time between frames; this method chooses shorter steps itself`;
-  text.textContent = describe(method, points, small);
+  text.textContent = describe(method, points, points.length > 0 ? await growthAt(method, points) : [], small);
 }
 
-function describe(method, points, small) {
+function describe(method, points, growth, small) {
   if (!small) return `Eigenvalues are drawn for at most ${MOST_PARTICLES} particles.`;
   if (points.length === 0) return 'A chain of one particle has no motion.';
   const far = points.reduce((a, b) => (Math.hypot(a.x, a.y) > Math.hypot(b.x, b.y) ? a : b));
   const growing = points.filter(({x}) => x > 1e-6).length;
+  const outside = points.filter(({x}, i) => x <= 1e-6 && growth[i] > 1e-9).length;
   const kind = method.symplectic ? ' The region of a symplectic method is that of an oscillator; damping is approximated.' :
-    method.fixed || method.a ? '' : ' This region is an estimate from the two stability limits.';
-  return `The farthest of ${points.length} points hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
+    Number.isFinite(method.realLimit) ? '' : ' This method is stable wherever the motion itself decays.';
+  return `${outside} of ${points.length} points are outside. The farthest of ${points.length} points hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
     `${short(Math.abs(far.y), 3)} i; half the step halves its distance from 0. Points inside the region decay or keep ` +
     'their size, points outside grow with every step.' +
     (growing ? ` ${growing} points lie right of the axis: there the motion itself, not the method, spreads apart.` : '') +

@@ -1,6 +1,7 @@
 // What the user has set. Everything here goes into the address, so that a link restores the page.
 
 export const MOST_RUNS = 4;
+export const MOST_STAGES = 16;  // of a method of the user
 export const get = (id) => document.getElementById(id);
 export const presets = Object.assign(Object.create(null), JSON.parse(get('scenes').textContent));
 export const constants = ['stiffness', 'damping', 'rest_length', 'gravity'];
@@ -8,6 +9,8 @@ const LONGEST_ADDRESS = 8000;  // characters of a particle file
 
 export const described = {methods: [], options: []};  // filled by the library at the start
 export const methodOf = (name) => described.methods.find((method) => method.name === name);
+/** What sets the accuracy of a run. */
+export const keyOf = (method) => (methodOf(method)?.fixed ?? true ? 'time_step' : 'tolerance');
 export const defaultOf = (key) => described.options.find((option) => option.key === key).value;
 
 /** The settings. Numbers stay the text that was typed: the library reads and judges them. */
@@ -20,8 +23,7 @@ export function setDefaults() {
     interval: defaultOf('frame_interval'),
     reference: defaultOf('reference'),
     runs: [newRun('Runge-Kutta-4'), newRun('Euler')],
-    own: null,
-    layout: 'over',
+    own: [],
     tab: 'plots',
   });
   for (const key of constants) settings[key] = defaultOf(key);
@@ -35,7 +37,7 @@ export function newRun(method) {
 export function optionsOf(run) {
   const options = {method: run.method, reference: settings.reference};
   for (const key of constants) options[key] = settings[key];
-  if (!methodOf(run.method)?.fixed) {
+  if (keyOf(run.method) === 'tolerance') {
     const {frames, interval: frame_interval} = settings;
     return {...options, tolerance: run.tolerance, frame_interval, frames};
   }
@@ -54,10 +56,6 @@ export function optionsOf(run) {
   };
 }
 
-export function durationOf() {
-  return Number(settings.interval) * (Number(settings.frames) - 1);
-}
-
 const colors = {
   light: ['#0059b3', '#c24e00', '#00795c', '#93307b'],
   dark: ['#5cb3ff', '#ffa14d', '#2fd0a5', '#ef8fd4'],
@@ -67,7 +65,7 @@ export const css = (name) => getComputedStyle(document.documentElement).getPrope
 export const theme = () => document.documentElement.dataset.theme;
 export const colorOf = (index) => colors[theme()][index % MOST_RUNS];
 export const nameOf = (run) =>
-    `${run.method} ${methodOf(run.method)?.fixed ? `${run.time_step} s` : `${run.tolerance} m`}`;
+    `${run.method} ${run[keyOf(run.method)]} ${keyOf(run.method) === 'time_step' ? 's' : 'm'}`;
 
 export function toAddress() {
   const words = new URLSearchParams();
@@ -77,15 +75,22 @@ export function toAddress() {
     words.set('name', file.name);
     words.set('particles', file.text);
   }
-  for (const key of [...constants, 'frames', 'interval', 'reference', 'layout', 'tab']) {
+  for (const key of [...constants, 'frames', 'interval', 'reference', 'tab']) {
     words.set(key, settings[key]);
   }
   for (const run of settings.runs) {
-    const fixed = methodOf(run.method)?.fixed;
-    words.append('run', `${run.method} ${fixed ? run.time_step : run.tolerance}`);
+    words.append('run', `${run.method} ${run[keyOf(run.method)]}`);
   }
-  if (settings.own) words.set('own', JSON.stringify(settings.own));
+  if (settings.own.length > 0) words.set('own', JSON.stringify(settings.own));
   return `#${words}`;
+}
+
+/** Whether a link holds a tableau of bounded size; its numbers are judged later. */
+function isTableau(own) {
+  const isRow = (row) => Array.isArray(row) && row.length <= MOST_STAGES &&
+                         row.every((entry) => typeof entry === 'string' && entry.length <= 40);
+  return typeof own?.name === 'string' && own.name.length <= 40 && isRow(own.b) &&
+         Array.isArray(own.a) && own.a.length <= MOST_STAGES && own.a.every(isRow);
 }
 
 /** Reads an address; what it does not name keeps its value. */
@@ -94,23 +99,21 @@ export function fromAddress(hash) {
   const scene = words.get('scene');
   if (presets[scene]) settings.file = {name: scene, text: presets[scene]};
   if (words.has('particles')) {
-    settings.file = {name: words.get('name') || 'particle.txt', text: words.get('particles')};
+    const text = words.get('particles');
+    const fits = text.length <= LONGEST_ADDRESS;
+    settings.file = {name: words.get('name') || 'particle.txt',
+                     text: fits ? text : `A link holds at most ${LONGEST_ADDRESS} characters of particles.\n`};
   }
   for (const key of [...constants, 'frames', 'interval', 'reference']) {
     if (words.has(key)) settings[key] = words.get(key);
   }
-  if (['over', 'side'].includes(words.get('layout'))) settings.layout = words.get('layout');
   if (get(`panel-${words.get('tab')}`)) settings.tab = words.get('tab');
   try {
-    const own = JSON.parse(words.get('own') ?? 'null');
-    if (own && typeof own.name === 'string' && Array.isArray(own.a) && Array.isArray(own.b) &&
-        [...own.a.flat(), ...own.b].every((entry) => typeof entry === 'string')) {
-      settings.own = own;
-    }
+    settings.own = [JSON.parse(words.get('own') ?? '[]')].flat().filter(isTableau).slice(0, MOST_RUNS);
   } catch { /* an address cut short: the method is left out */ }
   const runs = words.getAll('run').slice(0, MOST_RUNS).map((text) => {
     const [method, value] = text.split(' ');
-    return {...newRun(method), time_step: value ?? '', tolerance: value ?? ''};
+    return {...newRun(method), [keyOf(method)]: value ?? ''};
   });
   if (runs.length > 0) settings.runs = runs;
 }

@@ -1,8 +1,8 @@
 // One step of a method, written out with the numbers of one particle.
-import {play, select, showArrows} from './motion.js';
+import {play, select} from './motion.js';
 import {fillRuns, stateOf} from './stability.js';
 import {scene, tools, tracks} from './runs.js';
-import {colorOf, methodOf, on, oneAtATime, optionsOf, settings} from './state.js';
+import {methodOf, on, oneAtATime, optionsOf, settings} from './state.js';
 
 /* global katex */
 const choice = document.getElementById('step-run');
@@ -53,72 +53,83 @@ function sum(weights, open) {
   return `z + ${open}${terms.length > 1 ? `\\left(${inner}\\right)` : inner}`;
 }
 
+/** The states of a particle and its neighbours at a stage: what its slope follows from. */
+function neighbours(flat, i) {
+  const table = document.createElement('table');
+  table.innerHTML = '<tr><th>particle</th><th>x</th><th>y</th><th>v_x</th><th>v_y</th></tr>';
+  for (let j = Math.max(0, i - 1); j <= Math.min(i + 1, flat.length / 4 - 1); ++j) {
+    const row = table.insertRow();
+    for (const text of [j + 1, ...pick(flat, j).map((value) => value.toPrecision(7))]) row.insertCell().textContent = text;
+  }
+  return table;
+}
+
+/** The law of motion with its constants. */
+function lawText(i) {
+  const {stiffness, damping, rest_length: length, gravity} = settings;
+  return [
+    paragraph('A slope k = F(z) is the velocity of the particle and its acceleration a. With the spring from particle i to i + 1,'),
+    formula('d = p_{i+1} - p_i,\\quad w = v_{i+1} - v_i'),
+    formula('f_i = \\left(k_s\\,(|d| - L_0) + k_d\\,\\tfrac{d \\cdot w}{|d|}\\right)\\tfrac{d}{|d|}'),
+    formula(i === 0 ? 'a_1 = 0' : 'a_i = \\tfrac{1}{m_i}(f_i - f_{i-1}) - (0, g),\\quad f_N = 0'),
+    paragraph(`k_s = ${stiffness} N/m, k_d = ${damping} N s/m, L_0 = ${length} m, g = ${gravity} m/s², mass ${scene.m[i]} kg`),
+  ];
+}
+
 function tableauText(method, step, i) {
-  const parts = [paragraph('Every slope k is F at a state: the velocity of the particle, and its acceleration.')];
+  const parts = [];
   step.slopes.forEach((slope, stage) => {
-    parts.push(formula(`k_{${stage + 1}} = F(${stage === 0 ? 'z' : sum(method.a[stage].slice(0, stage), 'h')})
-      = F${vector(pick(step.stages[stage], i))} = ${vector(pick(slope, i))}`));
+    parts.push(formula(`k_{${stage + 1}} = F(${stage === 0 ? 'z' : sum(method.a[stage].slice(0, stage), 'h')})`),
+               neighbours(step.stages[stage], i), formula(`k_{${stage + 1}} = ${vector(pick(slope, i))}`));
   });
-  parts.push(formula(`z_{\\text{new}} = ${sum(method.b, 'h')} = ${vector(pick(step.end, i))}`));
+  parts.push(formula(`z_{\\text{new}} = ${sum(method.b, 'h')}`));
   return parts;
 }
 
 const symplectic = {
-  'Semi-Implicit-Euler': ['v_{\\text{new}} = v + h\\,a(p, v)', 'p_{\\text{new}} = p + h\\,v_{\\text{new}}'],
-  'Velocity-Verlet': ['v_{1/2} = v + \\tfrac h2\\,a(p, v)', 'p_{\\text{new}} = p + h\\,v_{1/2}',
-                      'v_{\\text{new}} = v_{1/2} + \\tfrac h2\\,a(p_{\\text{new}})'],
+  'Semi-Implicit-Euler': ['v_{\\text{new}} = v + h\\,a_1', 'p_{\\text{new}} = p + h\\,v_{\\text{new}}'],
+  'Velocity-Verlet': ['p_{\\text{new}} = p + h\\,(v + \\tfrac h2\\,a_1)', 'a_2 = a(p_{\\text{new}},\\; v + h\\,a_1)',
+                      'v_{\\text{new}} = v + \\tfrac h2\\,(a_1 + a_2)'],
 };
 
 function otherText(method, step, i) {
-  const [x, y, ax, ay] = pick(step.slopes[0], i);
-  const parts = [formula(`v = ${vector([x, y])},\\quad a(p, v) = ${vector([ax, ay])}`)];
-  if (symplectic[method.name]) parts.push(...symplectic[method.name].map(formula));
-  else {
-    parts.push(paragraph(`${method.name} (${method.use}) chooses its steps itself. Its steps have no stages to show; this is ` +
-      'the slope at the state, and the state after the time between frames:'));
-  }
-  parts.push(formula(`z_{\\text{new}} = ${vector(pick(step.end, i))}`));
-  return parts;
+  const parts = [neighbours(step.stages[0], i)];
+  step.slopes.forEach((slope, stage) => parts.push(formula(`a_{${stage + 1}} = ${vector(pick(slope, i).slice(2))}`)));
+  if (symplectic[method.name]) return [...parts, ...symplectic[method.name].map(formula)];
+  return [...parts, paragraph(`${method.name} (${method.use}) chooses its steps itself. Its steps have no stages to show; this ` +
+    'is the acceleration at the state, and the state after the time between frames:')];
 }
 
-function arrowsOf(step, method, i) {
-  return step.slopes.slice(0, 6).map((slope, stage) => {
-    const [x, y] = pick(step.stages[stage], i);
-    const [dx, dy] = pick(slope, i);
-    return {x, y, dx, dy, color: colorOf(stage), label: `k${stage + 1}`};
-  });
-}
-
+let shown = null;  // the step on the page: stages, slopes, end
+export const explained = () => shown && {
+  stages: shown.stages.map((stage) => [...stage]), slopes: shown.slopes.map((slope) => [...slope]), end: [...shown.end],
+};
 const update = oneAtATime(show, (error) => output.replaceChildren(paragraph(error.message)));
 
 async function show() {
-  if (settings.tab !== 'step') {
-    showArrows([]);
-    return;
-  }
-  if (play.on) return;
+  if (settings.tab !== 'step' || play.on) return;
   const index = Number(choice.value);
   const run = settings.runs[index];
   const method = run && methodOf(run.method);
-  const state = stateOf(index);
+  const h = method && Number(method.fixed ? run.time_step : settings.interval);
+  // After the button step, the step that was just done.
+  const from = play.stepped && index === 0 ? play.time - h : play.time;
+  const state = stateOf(index, from);
   if (!method || !state || scene.x.length > 5000) {
     output.replaceChildren(paragraph(scene.x.length > 5000 ? 'This chain is too long to be explained.' : 'There is no run yet.'));
     return;
   }
   const size = scene.x.length;
   const i = Math.min(Math.max(Math.round(Number(particle.value)) || 1, 1), size) - 1;
-  const options = optionsOf(run);
-  const h = method.fixed ? run.time_step : settings.interval;
   const track = tracks[index];
-  const step = await tools.call('step', {
-    settings: options, masses: Array.from(scene.m), state: Array.from(state), h: Number(h),
+  shown = await tools.call('step', {
+    settings: optionsOf(run), masses: Array.from(scene.m), state: Array.from(state), h,
   });
-  const explained = method.a ? tableauText(method, step, i) : otherText(method, step, i);
+  const text = method.a ? tableauText(method, shown, i) : otherText(method, shown, i);
   output.replaceChildren(
-    paragraph(`${method.name}, from t = ${track.times[track.indexAt(play.time)].toPrecision(6)} s with h = ` +
-      `${h} s. All numbers of particle ${i + 1} in the order x, y (m), v_x, v_y (m/s); slopes per second.`),
-    formula(`z = ${vector(pick(state, i))}`), ...explained);
-  showArrows(arrowsOf(step, method, i));
+    paragraph(`${method.name}, from t = ${Number(track.times[track.indexAt(from)].toPrecision(6))} s with h = ${h} s, for ` +
+      `particle i = ${i + 1}; p = (x, y) in m, v = (v_x, v_y) in m/s, z = (p, v).`), ...lawText(i), ...text,
+    formula(`z_{\\text{new}} = ${vector(pick(shown.end, i))}`));
 }
 
 export function start() {

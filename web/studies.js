@@ -1,22 +1,25 @@
-// Error against step size and run time against error, measured for this scene with all methods.
+// Error against step size and work against error, measured for this scene with the chosen methods.
 import {Cancelled, Library} from './library.js';
 import {makeChart, setLines} from './plots.js';
 import {short} from './report.js';
+import {paragraph} from './step.js';
 import {on, described, get, methodOf, optionsOf, newRun, settings, theme} from './state.js';
 
 const FRAME = 0.4;       // s; the largest step
 const HALVINGS = 9;
 const TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+const CHOSEN = ['Euler', 'Runge-Kutta-2', 'Runge-Kutta-4', 'Auto'];  // at the start
 const ENOUGH = 1e-10;    // m, errors below are those of rounding
 const styles = ['circle', 'triangle', 'rect', 'star', 'cross', 'rectRot', 'crossRot'];
 const tint = (i) => `hsl(${(i * 137.5 + 210) % 360} 75% ${theme() === 'dark' ? 68 : 36}%)`;
 let library = null;
 let order, cost;
-let rows = [];   // {method, points: [{setting, error, seconds}], limit}
+let rows = [];   // {method, points: [{setting, error, evaluations}], limit}
 
 function jobsOf(duration) {
   const frames = Math.max(1, Math.round(duration / FRAME)) + 1;
-  return described.methods.map((method) => ({
+  const boxes = [...document.querySelectorAll('#study-methods input')];
+  return boxes.filter((box) => box.checked).map(({value}) => methodOf(value)).filter(Boolean).map((method) => ({
     method,
     settings: method.fixed ?
       Array.from({length: HALVINGS + 1}, (_, n) => ({
@@ -64,7 +67,7 @@ async function measureMethod(method, list, progress) {
       const end = await library.call('measure', {settings: options, file});
       const error = end.resolved ? end.largest : NaN;
       if (end.status !== 3 && error > ENOUGH) {
-        row.points.push({setting: Number(sizes.time_step ?? sizes.tolerance), error, seconds: end.seconds});
+        row.points.push({setting: Number(sizes.time_step ?? sizes.tolerance), error, evaluations: end.evaluations});
       }
     } catch (error) {  // a tolerance below the rounding errors, for example
       if (error instanceof Cancelled) throw error;
@@ -104,7 +107,7 @@ function show() {
   ]);
   setLines(cost, named.map(({method, points, i}) => ({
     label: method.name, ...style(i), borderDash: method.fixed ? [] : [6, 3],
-    data: points.map(({error, seconds}) => ({x: error, y: 1000 * seconds})),
+    data: points.map(({error, evaluations}) => ({x: error, y: evaluations})),
   })));
   showOrders(fixed);
 }
@@ -129,9 +132,17 @@ export function start() {
     xType: 'logarithmic', yType: 'logarithmic',
   });
   cost = makeChart('plot-cost', {
-    title: 'Run time against error in this browser (dashed: error-controlled)', x: 'largest position error in m',
-    y: 'ms', xType: 'logarithmic', yType: 'logarithmic',
+    title: 'Work against error (dashed: error-controlled)', x: 'largest position error in m',
+    y: 'evaluations of the forces', xType: 'logarithmic', yType: 'logarithmic',
   });
+  const list = () => get('study-methods').replaceChildren(...described.methods.map(({name}) => {
+    const label = paragraph(` ${name} `, 'label');
+    label.prepend(Object.assign(document.createElement('input'),
+                                {type: 'checkbox', value: name, checked: CHOSEN.includes(name)}));
+    return label;
+  }));
+  list();
+  on('own', list);
   get('study').addEventListener('click', measure);
   get('study-cancel').addEventListener('click', () => library?.cancel());
   on('theme', show);

@@ -2,6 +2,7 @@
 'use strict';
 
 const printed = [];  // what Exercise3 would print to standard error
+const SAMPLE = 50;   // bytes in the page for each number about a sample
 let lab;
 
 async function start({module, own}) {
@@ -38,8 +39,7 @@ function takeFrames(folder) {
 
 const calls = {
   describe: () => ({methods: lab.methods(), options: lab.options()}),
-  growth: ({method, left, right, top, width, height}) =>
-      lab.growthGrid(method, left, right, top, width, height),
+  growth: ({method, points}) => lab.growthAt(method, points),
   eigenvalues: ({settings, masses, state}) => lab.eigenvalues(settings, masses, state),
   step: ({settings, masses, state, h}) => lab.explainStep(settings, masses, state, h),
   orders: ({a, b}) => lab.orderConditions(a, b),
@@ -59,25 +59,16 @@ const calls = {
                            frames.map(({text}) => text), stop);
   },
   stableStep: ({settings, file}) => lab.stableStep(withFile(settings, file)),
-  /** Largest error and time in s of a run without files; the time is the shortest of some rounds. */
+  /** What a run without files says about itself. */
   measure({settings, file}) {
-    const once = (reference) => {
-      const run = new lab.LabRun({...withFile(settings, file), reference, no_frames: true}, 0, false, () => {});
-      try {
-        while (run.advance(1000, 1e7) !== null) { /* on */ }
-        return run.finish();
-      } finally {
-        run.delete();
-      }
-    };
-    const measured = once('always');
-    let seconds = measured.seconds;
-    for (let spent = seconds, round = 0; round < 5 && spent < 0.02; ++round) {
-      const again = once('never').seconds;
-      spent += again;
-      seconds = Math.min(seconds, again);
+    const options = {...withFile(settings, file), reference: 'always', no_frames: true};
+    const run = new lab.LabRun(options, 0, false, () => {});
+    try {
+      while (run.advance(1000, 1e7) !== null) { /* on */ }
+      return run.finish();
+    } finally {
+      run.delete();
     }
-    return {...measured, seconds};
   },
   /**
    * A whole run. Samples go to the page as they come.
@@ -99,7 +90,7 @@ const calls = {
       let samples;
       let full = false;
       while (!full && (samples = run.advance(50, 3e7)) !== null) {
-        room -= 8 * (samples.states.length + samples.truths.length);
+        room -= 8 * (samples.states.length + samples.truths.length) + SAMPLE * samples.rows.length;
         report({samples});
         full = room <= 0;
       }

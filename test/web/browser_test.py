@@ -1,15 +1,15 @@
 #!/usr/bin/python3
-"""Tests the page in headless Chromium, from disk and without network.
+"""Tests the page in headless Chromium, from disk and without network, and its grid in Node.js.
 
     browser_test.py PAGE EXERCISE3
 """
 import random
+import re
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
-import zipfile
 from pathlib import Path
 
 from selenium import webdriver
@@ -19,6 +19,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 DATA = Path(__file__).resolve().parents[2] / 'data'
+WEB = DATA.parent / 'web'
 SCENES = sorted(path for path in DATA.glob('*.txt'))
 HANGING = 300  # s
 
@@ -142,6 +143,76 @@ class LabTest(unittest.TestCase):
             self.assertEqual(answer['status'], 2)
             self.assertRegex(answer['messages'][0], f'^{option}: must be a .*NaN')
 
+    def test_grid_lines_are_few_at_every_zoom_and_address(self):
+        script = """
+            import(process.argv[1]).then(({bounded, gridLines, gridUnit}) => {
+              for (const at of [0, 1, -7.3, 5e6, -4.2e8, 1e15, 1e300]) {
+                for (let power = -20; power <= 20; ++power) {
+                  const scale = bounded(10 ** power);
+                  const lines = gridLines(at - 1000 / scale, at + 1000 / scale, gridUnit(80 / scale));
+                  if (lines.length > 1000) throw Error(`${lines.length} lines at ${at}, scale ${scale}`);
+                  if (at === 0 && lines.length < 10) throw Error(`${lines.length} lines, scale ${scale}`);
+                }
+              }
+            }).catch((error) => { console.error(error.message); process.exitCode = 1; });"""
+        with tempfile.TemporaryDirectory() as folder:
+            module = Path(folder) / 'grid.mjs'
+            module.write_text((WEB / 'grid.js').read_text())
+            done = subprocess.run(['node', '-e', script, str(module)], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+
+    def test_numbers_of_the_lesson(self):
+        lesson = (WEB.parent / 'docs' / 'lab.md').read_text().replace('\n', ' ')
+        scene = (DATA / 'horizontal_11.txt').read_text()
+
+        def error_at_10_s(method, step):
+            options = [f'--time-step={step}', f'--steps-per-frame={round(0.1 / step)}', '--reference=always', '--frames=101']
+            rows = self.exercise3(method, scene, *options)['energy'].splitlines()
+            return float(rows[-1].split(',')[9])
+
+        told = re.search(r'it is ([^:]*?)\. Now', lesson)[1]
+        for value, step in re.findall(r'([\d.]+) m with ([\d.]+) s', told):
+            self.assertAlmostEqual(error_at_10_s('Euler', float(step)) / float(value), 1, delta=0.02)
+        self.assertEqual(len(re.findall(r' m with ', told)), 4)
+        steps = re.search(r'From ([\d.]+) s to ([\d.]+) s and ([\d.]+) s', lesson).groups()
+        values = re.search(r'falls from ([\d.e-]+) m to ([\d.e-]+) m and ([\d.e-]+) m', lesson).groups()
+        for step, value in zip(steps, values):
+            self.assertAlmostEqual(error_at_10_s('Runge-Kutta-4', float(step)) / float(value), 1, delta=0.02)
+        ends = self.exercise3('Euler', scene)['messages'] + self.exercise3(
+            'Euler', (DATA / 'one_spring.txt').read_text(), '--damping=0')['messages']
+        times = [re.search(r'diverged at t = ([\d.]+) s', line)[1] for line in ends if 'diverged' in line]
+        self.assertEqual(times, [re.search(r'diverges after ([\d.]+) s; Runge', lesson)[1],
+                                 re.search(r'run diverges after ([\d.]+) s with every', lesson)[1]])
+        stable = re.search(r'a step below ([\d.]+) s is stable', lesson)[1]
+        advice = self.exercise3('Euler', (DATA / 'one_spring.txt').read_text(), '--time-step=0.1')['messages'][-1]
+        self.assertIn(f'largest stable step for Euler: {stable} s', advice)
+
+    def test_one_step_is_that_of_the_library(self):
+        for method in ('Euler', 'Runge-Kutta-4', 'Semi-Implicit-Euler', 'Velocity-Verlet'):
+            self.call('await pendulumLab.set(given[0])', {
+                'particles': '0 0 1\n1 0.1 2\n1.8 -0.4 1\n', 'frames': 20, 'damping': 1.3, 'tab': 'step',
+                'runs': [{'method': method, 'time_step': 0.01}]})
+            self.call('pendulumLab.seek(0.05)')
+            self.element('step').click()  # shows the step that was done
+            self.wait('return document.getElementById("step-text").textContent.includes("from t = 0.05 s")')
+            step = self.state()['step']
+            z, *stages = step['stages']
+            k = step['slopes']
+            p, v, h, half = slice(0, 6), slice(6, 12), 0.01, len(z) // 2
+            a = [slope[v] for slope in k]
+            if method == 'Semi-Implicit-Euler':
+                new_v = [z[v][j] + h * a[0][j] for j in range(half)]
+                new = [z[p][j] + h * new_v[j] for j in range(half)] + new_v
+            elif method == 'Velocity-Verlet':
+                new = [z[p][j] + h * (z[v][j] + h / 2 * a[0][j]) for j in range(half)]
+                new += [z[v][j] + h / 2 * (a[0][j] + a[1][j]) for j in range(half)]
+                self.assertEqual(len(stages), 1)
+            else:
+                weights = {'Euler': [1], 'Runge-Kutta-4': [1 / 6, 1 / 3, 1 / 3, 1 / 6]}[method]
+                new = [z[j] + h * sum(b * slope[j] for b, slope in zip(weights, k)) for j in range(len(z))]
+            for mine, library in zip(new, step['end']):
+                self.assertAlmostEqual(mine, library, delta=1e-13, msg=method)  # measured: 4e-16
+
     def element(self, name):
         return self.browser.find_element(By.ID, name)
 
@@ -191,6 +262,12 @@ class LabTest(unittest.TestCase):
         self.assertAlmostEqual(self.state()['time'], 4.95, delta=0.2)
         self.element('reset').click()
         self.assertEqual(self.state()['time'], 0)
+        # A cancelled touch must not leave the slider behind.
+        self.browser.execute_script("""const slider = document.getElementById('time'); slider.focus();
+            for (const name of ['pointerdown', 'pointercancel']) slider.dispatchEvent(new PointerEvent(name));""")
+        self.call('pendulumLab.seek(4.95)')
+        self.wait('return Math.abs(document.getElementById("time").value - 5000) < 300')
+        self.element('reset').click()
         self.element('motion').send_keys(']]')
         self.element('motion').send_keys(Keys.ARROW_RIGHT)
         self.wait('return Math.abs(pendulumLab.state().scene.x[1] - 0.05) < 1e-12')
@@ -214,6 +291,11 @@ class LabTest(unittest.TestCase):
         self.wait('return pendulumLab.state().scene.x.length === 4')
         self.element('remove').click()
         self.wait('return pendulumLab.state().scene.x.length === 3')
+        # The restart after the change clears messages.
+        self.call('await new Promise((done) => setTimeout(done, 500)); await pendulumLab.set()')
+        self.element('motion').send_keys(']' + Keys.DELETE)  # the first particle
+        self.assertIn('the first particle stays', self.state()['problem'])
+        self.assertEqual(len(self.state()['scene']['x']), 3)
 
     def touch(self, kind, *points):
         self.browser.execute_cdp_cmd('Input.dispatchTouchEvent', {
@@ -247,36 +329,6 @@ class LabTest(unittest.TestCase):
         self.touch('touchEnd')
         self.assertAlmostEqual(width() / before, 2, delta=0.05)
 
-    def saved(self, folder, button, name):
-        """The content of the file that a button saves."""
-        self.element(button).click()
-        path = Path(folder) / name
-        end = time.monotonic() + HANGING
-        while not path.exists():  # Chromium renames it when it is whole
-            if time.monotonic() > end:
-                raise AssertionError(f'{name} was not saved: {self.element("share-note").text}')
-            time.sleep(0.05)
-        return path.read_bytes()
-
-    def test_saved_files_are_those_of_exercise3(self):
-        scene = '0 0 1\n0.5 -0.25 2\n1.5 0 0.7\n'
-        self.call('await pendulumLab.set(given[0])', {
-            'particles': scene, 'frames': 12, 'stiffness': 70, 'tab': 'share',
-            'runs': [{'method': 'Runge-Kutta-2', 'time_step': 0.01}]})
-        expected = self.exercise3('Runge-Kutta-2', scene, '--frames=12', '--stiffness=70')
-        with tempfile.TemporaryDirectory() as folder:
-            self.browser.execute_cdp_cmd('Browser.setDownloadBehavior', {'behavior': 'allow', 'downloadPath': folder})
-            self.saved(folder, 'save-zip', 'frames.zip')
-            with zipfile.ZipFile(Path(folder) / 'frames.zip') as archive:
-                self.assertEqual(archive.namelist(), [f'frame_{i:04}.txt' for i in range(12)])
-                self.assertEqual([archive.read(name).decode() for name in archive.namelist()], expected['frames'])
-            rows = [f'{frame},{i},{line.replace(" ", ",")}' for frame, text in enumerate(expected['frames'])
-                    for i, line in enumerate(text.splitlines(), 1)]
-            self.assertEqual(self.saved(folder, 'save-csv', 'frames.csv').decode(),
-                             '\n'.join(['frame,particle,x [m],y [m]', *rows]) + '\n')
-            self.assertEqual(self.saved(folder, 'save-energy', 'energy.csv').decode(), expected['energy'])
-            self.assertEqual(self.saved(folder, 'save-particles', 'particle.txt').decode(), scene)
-
     def test_commands_are_copied_and_repeat_the_run(self):
         self.call('await pendulumLab.set({particles: "particle.txt", frames: 30, damping: 0, tab: "share",'
                   'runs: [{method: "Euler", time_step: 0.005}]})')
@@ -298,17 +350,18 @@ class LabTest(unittest.TestCase):
         self.assertEqual(answer['frames'], repeated['frames'])
         self.call('await pendulumLab.set({particles: "particle.txt"})')
 
-    def test_a_dropped_folder_is_checked(self):
+    def test_dropped_frames_are_checked(self):
         self.call('await pendulumLab.set({particles: "particle.txt", frames: 100, runs: [{method: "Runge-Kutta-4"}]})')
         self.tab('check')
         with tempfile.TemporaryDirectory() as folder:
-            frames = self.exercise3('Runge-Kutta-4', (DATA / 'particle.txt').read_text(), '--frames=30')['frames']
+            frames = self.exercise3('Runge-Kutta-4', (DATA / 'particle.txt').read_text(), '--frames=100')['frames']
             for index, text in enumerate(frames):
                 (Path(folder) / f'frame_{index:04}.txt').write_text(text)
             for kind in ('dragEnter', 'dragOver', 'drop'):
                 self.browser.execute_cdp_cmd('Input.dispatchDragEvent', {
                     'type': kind, 'x': 300, 'y': 300,
-                    'data': {'items': [], 'files': [folder], 'dragOperationsMask': 1}})
+                    'data': {'items': [], 'files': [str(path) for path in sorted(Path(folder).iterdir())],
+                             'dragOperationsMask': 1}})
             self.wait('return document.getElementById("check-note").textContent.includes("equal to Runge-Kutta-4")')
 
     def test_a_tableau_is_judged_and_runs(self):
@@ -337,6 +390,33 @@ class LabTest(unittest.TestCase):
         self.open(self.browser.execute_script('return location.hash'))
         self.assertEqual([run['method'] for run in self.state()['settings']['runs']], ['Runge-Kutta-4', 'Kutta-3'])
 
+    def test_two_own_methods_run_and_a_wrong_one_is_left_out(self):
+        self.call('await pendulumLab.set({particles: "one_spring.txt", frames: 50, runs: [{method: "Runge-Kutta-4"}]})')
+        self.tab('own')
+        for number, name in ((1, 'Heun'), (2, 'Ralston')):
+            self.browser.find_element(By.CSS_SELECTOR, f'#own-preset option:nth-child({number})').click()
+            self.wait('return document.getElementById("own-note").textContent.includes("order 2")')
+            self.element('own-run').click()
+            self.wait(f'return pendulumLab.state().runs[{number}]?.end?.status === 0')
+            self.assertEqual(self.element('own-note').text, f'{name} is in the table of runs.')
+        self.assertTrue(all(run['end']['status'] == 0 for run in self.state()['runs']))
+        self.type('own-name', 'Bad09')
+        field = self.browser.find_element(By.CSS_SELECTOR, '[aria-label="b 2"]')
+        field.clear()
+        field.send_keys('0.65')
+        self.wait('return document.getElementById("own-note").textContent.includes("do not add up")')
+        self.assertFalse(self.element('own-run').is_enabled())
+        self.tab('share')
+        commands = [button.get_attribute('title')
+                    for button in self.browser.find_elements(By.CSS_SELECTOR, '#commands button')]
+        self.assertIn('sp.register_method("Heun", a=[[], [1]], b=[1/2, 1/2])', commands[2])
+        # A link may hold a method that the library refuses, and one of any size.
+        for own in ('{"name":"Bad09","a":[[],["1"]],"b":["0.4","0.5"]}',
+                    '{"name":"Huge","a":[],"b":["1"' + ',"0"' * 2000 + ']}'):
+            self.open('#run=Bad09+0.01&own=' + own)
+            self.assertEqual(self.call('return pendulumLab.methods()'), self.methods)
+            self.assertIn('unknown method', self.state()['runs'][0]['failure'])
+
     def test_the_address_restores_the_page(self):
         self.call('await pendulumLab.set(given[0])', {
             'particles': '0 0 1\n0.5 -0.25 2\n', 'frames': 30, 'stiffness': 70, 'gravity': -3, 'tab': 'scene',
@@ -351,6 +431,12 @@ class LabTest(unittest.TestCase):
         self.assertEqual(before['scene'], after['scene'])
         self.open('#run=%00&own={"a":1}&scene=nothing&frames=-5&stiffness=nan')
         self.assertRegex(self.state()['runs'][0]['failure'], 'unknown method')
+        self.open('#run=Euler+0.02')
+        self.browser.find_element(By.XPATH, '//table[@id="runs"]//option[text()="Auto"]').click()
+        run, = self.state()['settings']['runs']
+        self.assertEqual((run['method'], run['time_step'], run['tolerance']), ('Auto', '0.02', '1e-06'))
+        self.open('#run=Euler+0.01&particles=' + '0 0 1%0A' * 2000)
+        self.assertIn('is not a number', self.state()['problem'])
         self.open('#run=Euler+0.01&stiffness=nan')
         self.assertRegex(self.state()['runs'][0]['failure'], '^stiffness: must be a number')
 
@@ -359,12 +445,17 @@ class LabTest(unittest.TestCase):
         self.tab('studies')
         self.type('study-time', '2')
         self.element('study').click()
-        self.wait('return pendulumLab.studies().length >= 4')
-        self.element('study-cancel').click()
-        self.wait('return document.getElementById("study-note").textContent === "Cancelled."')
+        self.wait('return document.getElementById("study-note").textContent === "Done."')
+        self.assertEqual([row['method'] for row in self.call('return pendulumLab.studies()')],
+                         ['Euler', 'Runge-Kutta-2', 'Runge-Kutta-4', 'Auto'])
         for row in self.call('return pendulumLab.studies()')[:3]:
             # Measured: within 0.02 of the order.
             self.assertAlmostEqual(row['slope'], row['order'], delta=0.25, msg=row['method'])
+            self.assertTrue(all(point['evaluations'] > 0 for point in row['points']))
+        self.type('study-time', '1000')
+        self.element('study').click()
+        self.element('study-cancel').click()
+        self.wait('return document.getElementById("study-note").textContent === "Cancelled."')
 
     def test_frames_are_checked(self):
         self.call('await pendulumLab.set({particles: "particle.txt", frames: 100, runs: [{method: "Runge-Kutta-4"}]})')
@@ -372,16 +463,9 @@ class LabTest(unittest.TestCase):
         self.tab('check')
         for change, expected in ((lambda text: text, 'Euler'), (lambda text: text.replace('1', '2'), 'depart')):
             with tempfile.TemporaryDirectory() as folder:
-                paths = []
                 for index, text in enumerate(right):
-                    path = Path(folder) / f'frame_{index:04}.txt'
-                    path.write_text(change(text) if index > 5 else text)
-                    paths.append(str(path))
-                archive = Path(folder) / 'frames.zip'
-                with zipfile.ZipFile(archive, 'w') as file:
-                    for path in paths:
-                        file.write(path, Path(path).name)
-                self.element('check-zip').send_keys(str(archive))
+                    (Path(folder) / f'frame_{index:04}.txt').write_text(change(text) if index > 5 else text)
+                self.element('check-folder').send_keys(folder)
                 self.wait(f'return document.getElementById("check-note").textContent.includes("{expected}")')
 
     def test_nothing_freezes_or_kills_the_page(self):
