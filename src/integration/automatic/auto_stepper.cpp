@@ -118,11 +118,9 @@ void AutoStepper::start(const State& state) {
 // The difference is taken before the product. Its rounding then does not depend on earlier work, so
 // a restarted run gives the same bits.
 double AutoStepper::workSince(const Candidate& candidate, const StepStatistics& before) const {
-  StepStatistics since = statisticsOf(candidate);
-  since.force_evaluations -= before.force_evaluations;
-  since.left_out -= before.left_out;
+  const StepStatistics now = statisticsOf(candidate);
   return candidate.work_per_evaluation *
-         (static_cast<double>(since.force_evaluations) - since.leftOut(chain_.size()));
+         static_cast<double>(now.force_evaluations - before.force_evaluations);
 }
 
 StepStatistics AutoStepper::statisticsOf(const Candidate& candidate) {
@@ -130,7 +128,6 @@ StepStatistics AutoStepper::statisticsOf(const Candidate& candidate) {
   if (!candidate.stepper) return sum;
   const StepStatistics present = candidate.stepper->statistics();
   sum.force_evaluations += present.force_evaluations;
-  sum.left_out += present.left_out;
   sum.rejected += present.rejected;
   return sum;
 }
@@ -228,9 +225,7 @@ StepStatistics AutoStepper::statistics() const {
     const StepStatistics its = statisticsOf(candidate);
     sum.force_evaluations += its.force_evaluations;
     sum.extra_work +=
-        (candidate.work_per_evaluation - 1.0) * static_cast<double>(its.force_evaluations) -
-        candidate.work_per_evaluation * its.leftOut(chain_.size());
-    sum.left_out += its.left_out;
+        (candidate.work_per_evaluation - 1.0) * static_cast<double>(its.force_evaluations);
     sum.rejected += its.rejected;
   }
   sum.accepted = steps_;

@@ -15,18 +15,12 @@ namespace spring_pendulum {
 /// Work of a stepper since its construction.
 struct StepStatistics {
   std::int64_t force_evaluations = 0;  ///< evaluations of F for the whole chain
-  /// Evaluations of single particles that these leave out, because the particles fall freely.
-  std::int64_t left_out = 0;
   /// Cost of the evaluations beyond that of as many evaluations of Taylor-8, in the same unit.
   double extra_work = 0.0;
   std::int64_t accepted = 0;  ///< accepted steps
   std::int64_t rejected = 0;  ///< steps whose error was too large
   double last_step = 0.0;     ///< size of the last accepted step, s
 
-  /// What is left out, in evaluations for the whole chain of this size.
-  double leftOut(std::ptrdiff_t particles) const {
-    return static_cast<double>(left_out) / static_cast<double>(particles);
-  }
   /// Cost of all evaluations, in force evaluations of Taylor-8.
   double work() const { return static_cast<double>(force_evaluations) + extra_work; }
 };

@@ -7,9 +7,7 @@ ChainSolver<Scalar>::ChainSolver(const Chain& chain)
     : chain_(chain),
       pivots_(static_cast<std::size_t>(chain.size())),
       forward_(pivots_.size()),
-      backward_(pivots_.size()) {
-  resize(chain.size());
-}
+      backward_(pivots_.size()) {}
 
 template <typename Scalar>
 typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::product(const Block& a, const Block& b) {
@@ -25,7 +23,7 @@ typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::inverse(const Block& a)
 
 template <typename Scalar>
 typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::springBlock(Eigen::Index i) const {
-  if (i + 1 >= size_) return {};
+  if (i + 1 >= chain_.size()) return {};
   const LinearSpring& spring = (*springs_)[static_cast<std::size_t>(i)];
   const double damping = chain_.spring().damping;
   const auto row = [&](double r) {  // r times the row vector q k_d rᵀ + q² (a - e r)ᵀ
@@ -60,7 +58,7 @@ void ChainSolver<Scalar>::eliminate(Eigen::Index from, const Block& spring, Bloc
 
 template <typename Scalar>
 void ChainSolver<Scalar>::factor(const std::vector<LinearSpring>& springs, Scalar q) {
-  const Eigen::Index size = size_;
+  const Eigen::Index size = chain_.size();
   if (size < 2) return;
   springs_ = &springs;
   q_ = q;
@@ -92,7 +90,7 @@ void ChainSolver<Scalar>::factor(const std::vector<LinearSpring>& springs, Scala
 // chain of dependent operations, which determines the time.
 template <typename Scalar>
 void ChainSolver<Scalar>::solve(Scalar* x, Scalar* y) const {
-  const std::ptrdiff_t size = size_;
+  const std::ptrdiff_t size = chain_.size();
   if (size < 2) return;
   using Vector = PlaneVector<Scalar>;
   const auto add = [x, y](std::ptrdiff_t i, const Block& a, const Vector& v) {
@@ -101,7 +99,7 @@ void ChainSolver<Scalar>::solve(Scalar* x, Scalar* y) const {
     y[i] = sum.y;
     return sum;
   };
-  const std::ptrdiff_t middle = middle_;
+  const std::ptrdiff_t middle = size / 2;  // eliminated last
   Vector from_left{x[1], y[1]}, from_right{x[size - 1], y[size - 1]};
   for (std::ptrdiff_t left = 2, right = size - 2; right > middle; ++left, --right) {
     from_right = add(right, forward_[static_cast<std::size_t>(right)], from_right);

@@ -38,12 +38,6 @@ class ChainSolver {
   /// \param chain must outlive the solver
   explicit ChainSolver(const Chain& chain);
 
-  /// Solves only for the first `size` particles from now on; the springs beyond exert no force.
-  void resize(Eigen::Index size) {
-    size_ = size;
-    middle_ = size / 2;
-  }
-
   /// Factors M - q C - q² K.
   /// \param springs at least those between the particles
   /// \param q h/λ, s
@@ -67,8 +61,6 @@ class ChainSolver {
   void eliminate(Eigen::Index from, const Block& spring, Block& neighbour, Block& forward);
 
   const Chain& chain_;
-  Eigen::Index size_ = 0;
-  Eigen::Index middle_ = 0;  ///< particle eliminated last
   const std::vector<LinearSpring>* springs_ = nullptr;
   Scalar q_{};
   std::vector<Block> pivots_;    ///< inverse diagonal block of particle i at its elimination

@@ -1,6 +1,5 @@
 #include "integration/implicit/radau_stepper.hpp"
 
-#include "integration/error_control/free_fall.hpp"
 #include "integration/work.hpp"
 
 #include <algorithm>
@@ -31,13 +30,6 @@ constexpr int kMostIterations = 10;
 /// Size of rounding errors of the positions, m.
 constexpr double kRounding = 1e-14;
 
-/// Speed in m/s below which a particle counts as still, far below the error of any tolerance.
-constexpr double kStill = 1e-20;
-
-/// Particles computed beyond the first spring that falls freely. A step that needs more doubles their
-/// number.
-constexpr std::size_t kMargin = 64;
-
 /// Error, relative to the allowed error, that a failed iteration reports; it halves the step size.
 constexpr double kErrorOfFailure = 32.0;
 
@@ -51,8 +43,7 @@ void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]
 StepStatistics RadauStepper::statistics() const {
   StepStatistics statistics = ErrorEstimatingStepper::statistics();
   const double cost = kRadauTime.of(chain().size()) / kTaylorTime.of(chain().size());
-  statistics.extra_work = (cost - 1.0) * static_cast<double>(statistics.force_evaluations) -
-                          cost * statistics.leftOut(chain().size());
+  statistics.extra_work = (cost - 1.0) * static_cast<double>(statistics.force_evaluations);
   return statistics;
 }
 
@@ -64,7 +55,6 @@ RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKern
       allowed_rate_(kShareOfTolerance * tolerance),
       stages_(chain.size()),
       previous_(chain.size()),
-      active_(stages_.particles.size()),
       springs_(static_cast<std::size_t>(chain.size() - 1)),
       real_(this->chain(), radau::kReal),
       pairs_{{{this->chain(), radau::kPairs[0]}, {this->chain(), radau::kPairs[1]}}},
@@ -73,34 +63,6 @@ RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKern
 void RadauStepper::prepare(bool restarted) {
   std::swap(stages_, previous_);
   previous_length_ = restarted ? 0.0 : statistics().last_step;
-  if (restarted) active_ = stages_.particles.size();
-  if (!chain().isPlain()) return;
-  const auto size = static_cast<Eigen::Index>(active_);
-  const Eigen::Index first = beginOfFreeFall(begin(), size, chain().spring().rest_length, kStill);
-  setActive(static_cast<std::size_t>(first) + kMargin);
-}
-
-void RadauStepper::setActive(std::size_t particles) {
-  const std::size_t before = active_;
-  active_ = std::min(particles, stages_.particles.size());
-  for (std::size_t i = before; i < active_; ++i) {
-    previous_.particles[i] = previous_.particles[before - 1];
-    previous_.tensions[i - 1] = {};
-  }
-  const auto size = static_cast<Eigen::Index>(active_);
-  real_.solver.resize(size);
-  for (System<Complex>& pair : pairs_) pair.solver.resize(size);
-}
-
-void RadauStepper::countEvaluations(std::int64_t count) {
-  counters().force_evaluations += count;
-  counters().left_out += count * static_cast<std::int64_t>(stages_.particles.size() - active_);
-}
-
-bool RadauStepper::reachesFreeEnd() const {
-  if (active_ == stages_.particles.size()) return false;
-  const Row& speeds = stages_.particles[active_ - 1].vx;
-  return std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v) > kStill; });
 }
 
 double RadauStepper::attempt(double h) {
@@ -110,10 +72,6 @@ double RadauStepper::attempt(double h) {
   real_.factor(springs_, h);
   for (System<Complex>& pair : pairs_) pair.factor(springs_, h);
   if (!solveStages(h)) return kErrorOfFailure * allowed_rate_;
-  if (reachesFreeEnd()) {
-    setActive(2 * active_);
-    return attempt(h);
-  }
   const double error = estimateError(h);
   setEndFromLastStage();
   return error / h;
@@ -152,14 +110,14 @@ void RadauStepper::predict(double h) {
     }
   };
   const std::ptrdiff_t pitch = begin().pitch();
-  for (std::size_t i = 0; i < active_; ++i) {
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const double* velocity = begin().particle(static_cast<Eigen::Index>(i)) + 2 * pitch;
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
     guess(velocity[0], old.vx, next.x, next.vx);
     guess(velocity[pitch], old.vy, next.y, next.vy);
   }
-  for (std::size_t i = 0; i + 1 < active_; ++i) {
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
     Row& tensions = stages_.tensions[i];
     const Ends ends = endsOf(i, begin());
     tensions.fill(springTension(chain().spring(), ends.separation, ends.relative_velocity));
@@ -171,7 +129,7 @@ void RadauStepper::predict(double h) {
 }
 
 void RadauStepper::linearise() {
-  for (std::size_t i = 0; i + 1 < active_; ++i) {
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
     const Ends middle = endsOf(i, endsOf(i, begin()), kMiddleStage);
     springs_[i] = linearSpring(chain().spring(), middle.separation, middle.relative_velocity,
                                stages_.tensions[i][kMiddleStage]);
@@ -217,9 +175,9 @@ void RadauStepper::springForces(std::size_t spring, Row& fx, Row& fy) {
 
 void RadauStepper::computeResiduals() {
   Row left_x{}, left_y{};
-  for (std::size_t i = 0; i < active_; ++i) {
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     Row right_x{}, right_y{};
-    if (i + 1 < active_) springForces(i, right_x, right_y);
+    if (i < springs_.size()) springForces(i, right_x, right_y);
     const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
     const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
     Row fx, fy;
@@ -234,7 +192,7 @@ void RadauStepper::computeResiduals() {
     left_x = right_x;
     left_y = right_y;
   }
-  countEvaluations(static_cast<std::int64_t>(kStages));
+  counters().force_evaluations += static_cast<std::int64_t>(kStages);
 }
 
 RadauStepper::Change RadauStepper::updateStages() {
@@ -242,7 +200,7 @@ RadauStepper::Change RadauStepper::updateStages() {
   Change largest;
   double finite = 0.0;
   Increments left{};
-  for (std::size_t i = 1; i < active_; ++i) {
+  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
     Increments change{};
     real_.addChange(i, change);
     for (const System<Complex>& pair : pairs_) pair.addChange(i, change);
@@ -303,9 +261,9 @@ double RadauStepper::filteredError(bool corrected) {
                                q * velocity[begin().pitch()] + radau::dot(radau::kError, stage.y)};
   };
   PlaneVector<double> here{}, left{};
-  for (std::size_t i = 0; i < active_; ++i) {
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     PlaneVector<double> right{}, next{};
-    if (i + 1 < active_) {
+    if (i < springs_.size()) {
       next = position_part(i + 1);
       const PlaneVector<double> force = startForce(i, corrected);
       const PlaneVector<double> change =
@@ -324,9 +282,9 @@ double RadauStepper::filteredError(bool corrected) {
     left = right;
   }
   real_.solve();
-  countEvaluations(1);
+  ++counters().force_evaluations;
   double largest = 0.0, finite = 0.0;
-  for (std::size_t i = 1; i < active_; ++i) {
+  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
     const PlaneVector<double> part = position_part(i);
     const double errors[] = {part.x + q * real_.x[i], part.y + q * real_.y[i], real_.x[i],
                              real_.y[i]};
@@ -342,7 +300,7 @@ double RadauStepper::stepExplicitly(double h) {
   ++counters().force_evaluations;
   const std::ptrdiff_t pitch = begin().pitch();
   double finite = 0.0;
-  for (std::size_t i = 0; i < active_; ++i) {
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const double* slope = change_.particle(static_cast<Eigen::Index>(i));
     Increments& stage = stages_.particles[i];
     for (std::size_t s = 0; s < kStages; ++s) {
@@ -354,7 +312,7 @@ double RadauStepper::stepExplicitly(double h) {
     }
     finite += 0.0 * (stage.x[0] + stage.y[0] + stage.vx[0] + stage.vy[0]);
   }
-  for (std::size_t i = 0; i + 1 < active_; ++i) {
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
     const Ends ends = endsOf(i, begin());
     stages_.tensions[i].fill(
         springTension(chain().spring(), ends.separation, ends.relative_velocity));
@@ -366,7 +324,7 @@ double RadauStepper::stepExplicitly(double h) {
 void RadauStepper::setEndFromLastStage() {
   const std::ptrdiff_t pitch = begin().pitch();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const Increments& stage = stages_.particles[std::min(i, active_ - 1)];
+    const Increments& stage = stages_.particles[i];
     const double* lost = carry().particle(static_cast<Eigen::Index>(i));
     const double changes[] = {lost[0] + stage.x.back(), lost[pitch] + stage.y.back(),
                               lost[2 * pitch] + stage.vx.back(), lost[3 * pitch] + stage.vy.back()};
@@ -380,7 +338,7 @@ const StateBuffer& RadauStepper::stateInside(double fraction) const {
   auto values = change_.values();
   values = begin().values();
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
-    const Increments& stage = stages_.particles[std::min(i, active_ - 1)];
+    const Increments& stage = stages_.particles[i];
     const auto row = static_cast<Eigen::Index>(i);
     values(row, 0) += radau::dot(weights, stage.x);
     values(row, 1) += radau::dot(weights, stage.y);

@@ -138,11 +138,6 @@ class RadauStepper final : public ErrorEstimatingStepper {
     return {drag * (velocity.x + share * change.x), drag * (velocity.y + share * change.y)};
   }
 
-  /// Computes this number of particles from now on. Those beyond fall like the last of these.
-  void setActive(std::size_t particles);
-  void countEvaluations(std::int64_t count);
-  /// Whether the motion has reached the end of the computed part, so that more must be computed.
-  bool reachesFreeEnd() const;
   /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.
   void predict(double h);
   void linearise();
@@ -168,7 +163,6 @@ class RadauStepper final : public ErrorEstimatingStepper {
   Collocation stages_;
   Collocation previous_;
   double previous_length_ = 0.0;  ///< size of the previous step; 0: none
-  std::size_t active_;  ///< number of computed particles, without an end that falls freely
   std::vector<LinearSpring> springs_;
   System<double> real_;
   std::array<System<Complex>, 2> pairs_;

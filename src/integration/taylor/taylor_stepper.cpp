@@ -1,7 +1,7 @@
 #include "integration/taylor/taylor_stepper.hpp"
 
-#include "integration/error_control/free_fall.hpp"
 #include "integration/error_control/step_size_controller.hpp"
+#include "integration/taylor/free_fall.hpp"
 #include "model/chain_modes.hpp"
 
 #include <algorithm>

@@ -111,20 +111,6 @@ TEST(Auto, TakesTheImplicitMethodOnALongChainWithAFewLightParticles) {
   EXPECT_EQ(methodAfter(scene, 1e-6, 0.01), "Radau-9");
 }
 
-// Radau-9 leaves out the end that falls freely, so its evaluations cost less.
-TEST(Auto, CountsWhatTheImplicitMethodLeavesOut) {
-  Eigen::VectorXd masses = Eigen::VectorXd::Ones(3000);
-  masses.segment(1, 5).setConstant(1e-6);
-  const Chain chain(masses, SpringLaw{}, 9.81);
-  AutoStepper stepper(chain, 1e-6);
-  stepper.start(test::straightLine(3000, 1.0, 0.0));
-  for (double time = 0.0; time < 0.1;) time += stepper.step();
-  EXPECT_EQ(stepper.method(), "Radau-9");
-  const StepStatistics statistics = stepper.statistics();
-  EXPECT_GT(statistics.leftOut(3000),
-            0.3 * static_cast<double>(statistics.force_evaluations));  // 567 of 1,430
-}
-
 // Whether the methods that are not at work are kept decides about memory alone.
 TEST(Auto, HasTheSameBitsIfItForgetsMethods) {
   for (const char* name : {"lighter_100", "feather_50"}) {

@@ -168,33 +168,5 @@ TEST(Radau, KeepsItsToleranceOnLightParticles) {
   }
 }
 
-/// A level chain whose first particles are light.
-Chain lightStart(Eigen::Index size) {
-  Eigen::VectorXd masses = Eigen::VectorXd::Ones(size);
-  masses.segment(1, 5).setConstant(1e-6);
-  return {masses, {50.0, 1.0, 1.0}, 9.81};
-}
-
-State levelStart(Eigen::Index size) {
-  State state(size);
-  state.x() = Eigen::VectorXd::LinSpaced(size, 0.0, static_cast<double>(size - 1));
-  return state;
-}
-
-State afterTenthOfASecond(const char* method, double tolerance, Eigen::Index size) {
-  State state = levelStart(size);
-  makeIntegrator(method, lightStart(size), {tolerance})->advance(state, 0.1, 1);
-  return state;
-}
-
-// The systems are solved from both ends towards the middle: with more of them, bits would differ.
-TEST(Radau, LeavesOutTheEndThatFallsFreely) {
-  const State shorter = afterTenthOfASecond("Radau-9", 1e-3, 300);
-  const State longer = afterTenthOfASecond("Radau-9", 1e-3, 1000);
-  EXPECT_TRUE(shorter.values() == longer.values().topRows(300));
-  const State exact = afterTenthOfASecond("Stabilized-Taylor-8", 1e-8, 300);
-  EXPECT_LT(test::positionError(shorter, exact), 1e-3);
-}
-
 }  // namespace
 }  // namespace spring_pendulum
