@@ -15,7 +15,7 @@ class Heun : public spring_pendulum::Integrator {
  public:
   explicit Heun(const spring_pendulum::Chain& chain) : chain_(chain), stage_(chain.size()) {}
 
-  void advance(spring_pendulum::State& state, double time_step, std::int64_t steps) override {
+  void integrate(spring_pendulum::State& state, double time_step, std::int64_t steps) override {
     for (std::int64_t n = 0; n < steps; ++n) {
       computeSlope(chain_, state, begin_slope_);
       stage_.values() = state.values() + time_step * begin_slope_.values();

@@ -22,8 +22,6 @@ namespace {
 
 using namespace py::literals;
 
-constexpr double kWorkBetweenStops = 0.005;  // s, see Integrator::work
-
 Numbers finiteVector(const py::object& argument, const std::string& name) {
   Numbers numbers = toNumbers(argument, name, 1);
   for (py::ssize_t i = 0; i < numbers.size(); ++i) {
@@ -85,10 +83,7 @@ class PythonIntegrator {
     Interruption interruption;
     {
       const Computation computation;
-      while (steps > 0 && !interruption()) {
-        steps -= integrator_->advanceWithin(state, time_step, steps,
-                                            integrator_->work() + kWorkBetweenStops);
-      }
+      integrator_->advance(state, time_step, steps, [&] { return interruption(); });
     }
     interruption.raise();
   }

@@ -1,6 +1,5 @@
 #include "check/motion.hpp"
 
-#include "integration/work.hpp"
 #include <spring_pendulum/simulation/frame_steps.hpp>
 
 #include <array>
@@ -44,11 +43,9 @@ class MethodMotion : public Motion {
 
   bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
     const std::int64_t before = integrator_->forceEvaluations();
-    for (std::int64_t left = (frame - frame_) * steps_.steps; left > 0;) {
-      if (limit.isStopped()) return false;
-      left -= integrator_->advanceWithin(state_, steps_.time_step, left,
-                                         integrator_->work() + kWorkBetweenStops);
-    }
+    const std::int64_t steps = (frame - frame_) * steps_.steps;
+    const auto stop = [&limit] { return limit.isStopped(); };
+    if (integrator_->advance(state_, steps_.time_step, steps, stop) < steps) return false;
     limit.done += static_cast<double>((integrator_->forceEvaluations() - before) * state_.size());
     frame_ = frame;
     return true;

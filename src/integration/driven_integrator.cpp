@@ -70,12 +70,12 @@ void DrivenIntegrator::placeHeld() {
   }
 }
 
-void DrivenIntegrator::advance(State& state, double time_step, std::int64_t steps) {
-  advanceWithin(state, time_step, steps, std::numeric_limits<double>::infinity());
+void DrivenIntegrator::integrate(State& state, double time_step, std::int64_t steps) {
+  integrateWithin(state, time_step, steps, std::numeric_limits<double>::infinity());
 }
 
-std::int64_t DrivenIntegrator::advanceWithin(State& state, double time_step, std::int64_t steps,
-                                             double most_work) {
+std::int64_t DrivenIntegrator::integrateWithin(State& state, double time_step, std::int64_t steps,
+                                               double most_work) {
   requireAdvance(size(), state.size(), time_step, steps);
   if (!started_) begin(state);
   if (time_step != time_step_) {
@@ -87,7 +87,7 @@ std::int64_t DrivenIntegrator::advanceWithin(State& state, double time_step, std
   while (completed < steps) {
     if (std::isfinite(most_work) && work() >= most_work) break;
     const std::int64_t wanted = fixed_step_ ? 1 : steps - completed;
-    const std::int64_t taken = relative_->advanceWithin(state_, time_step, wanted, most_work);
+    const std::int64_t taken = relative_->integrateWithin(state_, time_step, wanted, most_work);
     if (taken == 0) break;
     completed += taken;
     steps_ += taken;

@@ -28,9 +28,9 @@ class DrivenIntegrator final : public Integrator {
 
   /// Held particles are at their prescribed places after every step of a fixed-step method, which
   /// may not integrate a constant acceleration exactly, and at every output time.
-  void advance(State& state, double time_step, std::int64_t steps) override;
-  std::int64_t advanceWithin(State& state, double time_step, std::int64_t steps,
-                             double most_work) override;
+  void integrate(State& state, double time_step, std::int64_t steps) override;
+  std::int64_t integrateWithin(State& state, double time_step, std::int64_t steps,
+                               double most_work) override;
   double work() const override { return relative_->work(); }
   std::int64_t forceEvaluations() const override { return relative_->forceEvaluations(); }
   double dissipatedEnergy() const override { return relative_->dissipatedEnergy(); }

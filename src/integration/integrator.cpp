@@ -1,16 +1,30 @@
 #include <spring_pendulum/integration/integrator.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace spring_pendulum {
+namespace {
 
-std::int64_t Integrator::advanceWithin(State& state, double time_step, std::int64_t steps,
-                                       double most_work) {
-  if (!std::isfinite(most_work)) {
-    advance(state, time_step, steps);
+/// Work between two questions whether to stop, s.
+constexpr double kWorkBetweenStops = 0.005;
+
+}  // namespace
+
+std::int64_t Integrator::advance(State& state, double time_step, std::int64_t steps,
+                                 const std::function<bool()>& stop) {
+  if (!stop || steps <= 0) {
+    integrate(state, time_step, steps);
     return steps;
   }
+  std::int64_t completed = 0;
+  while (completed < steps && !stop()) {
+    completed += integrateWithin(state, time_step, steps - completed, work() + kWorkBetweenStops);
+  }
+  return completed;
+}
+
+std::int64_t Integrator::integrateWithin(State& state, double time_step, std::int64_t steps,
+                                         double most_work) {
   std::int64_t completed = 0;
   for (double before = work(); completed < steps && before < most_work;) {
     const double affordable = step_work_ > 0.0 ? (most_work - before) / step_work_ : 1.0;
@@ -18,7 +32,7 @@ std::int64_t Integrator::advanceWithin(State& state, double time_step, std::int6
     const auto count = affordable < left
                            ? std::max(static_cast<std::int64_t>(affordable), std::int64_t{1})
                            : steps - completed;
-    advance(state, time_step, count);
+    integrate(state, time_step, count);
     completed += count;
     const double after = work();
     step_work_ = (after - before) / static_cast<double>(count);

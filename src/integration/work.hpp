@@ -18,9 +18,6 @@ struct NominalTime {
   }
 };
 
-/// Work between two questions whether to stop, s.
-constexpr double kWorkBetweenStops = 0.005;
-
 constexpr NominalTime kFixedStepTime{2e-9, 3.0};
 constexpr NominalTime kTaylorTime{3e-9};
 constexpr NominalTime kStabilizedTaylor8Time{1.15 * 3e-9};

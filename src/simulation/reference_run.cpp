@@ -1,5 +1,4 @@
 #include "base/checks.hpp"
-#include "integration/work.hpp"
 #include "model/chain_modes.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
@@ -119,14 +118,11 @@ class ReferenceTrajectories {
   bool advance(double time_step, std::int64_t steps, double allowed_work,
                const std::function<bool()>& stop) {
     if (reference_.left == 0 && companion_.left == 0) reference_.left = companion_.left = steps;
+    const auto ends = [&] { return work() >= allowed_work || (stop && stop()); };
     for (Trajectory* trajectory : {&reference_, &companion_}) {
-      while (trajectory->left > 0) {
-        if (work() >= allowed_work || (stop && stop())) return false;
-        Integrator& integrator = *trajectory->integrator;
-        const double slice = std::min(allowed_work - work(), kWorkBetweenStops);
-        trajectory->left -= integrator.advanceWithin(trajectory->state, time_step, trajectory->left,
-                                                     integrator.work() + slice);
-      }
+      trajectory->left -=
+          trajectory->integrator->advance(trajectory->state, time_step, trajectory->left, ends);
+      if (trajectory->left > 0) return false;
     }
     return true;
   }

@@ -1,7 +1,6 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
 #include "base/stopwatch.hpp"
-#include "integration/work.hpp"
 #include "simulation/expected_cost.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include "simulation/sleep.hpp"
@@ -151,12 +150,7 @@ bool Run::integrate(std::int64_t steps, Integrator& integrator) {
   if (options_.measure_seconds) stopwatch.emplace(totals_.seconds);
   if (scenario_.sleep > 0.0 && !chain_.isDriven() && sleeps(integrator))
     return !(options_.stop && options_.stop());
-  while (steps > 0) {
-    if (options_.stop && options_.stop()) return false;
-    steps -= integrator.advanceWithin(state_, frame_steps_.time_step, steps,
-                                      integrator.work() + kWorkBetweenStops);
-  }
-  return true;
+  return integrator.advance(state_, frame_steps_.time_step, steps, options_.stop) == steps;
 }
 
 bool Run::sleeps(Integrator& integrator) {

@@ -191,7 +191,7 @@ TEST(Misuse, ScenariosThatWereNotValidated) {
 /// A method of a program that does all it must not.
 class Wrong final : public Integrator {
  public:
-  void advance(State& state, double, std::int64_t) override {
+  void integrate(State& state, double, std::int64_t) override {
     state = State(state.size() + 1);
     state.values().setConstant(kNan);
   }

@@ -184,8 +184,8 @@ TEST(StabilityAdvice, RefusesWhatHasNoAnswer) {
 /// A method of a program that never reaches the next frame.
 class Slow final : public Integrator {
  public:
-  void advance(State&, double, std::int64_t) override { FAIL() << "not asked to stop"; }
-  std::int64_t advanceWithin(State&, double, std::int64_t, double) override {
+  void integrate(State&, double, std::int64_t) override { FAIL() << "not asked to stop"; }
+  std::int64_t integrateWithin(State&, double, std::int64_t, double) override {
     ++evaluations_;
     return 0;
   }

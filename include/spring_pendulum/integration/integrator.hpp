@@ -4,6 +4,7 @@
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #pragma GCC visibility push(default)
@@ -39,17 +40,15 @@ class Integrator {
   /// Advances `state` in place by `steps` >= 0 steps of `time_step` s. Taking a + b steps in one
   /// call or in two gives the same bits. The first particle does not move unless the chain is driven.
   /// A diverging motion does not throw: the state then has elements that are very large or not finite.
+  /// \param stop asked before the first step and after every few milliseconds of work whether to stop
+  ///   early; empty: never. To go on, call `advance` again with the remaining steps; a run with stops has
+  ///   the bits of a run without.
+  /// \returns the number of completed steps. An error-controlled method may stop between two output
+  ///   times, which leaves `state` unchanged.
   /// \throws InputError if the size of the state is not that of the chain, `time_step` is not
   ///         finite and positive, or `steps` is negative
-  virtual void advance(State& state, double time_step, std::int64_t steps) = 0;
-
-  /// Advances like `advance`, but stops early once `work()` has reached `most_work` s. To go on, call
-  /// it again with the remaining steps; a run with stops has the bits of a run without. Takes at
-  /// least one step if `work()` is below `most_work`, except that an error-controlled method may
-  /// stop between two output times, which leaves `state` unchanged.
-  /// \returns the number of completed steps
-  virtual std::int64_t advanceWithin(State& state, double time_step, std::int64_t steps,
-                                     double most_work);
+  std::int64_t advance(State& state, double time_step, std::int64_t steps,
+                       const std::function<bool()>& stop = {});
 
   /// Nominal computing time since construction, s: numbers of operations times the time that each
   /// takes on one core of a current processor. It is counted, not measured by a clock, so a limit on
@@ -82,8 +81,18 @@ class Integrator {
  protected:
   Integrator() = default;
 
+  /// Takes all steps; see `advance`.
+  virtual void integrate(State& state, double time_step, std::int64_t steps) = 0;
+
+  /// Takes steps until `work()` has reached `most_work` s, at least one if it is below.
+  /// \returns the number of completed steps; 0 if an error-controlled method has not reached the next
+  ///   output time
+  virtual std::int64_t integrateWithin(State& state, double time_step, std::int64_t steps,
+                                       double most_work);
+
  private:
-  double step_work_ = 0.0;  ///< of the last steps in `advanceWithin`, s per step
+  friend class DrivenIntegrator;
+  double step_work_ = 0.0;  ///< of the last steps in `integrateWithin`, s per step
 };
 
 }  // namespace spring_pendulum

@@ -71,12 +71,12 @@ void DenseOutputIntegrator::takeStep() {
   step_end_ = step_begin_ + step_length_;
 }
 
-void DenseOutputIntegrator::advance(State& state, double time_step, std::int64_t steps) {
-  advanceWithin(state, time_step, steps, std::numeric_limits<double>::infinity());
+void DenseOutputIntegrator::integrate(State& state, double time_step, std::int64_t steps) {
+  integrateWithin(state, time_step, steps, std::numeric_limits<double>::infinity());
 }
 
-std::int64_t DenseOutputIntegrator::advanceWithin(State& state, double time_step,
-                                                  std::int64_t steps, double most_work) {
+std::int64_t DenseOutputIntegrator::integrateWithin(State& state, double time_step,
+                                                    std::int64_t steps, double most_work) {
   requireAdvance(constants_.chain().size, state.size(), time_step, steps);
   if (!started_) {
     stepper_->start(state);

@@ -23,18 +23,6 @@ class DenseOutputIntegrator final : public Integrator {
   /// \param stepper of the chain
   DenseOutputIntegrator(const Chain& chain, std::unique_ptr<DenseOutputStepper> stepper,
                         bool track_dissipation = false);
-
-  /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
-  /// as often with half the time_step gives the same bits at the common times. If time_step differs
-  /// from the last call, n counts from the last output time. Only the first call after a (re)start
-  /// reads `state`.
-  /// If the motion diverges, `state` is NaN, except for the first particle, at all output times
-  /// that the steps did not reach.
-  void advance(State& state, double time_step, std::int64_t steps) override;
-
-  /// \returns 0 or `steps`
-  std::int64_t advanceWithin(State& state, double time_step, std::int64_t steps,
-                             double most_work) override;
   double work() const override {
     return kTaylorTime.of(constants_.chain().size) * statistics().work();
   }
@@ -47,6 +35,17 @@ class DenseOutputIntegrator final : public Integrator {
   StepStatistics statistics() const { return stepper_->statistics(); }
 
  private:
+  /// The n-th output time after a (re)start is n * time_step with an integer n, so sampling twice
+  /// as often with half the time_step gives the same bits at the common times. If time_step differs
+  /// from the last call, n counts from the last output time. Only the first call after a (re)start
+  /// reads `state`.
+  /// If the motion diverges, `state` is NaN, except for the first particle, at all output times
+  /// that the steps did not reach.
+  void integrate(State& state, double time_step, std::int64_t steps) override;
+
+  /// \returns 0 or `steps`
+  std::int64_t integrateWithin(State& state, double time_step, std::int64_t steps,
+                               double most_work) override;
   void takeStep();
   struct Energies {
     double dissipated = 0.0;  ///< J

@@ -64,7 +64,7 @@ Skips ExplicitRungeKutta::skips() const {
   return {chain().spring.damping == 0.0, chain().gravity == 0.0, chain().mass_stride == 0};
 }
 
-void ExplicitRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
+void ExplicitRungeKutta::integrate(State& state, double time_step, std::int64_t steps) {
   requireAdvance(chain().size, state.size(), time_step, steps);
   state.velocities().row(0).setZero();
   for (std::size_t i = 0; i < stages_; ++i) {

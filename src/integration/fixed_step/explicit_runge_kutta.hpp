@@ -37,10 +37,10 @@ class ExplicitRungeKutta final : public FixedStepIntegrator {
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                      const EngineOptions& options = {});
 
-  void advance(State& state, double time_step, std::int64_t steps) override;
   Skips skips() const override;
 
  private:
+  void integrate(State& state, double time_step, std::int64_t steps) override;
   /// Workspace of a thread that integrates the particles begin <= i < end.
   struct Share {
     Eigen::Index begin = 0;

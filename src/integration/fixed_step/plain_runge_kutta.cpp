@@ -14,7 +14,7 @@ PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& table
   for (std::size_t i = 0; i < tableau.stages; ++i) slopes_.emplace_back(chain.size());
 }
 
-void PlainRungeKutta::advance(State& state, double time_step, std::int64_t steps) {
+void PlainRungeKutta::integrate(State& state, double time_step, std::int64_t steps) {
   requireAdvance(chain().size, state.size(), time_step, steps);
   state.velocities().row(0).setZero();
   state_.values() = state.values();

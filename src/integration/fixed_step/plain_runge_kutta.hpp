@@ -15,9 +15,8 @@ class PlainRungeKutta final : public FixedStepIntegrator {
   PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau, bool track_dissipation,
                   const ChainKernels& kernels = fastestChainKernels());
 
-  void advance(State& state, double time_step, std::int64_t steps) override;
-
  private:
+  void integrate(State& state, double time_step, std::int64_t steps) override;
   void step(double time_step);
 
   ButcherTableau tableau_;

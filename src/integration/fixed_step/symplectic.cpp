@@ -10,7 +10,7 @@ SymplecticMethod::SymplecticMethod(const Chain& chain, bool track_dissipation)
     : FixedStepIntegrator(chain, track_dissipation, fastestChainKernels()),
       current_(chain.size()) {}
 
-void SymplecticMethod::advance(State& state, double time_step, std::int64_t steps) {
+void SymplecticMethod::integrate(State& state, double time_step, std::int64_t steps) {
   requireAdvance(chain().size, state.size(), time_step, steps);
   state.velocities().row(0).setZero();
   current_.values() = state.values();

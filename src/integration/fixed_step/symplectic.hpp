@@ -27,9 +27,6 @@ namespace spring_pendulum {
 /// Base class with the current state. The dissipated and supplied energies are integrated with the
 /// trapezoidal rule over each step.
 class SymplecticMethod : public FixedStepIntegrator {
- public:
-  void advance(State& state, double time_step, std::int64_t steps) final;
-
  protected:
   SymplecticMethod(const Chain& chain, bool track_dissipation);
 
@@ -43,6 +40,8 @@ class SymplecticMethod : public FixedStepIntegrator {
   void drift(StateBuffer& state, double weight) const;
 
  private:
+  void integrate(State& state, double time_step, std::int64_t steps) final;
+
   StateBuffer current_;
 };
 
