@@ -4,13 +4,17 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace spring_pendulum {
 
-/// Runs `task(0) ... task(n - 1)` in parallel, any number of times.
+/// Runs `task(0) ... task(n - 1)` in parallel, any number of times. A process that was forked has none
+/// of the threads of its parent and starts its own.
 class WorkerThreads {
  public:
   /// \param threads number of threads including the calling one; fewer if the system refuses some
@@ -21,24 +25,30 @@ class WorkerThreads {
   WorkerThreads& operator=(const WorkerThreads&) = delete;
 
   /// Number of threads, including the calling one.
-  int size() const { return static_cast<int>(threads_.size()) + 1; }
+  int size() const { return static_cast<int>(pool_->threads.size()) + 1; }
 
-  /// Runs the tasks 0 <= i < count, with count <= size(), and waits for all of them. The calling
-  /// thread runs task 0.
+  /// Runs the tasks 0 <= i < count and waits for all of them. The calling thread runs task 0 and those
+  /// for which there is no thread.
   void run(int count);
 
  private:
-  void work(int index);
+  struct Pool {
+    std::mutex mutex;
+    std::condition_variable begin;
+    std::condition_variable done;
+    std::int64_t run = 0;  ///< number of calls of `run`
+    int count = 0;         ///< number of tasks of the current run
+    int unfinished = 0;    ///< unfinished tasks of the other threads
+    bool stop = false;
+    std::vector<std::thread> threads;
+  };
+
+  void start(int threads);
+  void work(Pool& pool, int index);
 
   std::function<void(int)> task_;
-  std::mutex mutex_;
-  std::condition_variable begin_;
-  std::condition_variable done_;
-  std::int64_t run_ = 0;  ///< number of calls of `run`
-  int count_ = 0;         ///< number of tasks of the current run
-  int unfinished_ = 0;    ///< unfinished tasks of the other threads
-  bool stop_ = false;
-  std::vector<std::thread> threads_;
+  pid_t process_ = 0;  ///< in which the threads were started
+  std::unique_ptr<Pool> pool_;
 };
 
 }  // namespace spring_pendulum

@@ -12,8 +12,11 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <random>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -210,6 +213,22 @@ TEST(ExplicitRungeKutta, LeavesTheFixedParticleWhereItIsThoughItsNeighbourIsLost
   makeIntegrator("Runge-Kutta-4", chainOf(3, kKinds[0]))->advance(state, kTimeStep, 10);
   EXPECT_EQ(state.values().row(0).norm(), 0.0);
   EXPECT_TRUE(std::isnan(state.x()[2]));
+}
+
+TEST(ExplicitRungeKutta, StartsItsThreadsAnewInAForkedProcess) {
+  const State start = bentChain(9000);
+  auto engine = std::make_unique<ExplicitRungeKutta>(
+      chainOf(9000, kKinds[0]), kClassicalRungeKuttaTableau, EngineOptions{2, 1024, 1e-9});
+  const State expected = stateAfter(*engine, start, kSteps, kSteps);
+  const pid_t child = fork();
+  if (child == 0) {
+    const bool same = sameBits(stateAfter(*engine, start, kSteps, kSteps), expected);
+    engine.reset();
+    _exit(same ? 0 : 1);
+  }
+  int status = 1;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(ExplicitRungeKutta, EvaluatesEachStageOnce) {
