@@ -205,7 +205,8 @@ void defineIntegrator(py::module_& module) {
     }
     return std::make_unique<PythonIntegrator>(
         method, chain,
-        IntegratorOptions{tolerance.value_or(IntegratorOptions().tolerance), track_dissipation, threads});
+        IntegratorOptions{tolerance.value_or(IntegratorOptions().tolerance), track_dissipation,
+                          threads});
   };
   py::class_<PythonIntegrator>(module, "Integrator", "Advances states of one chain.")
       .def("advance", &PythonIntegrator::advance, "state"_a, "time_step"_a, "steps"_a)

@@ -15,6 +15,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <pybind11/stl.h>
 #include <utility>
 #include <vector>
 
@@ -127,15 +128,18 @@ py::tuple tupleOf(const Verdict& verdict) {
   return py::make_tuple(std::string(toString(verdict.kind)), verdict.text, verdict.time);
 }
 
-/// What Exercise3 prints as a warning at the end.
-std::string warningOf(const Run& run, const std::function<bool()>& stop) {
+/// The lines that Exercise3 prints as warnings at the end.
+std::vector<std::string> warningsOf(const Run& run, const std::function<bool()>& stop) {
   const Verdict& verdict = run.verdict();
+  std::vector<std::string> lines{run.toleranceRemark()};
   if (verdict.kind == VerdictKind::kDiverged) {
     const std::string remedy = remedyForDivergence(run.chain(), run.start(), run.scenario(), stop);
-    return verdict.text + (remedy.empty() ? "" : "; " + remedy);
+    lines = {verdict.text + (remedy.empty() ? "" : "; " + remedy)};
+  } else if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) {
+    lines.insert(lines.begin(), verdict.text);
   }
-  if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) return verdict.text;
-  return run.toleranceRemark();
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
 }
 
 py::dict simulate(const py::object& particles, const py::dict& options) {
@@ -152,7 +156,7 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
   double* const state = states.mutable_data();
   py::ssize_t count = 0;
   RunFiles output(run);
-  std::string warning;
+  std::vector<std::string> warnings;
   {
     const Computation computation;
     while (run.advance(*integrator)) {
@@ -161,13 +165,13 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
       output.write(run);
     }
     output.finish();
-    if (!run.wasStopped()) warning = warningOf(run, [&] { return interruption(); });
+    if (!run.wasStopped()) warnings = warningsOf(run, [&] { return interruption(); });
   }
   interruption.raise();
   return py::dict("states"_a = states[py::slice(0, count, 1)],
                   "numbers"_a = numbers[py::make_tuple(py::ellipsis(), py::slice(0, count, 1))],
                   "chain"_a = run.chain(), "method"_a = scenario.method.get().name,
-                  "verdict"_a = tupleOf(run.verdict()), "warning"_a = warning,
+                  "verdict"_a = tupleOf(run.verdict()), "warnings"_a = warnings,
                   "seconds"_a = run.seconds(),
                   "force_evaluations"_a = integrator->forceEvaluations(),
                   "closing_line"_a = run.closingLine(*integrator, output.closingText()));
@@ -195,6 +199,13 @@ py::tuple check(const py::object& particles, const py::dict& options) {
                         orNone(report.stable.step), orNone(report.accurate_step));
 }
 
+py::object defaultOf(const OptionDescription& option) {
+  if (option.is_text) return py::str(option.value);
+  if (option.is_flag) return py::bool_(option.value == "true");
+  return option.is_count ? py::object(py::int_(py::str(option.value)))
+                         : py::float_(py::str(option.value));
+}
+
 }  // namespace
 
 void defineSimulation(py::module_& module) {
@@ -207,15 +218,12 @@ void defineSimulation(py::module_& module) {
       [] {
         py::list rows;
         for (const OptionDescription& option : describeOptions(pythonDefaults())) {
-          rows.append(py::make_tuple(option.key, option.value, option.unit, option.range,
-                                     option.meaning, option.users, option.is_text, option.is_flag,
-                                     option.is_count));
+          rows.append(py::make_tuple(option.key, defaultOf(option), option.unit, option.range,
+                                     option.meaning, option.users));
         }
         return rows;
       },
-      "The options of a run: tuples of key, default, unit, range, meaning, users, and whether it "
-      "is text, "
-      "a flag, a count.");
+      "The options of a run: tuples of key, default, unit, range, meaning, users.");
 }
 
 }  // namespace spring_pendulum::python

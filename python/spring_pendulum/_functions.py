@@ -7,17 +7,10 @@ from . import _core
 from ._run import Report, Run, Verdict
 
 
-def _default(text, is_text, is_flag, is_count):
-    if is_text:
-        return text
-    return text == 'true' if is_flag else int(text) if is_count else float(text)
-
-
 def _with_options(function):
     """Completes signature and documentation of a function of particles and options."""
     parameters, lines = [], []
-    for key, text, unit, accepted, meaning, users, *kinds in _core.options():
-        default = _default(text, *kinds)
+    for key, default, unit, accepted, meaning, users in _core.options():
         is_first = key == 'particles'
         kind = inspect.Parameter.POSITIONAL_OR_KEYWORD if is_first else inspect.Parameter.KEYWORD_ONLY
         parameters.insert(0 if is_first else len(parameters), inspect.Parameter(key, kind, default=default))
@@ -56,9 +49,8 @@ Warns:
     RuntimeWarning: the motion diverged, or its energy or positions are wrong
 """
     parts = _core.simulate(particles, options)
-    warning = parts.pop('warning')
-    if warning:
-        warnings.warn(warning, RuntimeWarning, stacklevel=2)
+    for line in parts.pop('warnings'):
+        warnings.warn(line, RuntimeWarning, stacklevel=2)
     return Run(**parts)
 
 

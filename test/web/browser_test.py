@@ -170,10 +170,10 @@ class LabTest(unittest.TestCase):
             rows = self.exercise3(method, scene, *options)['energy'].splitlines()
             return float(rows[-1].split(',')[9])
 
-        told = re.search(r'it is ([^:]*?)\. Now', lesson)[1]
-        for value, step in re.findall(r'([\d.]+) m with ([\d.]+) s', told):
+        told = re.findall(r'([\d.]+) m with ([\d.]+) s', lesson)
+        self.assertEqual(len(told), 4)
+        for value, step in told:
             self.assertAlmostEqual(error_at_10_s('Euler', float(step)) / float(value), 1, delta=0.02)
-        self.assertEqual(len(re.findall(r' m with ', told)), 4)
         steps = re.search(r'From ([\d.]+) s to ([\d.]+) s and ([\d.]+) s', lesson).groups()
         values = re.search(r'falls from ([\d.e-]+) m to ([\d.e-]+) m and ([\d.e-]+) m', lesson).groups()
         for step, value in zip(steps, values):
@@ -196,17 +196,14 @@ class LabTest(unittest.TestCase):
             self.element('step').click()  # shows the step that was done
             self.wait('return document.getElementById("step-text").textContent.includes("from t = 0.05 s")')
             step = self.state()['step']
-            z, *stages = step['stages']
-            k = step['slopes']
-            p, v, h, half = slice(0, 6), slice(6, 12), 0.01, len(z) // 2
-            a = [slope[v] for slope in k]
+            z, k = step['stages'][0], step['slopes']
+            (p, v), a, h, half = (z[:6], z[6:]), [slope[6:] for slope in k], 0.01, 6
             if method == 'Semi-Implicit-Euler':
-                new_v = [z[v][j] + h * a[0][j] for j in range(half)]
-                new = [z[p][j] + h * new_v[j] for j in range(half)] + new_v
+                new_v = [v[j] + h * a[0][j] for j in range(half)]
+                new = [p[j] + h * new_v[j] for j in range(half)] + new_v
             elif method == 'Velocity-Verlet':
-                new = [z[p][j] + h * (z[v][j] + h / 2 * a[0][j]) for j in range(half)]
-                new += [z[v][j] + h / 2 * (a[0][j] + a[1][j]) for j in range(half)]
-                self.assertEqual(len(stages), 1)
+                new = [p[j] + h * (v[j] + h / 2 * a[0][j]) for j in range(half)]
+                new += [v[j] + h / 2 * (a[0][j] + a[1][j]) for j in range(half)]
             else:
                 weights = {'Euler': [1], 'Runge-Kutta-4': [1 / 6, 1 / 3, 1 / 3, 1 / 6]}[method]
                 new = [z[j] + h * sum(b * slope[j] for b, slope in zip(weights, k)) for j in range(len(z))]
@@ -348,7 +345,6 @@ class LabTest(unittest.TestCase):
         answer = self.call('return pendulumLab.run({particles: "particle.txt", frames: 30, damping: 0,'
                            'method: "Euler", time_step: 0.005, steps_per_frame: 20})')
         self.assertEqual(answer['frames'], repeated['frames'])
-        self.call('await pendulumLab.set({particles: "particle.txt"})')
 
     def test_dropped_frames_are_checked(self):
         self.call('await pendulumLab.set({particles: "particle.txt", frames: 100, runs: [{method: "Runge-Kutta-4"}]})')
