@@ -121,7 +121,7 @@ function describe(method, points, growth, small) {
   const far = points.reduce((a, b) => (Math.hypot(a.x, a.y) > Math.hypot(b.x, b.y) ? a : b));
   const growing = points.filter(({x}) => x > 1e-6).length;
   const outside = points.filter(({x}, i) => x <= 1e-6 && growth[i] > 1e-9).length;
-  const kind = method.symplectic ? ' The region of a symplectic method is that of an oscillator; damping is approximated.' :
+  const kind = method.symplectic ? ' The region of a symplectic method is that of an oscillator.' :
     Number.isFinite(method.realLimit) ? '' : ' This method is stable wherever the motion itself decays.';
   return `${outside} of ${points.length} points are outside. The farthest of ${points.length} points hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
     `${short(Math.abs(far.y), 3)} i; half the step halves its distance from 0. Points inside the region decay or keep ` +

@@ -14,9 +14,8 @@ namespace spring_pendulum {
 
 /// Returns ln |R|, the growth of a mode in one step: above 0 if the method is unstable.
 ///
-/// Exact for explicit Runge-Kutta methods, Taylor series and Semi-Implicit-Euler; the damped limit of
-/// Velocity-Verlet is up to 1.62 times as large. A method that is stable everywhere is taken to be
-/// exact.
+/// Exact for explicit Runge-Kutta methods, Taylor series and the symplectic methods. A method that is
+/// stable everywhere is taken to be exact.
 /// \param swing h sqrt(k)
 /// \param decay h c
 double growthPerStep(const Method& method, double swing, double decay);
