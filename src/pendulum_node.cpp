@@ -9,6 +9,7 @@
 #include <spring_pendulum/model/equilibrium.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <ros/ros.h>
 

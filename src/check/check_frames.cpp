@@ -6,6 +6,7 @@
 #include <spring_pendulum/simulation/frame_steps.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

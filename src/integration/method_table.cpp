@@ -15,6 +15,7 @@
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <limits>

@@ -5,6 +5,7 @@
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
