@@ -57,7 +57,7 @@ long_measurements+='|RandomScenes\.KeepTheTolerance|OnLongAndLightChains|TenMill
 long_measurements+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat'
 long_measurements+='|HangingChain\.MovesAsItsModes/[23]'
 long_measurements+='|StaysWithinItsUncertainty/(feather|alternating)'
-long_tests=$long_measurements'|RandomOptions|ExtremeValues|StopsForEachRunWhereItsOwnWould'
+long_tests=$long_measurements'|RandomOptions|ExtremeValues'
 
 have_ros() { [ -x /usr/bin/catkin_make ] && [ -x /usr/bin/roslaunch ]; }
 

@@ -9,6 +9,7 @@ import csv
 import itertools
 import math
 import os
+import statistics
 import sys
 
 import matplotlib
@@ -22,9 +23,9 @@ from matplotlib.colors import LogNorm, Normalize  # noqa: E402
 COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9']
 STYLES = [style for style in itertools.product(['-', '--', ':'], COLORS)]
 MARKERS = 'osD^vP'
-# From harmless to bad; all other verdicts have the first colour.
-VERDICTS = {'no fault found': '#c6dbef', 'inaccurate': '#9e9ac8', 'drift': '#fee391', 'gained energy': '#f98e1b',
-            'diverged': '#662506'}
+# From harmless to bad.
+VERDICTS = {'ok': '#c6dbef', 'not checked': '#d9d9d9', 'sensitive': '#74c476', 'inaccurate': '#9e9ac8',
+            'drift': '#fee391', 'gained energy': '#f98e1b', 'diverged': '#662506'}
 
 
 def number(text):
@@ -63,7 +64,7 @@ def draw_lines(axes, rows, table, options):
                 points.setdefault(number(row[options.x]), []).append(number(row[options.y]))
         style, color = STYLES[k % len(STYLES)]
         x = sorted(v for v in points if math.isfinite(v))
-        middle = [sorted(points[v])[len(points[v]) // 2] for v in x]
+        middle = [statistics.median(points[v]) for v in x]
         axes.plot(x, middle, style, color=color, marker=MARKERS[k % len(MARKERS)], markersize=3.5,
                   label=table.label(options.lines, line))
         if any(len(points[v]) > 1 for v in x):  # several rows at one place: their range around the median
@@ -89,8 +90,12 @@ def draw_map(axes, rows, table, options):
     for row in rows:
         value = row[options.color]
         if options.color == 'verdict':
-            value = verdicts.index(value) if value in VERDICTS else 0
-        cells[y.index(number(row[options.y]))][x.index(number(row[options.x]))] = number(value)
+            value = verdicts.index(value)
+        line, column = y.index(number(row[options.y])), x.index(number(row[options.x]))
+        if not math.isnan(cells[line][column]):
+            sys.exit('plot_table.py: several rows have %s = %s and %s = %s: draw them in --panels'
+                     % (options.x, row[options.x], options.y, row[options.y]))
+        cells[line][column] = number(value)
     places = borders(x, 'x' in options.log), borders(y, 'y' in options.log)
     if options.color == 'verdict':
         colors = matplotlib.colors.ListedColormap(list(VERDICTS.values()))
@@ -117,10 +122,10 @@ def draw_histogram(axes, rows, _, options):
     bins = 30
     if 'x' in options.log and high > low:
         bins = [low * (high / low) ** (k / 30) for k in range(31)]
-    # The smallest value with at least this share of all values at or below it.
-    share = [values[math.ceil(part * len(values)) - 1] for part in (0.5, 0.95)]
+    # The smallest value with at least 95 % of all values at or below it.
+    most = values[math.ceil(0.95 * len(values)) - 1]
     axes.hist(values, bins=bins, color=COLORS[0],
-              label='%d cases, median %.3g, 95 %% at most %.3g' % (len(values), *share))
+              label='%d cases, median %.3g, 95 %% at most %.3g' % (len(values), statistics.median(values), most))
 
 
 def draw(table, options):
@@ -150,8 +155,13 @@ def draw(table, options):
     figure.tight_layout(rect=(0, height, 1, 1))
     # Whole or absent, as all outputs.
     unfinished = options.picture + '.unfinished'
-    figure.savefig(unfinished, format='png', dpi=100)
-    os.replace(unfinished, options.picture)
+    try:
+        figure.savefig(unfinished, format='png', dpi=100)
+        os.replace(unfinished, options.picture)
+    except OSError as error:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
+        sys.exit('%s: could not be drawn: %s' % (options.picture, error.strerror))
 
 
 def main():

@@ -142,36 +142,10 @@ class ReferenceTrajectories {
   Trajectory companion_;
 };
 
-SharedReference::SharedReference(const Chain& chain, const State& start, double frame_interval,
-                                 double run_tolerance)
-    : frame_interval_(frame_interval),
-      trajectories_(std::make_unique<ReferenceTrajectories>(
-          chain, start, scalesOf(chain, start, run_tolerance))) {
-  requireFinitePositive("frame_interval", frame_interval, "s");
-  frames_.push_back({start, 0.0, 0.0});
-}
-
-SharedReference::~SharedReference() = default;
-
-const ReferenceFrame* SharedReference::frame(std::int64_t index, double allowed_work,
-                                             const std::function<bool()>& stop) {
-  requireAtLeastZero("index", index);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  ReferenceTrajectories& both = *trajectories_;
-  while (static_cast<std::int64_t>(frames_.size()) <= index) {
-    if (!both.advance(frame_interval_, 1, allowed_work, stop)) return nullptr;
-    frames_.push_back({both.state(), both.distance(), both.work()});
-  }
-  const ReferenceFrame& frame = frames_[static_cast<std::size_t>(index)];
-  return frame.work < allowed_work ? &frame : nullptr;
-}
-
 ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
     : chain_(chain),
       first_(scalesOf(chain, start, options.tolerance)),
-      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
-      shared_(options.shared) {
-  if (shared_) requireSize(chain.size(), shared_->size());
+      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork) {
   if (start.size() <= kMostParticles || options.always) start_ = start;
   restart();
 }
@@ -182,8 +156,6 @@ ReferenceRun& ReferenceRun::operator=(ReferenceRun&& other) noexcept = default;
 
 void ReferenceRun::restart() {
   trajectories_.reset();
-  shared_frame_ = nullptr;
-  shared_frames_ = 0;
   allowed_work_ = free_work_;
   gave_up_ = false;
   work_at_stop_ = 0.0;
@@ -201,30 +173,24 @@ bool ReferenceRun::advance(double time_step, std::int64_t steps,
   if (!isMeasuring() || gave_up_ || chain_.size() < 2) return true;
   bool stopped = false;
   const auto stops = [&stopped, &stop] { return stopped = stop && stop(); };
-  if (shared_) {
-    shared_frame_ = shared_->frame(++shared_frames_, allowed_work_, stops);
-    gave_up_ = shared_frame_ == nullptr;
-  } else {
-    if (!trajectories_) {
-      trajectories_ = std::make_unique<ReferenceTrajectories>(chain_, start_, first_);
-    }
-    gave_up_ = !trajectories_->advance(time_step, steps, allowed_work_, stops);
+  if (!trajectories_) {
+    trajectories_ = std::make_unique<ReferenceTrajectories>(chain_, start_, first_);
   }
+  gave_up_ = !trajectories_->advance(time_step, steps, allowed_work_, stops);
   return !stopped;
 }
 
 double ReferenceRun::work() const {
-  if (shared_) return shared_frame_ == nullptr ? 0.0 : shared_frame_->work;
   return trajectories_ ? trajectories_->work() : work_at_stop_;
 }
 
 // The work at a frame does not depend on the parts of the frame, and it exceeds the allowed work if
 // `advance` gave up inside the frame. So the parts do not matter.
 void ReferenceRun::measure(double run_work) {
-  if (!isMeasuring() || (!trajectories_ && shared_frames_ == 0)) return;
+  if (!isMeasuring() || !trajectories_) return;
   if (gave_up_ || work() >= allowed_work_) return stop(Status::kCostTooMuch);
   allowed_work_ = std::max(free_work_, run_work);
-  distance_ = shared_ ? shared_frame_->distance : trajectories_->distance();
+  distance_ = trajectories_->distance();
   if (std::isnan(distance_)) return stop(Status::kFailed);
   scales_.length =
       std::max(scales_.length, kShareOfLength * springLengths(*state(), 0, chain_.size() - 1));
@@ -243,7 +209,6 @@ bool ReferenceRun::isSensitive() const {
 
 const State* ReferenceRun::state() const {
   if (!isMeasuring() || gave_up_) return nullptr;
-  if (shared_frame_ != nullptr) return &shared_frame_->state;
   return trajectories_ ? &trajectories_->state() : &start_;
 }
 

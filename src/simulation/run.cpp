@@ -102,8 +102,7 @@ void Run::setFrameSteps() {
 void Run::startReference(const State& start) {
   if (scenario_.reference == ReferenceUse::kNever) return;
   const ReferenceOptions reference{toleranceOf(scenario_),
-                                   scenario_.reference == ReferenceUse::kAlways,
-                                   changed_ ? nullptr : options_.shared_reference};
+                                   scenario_.reference == ReferenceUse::kAlways};
   reference_.emplace(chain_, start, reference);
 }
 

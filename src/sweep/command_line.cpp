@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "sweep/study/columns.hpp"
@@ -63,9 +64,9 @@ void setShard(const std::string& text, SweepOptions& options) {
   const std::optional<std::int64_t> part = parseInteger(text.substr(0, slash));
   const std::optional<std::int64_t> parts =
       parseInteger(text.substr(std::min(slash + 1, text.size())));
-  if (!part || !parts || *part < 1 || *part > *parts) {
-    throw InputError(
-        fmt::format("--shard: must be I/N with I from 1 to N, got {}", inQuotes(text)));
+  if (!part || !parts || *part < 1 || *part > *parts || static_cast<double>(*parts) > kMostCases) {
+    throw InputError(fmt::format("--shard: must be I/N with I from 1 to N, N at most 1e9, got {}",
+                                 inQuotes(text)));
   }
   options.shard = *part;
   options.shards = *parts;
@@ -92,12 +93,21 @@ void setOption(const po::option& argument, CommandLine& line) {
 CommandLine parseCommandLine(int argc, const char* const* argv) {
   const po::options_description description = describe();
   CommandLine line;
+  std::set<std::string> given;
   for (const po::option& argument : splitArguments(argc, argv, description)) {
     if (argument.string_key == "help") return {helpText(description), "", -1, {}};
     if (argument.string_key == "version") {
       return {"spring_pendulum " SPRING_PENDULUM_VERSION "\n", "", -1, {}};
     }
+    if (!argument.string_key.empty() && !given.insert(argument.string_key).second) {
+      throw InputError("--" + argument.string_key + ": is given twice");
+    }
     setOption(argument, line);
+  }
+  for (const char* const other : {"plot", "shard", "threads"}) {
+    if (given.count("case") + given.count(other) == 2) {
+      throw InputError(fmt::format("--case: runs a single case; leave out --{}", other));
+    }
   }
   if (line.study.empty()) {
     throw InputError(

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -169,7 +170,12 @@ TEST_F(Sweep, ACaseIsARunOfExercise3) {
   const Result alone = run(sweep({"--case", "311", "-o", "alone"}));
   EXPECT_EQ(alone.status, 0) << alone.errors;
   EXPECT_THAT(alone.output, HasSubstr("verdict: " + expected[4] + "\n"));
-  const std::string frame = readFile(folder_.path("alone/frame_0040.txt"));
+  std::string last;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path("alone"))) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("frame_", 0) == 0) last = std::max(last, name);
+  }
+  const std::string frame = readFile(folder_.path("alone/" + last));
   EXPECT_THAT(frame, testing::EndsWith(expected[10] + " " + expected[11] + "\n"));
 
   std::istringstream words(alone.output.substr(0, alone.output.find('\n')));
@@ -180,7 +186,7 @@ TEST_F(Sweep, ACaseIsARunOfExercise3) {
   arguments.insert(arguments.end(), {"-o", "again"});
   const Result again = run(exercise3(folder_, arguments));
   EXPECT_EQ(again.status, 0) << again.errors;
-  EXPECT_EQ(readFile(folder_.path("again/frame_0040.txt")), frame);
+  EXPECT_EQ(readFile(folder_.path("again/" + last)), frame);
 }
 
 TEST_F(Sweep, ACaseLeavesTheFilesOfItsStudyAsTheyAre) {
@@ -198,7 +204,7 @@ TEST_F(Sweep, ACaseLeavesTheFilesOfItsStudyAsTheyAre) {
   EXPECT_EQ(readFile(folder_.path("own/case_311.txt")), chainOf(5));
 }
 
-TEST_F(Sweep, SharesTheReferenceOfAMotionThatBecomesSensitive) {
+TEST_F(Sweep, RowsOfASensitiveMotionAreThoseOfExercise3) {
   folder_.write("chain.txt", chainOf(11));
   folder_.write("study.yaml",
                 "base: {particles: chain.txt, damping: 0, frames: 500}\n"
@@ -211,7 +217,6 @@ TEST_F(Sweep, SharesTheReferenceOfAMotionThatBecomesSensitive) {
   }
 }
 
-// Runs that share a reference share its start, too.
 TEST_F(Sweep, StartsAtRestAsExercise3Does) {
   folder_.write("study.yaml",
                 "base:\n  particles: chain.txt\n  duration: 1\n  method: Auto\n"
@@ -227,6 +232,61 @@ TEST_F(Sweep, DrawsItsTable) {
   EXPECT_EQ(readFile(folder_.path("drawn.png")).substr(0, 4), "\x89PNG");
 }
 
+// Every method and every step ends at the duration, and what can't is refused.
+TEST_F(Sweep, EndsAtTheDuration) {
+  folder_.write("study.yaml",
+                "base: {particles: chain.txt, duration: 1, reference: always}\n"
+                "axes: {method: [Runge-Kutta-4, Auto], time_step: {log: [0.0003, 0.1, 9]}}\n"
+                "columns: [measured_until]\n");
+  const std::string ends = table();
+  for (int i = 0; i < 18; ++i) EXPECT_NEAR(std::stod(row(ends, i).back()), 1.0, 1e-12) << ends;
+  const char* const refused[] = {"duration: 1}\naxes: {time_step: [0.1, 0.3]}",
+                                 "time_step: 0.3}\naxes: {duration: [0.9, 1]}"};
+  for (const char* const study : refused) {
+    folder_.write("study.yaml", std::string("base: {particles: chain.txt, ") + study);
+    const Result result = run(sweep({}));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.errors,
+                HasSubstr("case 1: time_step: whole steps must end at the duration"));
+  }
+}
+
+TEST_F(Sweep, RunsASingleFrameAndAFixedParticleWithoutMass) {
+  folder_.write("chain.txt", "0 0 0\n1 0 1\n2 0 1\n");
+  folder_.write("study.yaml",
+                "base: {particles: chain.txt, frames: 1}\n"
+                "axes: {mass_factor: [1, 2]}\ncolumns: [linear_step, verdict]\n");
+  EXPECT_EQ(row(table(), 1), (std::vector<std::string>{"1", "2", "nan", "ok"}));
+}
+
+TEST_F(Sweep, FindsOutBeforeTheFirstCaseWhatItCannotDraw) {
+  std::filesystem::create_directory(folder_.path("t.png"));
+  const Result folder = run(sweep({"-o", "t.csv", "--plot"}));
+  EXPECT_EQ(folder.status, 1);
+  EXPECT_THAT(folder.errors, HasSubstr("t.png"));
+  folder_.write("study.yaml",
+                "base: {particles: chain.txt, frames: 2}\n"
+                "axes: {method: [Euler, Auto], stiffness: [1, 2], damping: [0, 1]}\n"
+                "plot: {type: map, x: stiffness, y: damping, color: verdict}\n");
+  const Result map = run(sweep({"-o", "t.csv", "--plot"}));
+  EXPECT_EQ(map.status, 2);
+  EXPECT_THAT(map.errors, HasSubstr("method varies, too; use it for panels"));
+  EXPECT_EQ(listFolder(folder_.path()),
+            (std::vector<std::string>{"chain.txt", "study.yaml", "t.png"}));
+}
+
+// 64 threads would need more address space.
+TEST_F(Sweep, NeedsNoMoreThreadsThanTheSystemGrants) {
+  folder_.write(
+      "study.yaml",
+      "base: {particles: chain.txt, frames: 2}\naxes: {stiffness: {linear: [20, 80, 99]}}\n");
+  Command command = sweep({"-o", "few.csv", "--threads", "64"});
+  command.arguments.insert(command.arguments.begin(), {"prlimit", "--as=300000000"});
+  const Result result = run(command);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(readFile(folder_.path("few.csv")), table());
+}
+
 TEST_F(Sweep, DrawsATitleAsText) {
   folder_.write("study.yaml",
                 std::string(kStudy).replace(std::string(kStudy).find("log: xy"), 7,
@@ -238,8 +298,11 @@ TEST_F(Sweep, DrawsATitleAsText) {
 TEST_F(Sweep, RefusesBadArguments) {
   const std::pair<std::vector<std::string>, const char*> bad[] = {
       {{"other.yaml"}, "'other.yaml': give only one STUDY"},
-      {{"--shard", "4/3"}, "--shard: must be I/N with I from 1 to N, got '4/3'"},
+      {{"--shard", "4/3"}, "--shard: must be I/N with I from 1 to N, N at most 1e9, got '4/3'"},
       {{"--shard", "1"}, "--shard: must be I/N"},
+      {{"--shard", "2/9223372036854775807"}, "N at most 1e9"},
+      {{"--threads", "1", "--threads", "2"}, "--threads: is given twice"},
+      {{"--case", "0", "-o", "x", "--plot"}, "--case: runs a single case; leave out --plot"},
       {{"--threads", "0"}, "--threads: must be a whole number from 1 to 1024, got '0'"},
       {{"--case", "400"}, "--case: must be from 0 to 399, got 400"},
       {{"--case", "3"}, "has particles that are in no file; give a folder for them with --output"},

@@ -15,10 +15,8 @@
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
@@ -36,55 +34,12 @@ struct ReferenceScales {
 
 class ReferenceTrajectories;
 
-/// Where a shared reference run is at one of its frames.
-struct ReferenceFrame {
-  State state;
-  double distance = 0.0;  ///< of the companion from the reference, m
-  double work = 0.0;      ///< of both until here, s; see Integrator::work
-};
-
-/// Reference and companion, recorded at frames, for several runs of one motion: they may differ in
-/// method, step size and tolerance. Computes each frame when a run first asks for it, so each run stops
-/// measuring at the same frame and for the same reason as with a reference of its own. All functions
-/// may be called from several threads.
-class SharedReference {
- public:
-  /// Allocates the trajectories.
-  /// \param frame_interval time between frames, s
-  /// \param run_tolerance  see ReferenceOptions
-  /// \throws InputError if the size of the state is not that of the chain, or the interval is not
-  ///   finite and positive
-  SharedReference(const Chain& chain, const State& start, double frame_interval,
-                  double run_tolerance = 0.0);
-  ~SharedReference();
-  SharedReference(const SharedReference&) = delete;
-  SharedReference& operator=(const SharedReference&) = delete;
-
-  /// Returns a frame, counted from 0, the start; null if it takes `allowed_work` s or more to get
-  /// there, or if `stop` returned true. The frame stays valid as long as this object.
-  /// \throws InputError if the index is negative
-  const ReferenceFrame* frame(std::int64_t index, double allowed_work,
-                              const std::function<bool()>& stop = {});
-
-  /// Number of particles.
-  Eigen::Index size() const { return frames_.front().state.size(); }
-
- private:
-  double frame_interval_;  ///< s
-  std::mutex mutex_;
-  std::unique_ptr<ReferenceTrajectories> trajectories_;
-  std::deque<ReferenceFrame> frames_;
-};
-
 struct ReferenceOptions {
   /// Tolerance in m of the measured run; 0 for a fixed-step method. The tolerance of the reference is
   /// a thousandth of this, at most 1e-10 m.
   double tolerance = 0.0;
   /// Measure to the end, whatever the cost.
   bool always = false;
-  /// If not null, the trajectories come from here, and `ReferenceRun::advance` must be called once per
-  /// frame.
-  std::shared_ptr<SharedReference> shared = {};
 };
 
 class ReferenceRun {
@@ -102,7 +57,7 @@ class ReferenceRun {
   static constexpr double kBelieved = 1e-3;
 
   /// Allocates the trajectories in the first `advance`.
-  /// \throws InputError if the sizes of chain, start and shared reference differ
+  /// \throws InputError if the size of the start is not that of the chain
   ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options = {});
   ~ReferenceRun();
   ReferenceRun(ReferenceRun&& other) noexcept;
@@ -121,8 +76,7 @@ class ReferenceRun {
   ///   cost as much or 0.12 s, whichever is more.
   void measure(double run_work);
 
-  /// Work since the start or the last `restart`, s, see Integrator::work. With a shared reference: the
-  /// work to get there, whoever did it.
+  /// Work since the start or the last `restart`, s, see Integrator::work.
   double work() const;
 
   /// Returns to the start.
@@ -169,9 +123,6 @@ class ReferenceRun {
   double uncertainty_ = 0.0;   ///< m
   double work_at_stop_ = 0.0;  ///< s
   std::unique_ptr<ReferenceTrajectories> trajectories_;
-  std::shared_ptr<SharedReference> shared_;
-  const ReferenceFrame* shared_frame_ = nullptr;  ///< null: at the start
-  std::int64_t shared_frames_ = 0;                ///< asked for
 };
 
 }  // namespace spring_pendulum

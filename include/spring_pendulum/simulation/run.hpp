@@ -39,9 +39,6 @@ struct RunOptions {
   double display_interval = 0.0;
   /// Asked about every 20 ms of computing time; when it returns true, the run stops inside the frame.
   std::function<bool()> stop = {};
-  /// The reference run of several runs, of this motion and frame interval; needs a `display_interval`
-  /// of 0. Null: the run computes its own.
-  std::shared_ptr<SharedReference> shared_reference = {};
   /// Measure `Run::seconds`. Reading the clock takes some 3 % of a run of ten particles.
   bool measure_seconds = true;
 };

@@ -5,9 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <list>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -15,31 +12,6 @@
 #include "sweep/study/study.hpp"
 
 namespace spring_pendulum::sweep {
-
-/// What cases must have in common to share a reference run, as text; empty if a case has none to
-/// share.
-std::string sceneOf(const Study& study, const Case& a_case);
-
-/// The shared reference runs of one process. Keeps those that were used last; a scene that comes again
-/// later gets the same reference run, computed again.
-class References {
- public:
-  /// \param most number of reference runs to keep, at least the number of threads
-  explicit References(std::size_t most) : most_(most) {}
-
-  /// Returns the reference run of a scene.
-  std::shared_ptr<SharedReference> take(std::int32_t scene, const Case& a_case);
-
- private:
-  struct Scene {
-    std::int32_t number;
-    std::shared_ptr<SharedReference> reference;
-  };
-
-  std::size_t most_;
-  std::mutex mutex_;
-  std::list<Scene> scenes_;  ///< the last used first
-};
 
 /// The header of the table.
 std::string tableHeader(const Study& study);
@@ -50,7 +22,6 @@ std::string rowStart(const Study& study, std::int64_t index);
 /// \returns the columns as comma-separated text; nothing if `stop` has stopped the run
 /// \throws std::runtime_error naming the case
 std::optional<std::string> runCase(const WantedColumns& columns, const Case& a_case,
-                                   std::shared_ptr<SharedReference> reference,
                                    const std::function<bool()>& stop);
 
 }  // namespace spring_pendulum::sweep

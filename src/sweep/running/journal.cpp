@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <sys/file.h>
 #include <system_error>
@@ -112,8 +113,11 @@ void Journals::remove() {
   std::error_code ignored;  // a journal that stays is read again and changes nothing
   for (fs::directory_iterator entry(folder_, ignored), end; !ignored && entry != end;
        entry.increment(ignored)) {
+    if (entry->path().extension() != kExtension) continue;
+    std::string head;
+    std::getline(std::ifstream(entry->path()), head);
     std::error_code kept;
-    if (entry->path().extension() == kExtension) fs::remove(entry->path(), kept);
+    if (head + '\n' == head_) fs::remove(entry->path(), kept);  // another study may have begun
   }
   fs::remove(folder_ + "/lock", ignored);
   fs::remove(folder_, ignored);

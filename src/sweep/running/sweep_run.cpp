@@ -20,7 +20,6 @@
 #include <optional>
 #include <system_error>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "sweep/plot.hpp"
@@ -90,10 +89,9 @@ class Sweep {
         options_(options),
         counter_(counter),
         threads_(threadsOf(options, counter)),
-        scene_of_(checkCases(study, threads_)),
-        references_(static_cast<std::size_t>(threads_) + 1),
         journals_(options.output + ".journal", study.hash),
         rows_(static_cast<std::size_t>(study.cases())) {
+    checkCases(study, threads_);
     checkOutputs();
     journals_.start();
     readJournals();
@@ -160,16 +158,16 @@ class Sweep {
     if (options_.shards > 1 && std::filesystem::exists(options_.output)) {
       throw InputError(options_.output + ": exists; remove it to run its shards anew");
     }
-    if (options_.shards == 1 && counter_.rank() == 0) const OutputFile probe(options_.output);
+    if (options_.shards > 1 || counter_.rank() > 0) return;
+    const OutputFile table(options_.output);
+    if (options_.plot) const OutputFile picture(picturePath(options_.output));
   }
 
   void workOn(std::int64_t index, CaseMaker& maker, const Workers& workers) {
     const auto i = static_cast<std::size_t>(index);
     if (!rows_[i].empty()) return;
-    const Case& made = maker.make(index);
-    const auto reference = scene_of_[i] < 0 ? nullptr : references_.take(scene_of_[i], made);
     std::optional<std::string> text =
-        runCase(columns_, made, reference, [&workers] { return workers.stops(); });
+        runCase(columns_, maker.make(index), [&workers] { return workers.stops(); });
     if (!text) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     journals_.append(index, *text);
@@ -181,8 +179,6 @@ class Sweep {
   const SweepOptions& options_;
   CaseCounter& counter_;
   int threads_;
-  std::vector<std::int32_t> scene_of_;  ///< see `checkCases`
-  References references_;
   Journals journals_;
   std::vector<std::string> rows_;  ///< columns of the finished cases
   std::atomic<std::int64_t> reached_{0};
@@ -225,10 +221,7 @@ std::string picturePath(const std::string& output) {
   return std::filesystem::path(output).replace_extension(".png").string();
 }
 
-std::vector<std::int32_t> checkCases(const Study& study, int threads) {
-  const auto count = static_cast<std::size_t>(study.cases());
-  std::vector<std::int32_t> scene_of(count, -1);
-  std::vector<std::string> scenes(count);
+void checkCases(const Study& study, int threads) {
   std::atomic<std::int64_t> next{0};
   std::mutex mutex;
   std::int64_t bad = study.cases();
@@ -244,7 +237,6 @@ std::vector<std::int32_t> checkCases(const Study& study, int threads) {
             Scenario scenario = made.settings.scenario;
             scenario.reference = ReferenceUse::kNever;
             const Run run(scenario, made.particles);
-            scenes[static_cast<std::size_t>(i)] = sceneOf(study, made);
           } catch (const InputError& error) {
             const std::lock_guard<std::mutex> lock(mutex);
             if (i < bad) message = fmt::format("case {}: {}", i, error.what());
@@ -255,17 +247,6 @@ std::vector<std::int32_t> checkCases(const Study& study, int threads) {
       },
       [] {});
   if (bad < study.cases()) throw InputError(message);
-  std::unordered_map<std::string, std::vector<std::size_t>> cases;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    if (!scenes[i].empty()) cases[scenes[i]].push_back(i);
-  }
-  std::int32_t number = 0;
-  for (const auto& [scene, indices] : cases) {
-    if (indices.size() == 1) continue;  // nothing to share
-    for (const std::size_t i : indices) scene_of[i] = number;
-    ++number;
-  }
-  return scene_of;
 }
 
 int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "sweep/running/case_counter.hpp"
 #include "sweep/study/study.hpp"
@@ -22,9 +21,8 @@ struct SweepOptions {
 std::string picturePath(const std::string& output);
 
 /// Makes a Run of each case, which checks its input.
-/// \returns for each case the number of its scene; -1 if no other case has the same
 /// \throws InputError naming the first case with bad input
-std::vector<std::int32_t> checkCases(const Study& study, int threads);
+void checkCases(const Study& study, int threads);
 
 /// Runs all cases that no journal holds and, if none is left to other shards, writes the table.
 /// \returns the exit status; 0 also if cases diverged

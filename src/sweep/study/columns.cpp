@@ -62,8 +62,9 @@ const std::vector<Column>& allColumns() {
        [](const Outcome& o) { return numberText(largestStableStep(o.run)); }},
       {"linear_step", "s", "stability limit of the linearised chain, with a margin",
        [](const Outcome& o) {
-         return numberText(
-             linearStepLimit(o.run.scenario().method, o.run.chain(), duration(o.run)));
+         const double seconds = duration(o.run);
+         const Method& method = o.run.scenario().method;
+         return numberText(seconds > 0.0 ? linearStepLimit(method, o.run.chain(), seconds) : kNan);
        }},
   };
   return kColumns;

@@ -49,7 +49,41 @@ void add(const Distribution& distribution, RandomNumbers numbers, double& x, dou
   y += draw(distribution, numbers);
 }
 
+/// Steps, or intervals between frames, that end at a time.
+struct Division {
+  double length;  ///< s
+  double number;
+};
+
+/// Divides a duration into lengths that are as long as wanted, or else the next shorter ones.
+Division divide(double duration, double wanted) {
+  const double number = std::max(1.0, std::ceil(duration / wanted - 1e-9));
+  const bool fits = std::abs(number * wanted - duration) <= 1e-9 * duration;
+  return {fits ? wanted : duration / number, number};
+}
+
+/// As many steps as fit into a frame if such frames end at the duration, else the next smaller power of 2.
+double stepsPerFrame(const Settings& settings, double time_step) {
+  const double frame = std::min(settings.scenario.frame_interval, settings.duration);
+  const double most = std::max(1.0, std::floor(frame / time_step + 1e-9));
+  if (divide(settings.duration, most * time_step).length == most * time_step) return most;
+  double power = 1.0;
+  while (2.0 * power <= most) power *= 2.0;
+  return power;
+}
+
 }  // namespace
+
+// A shorter step may have room for more in a frame.
+double fittedTimeStep(const Settings& settings, double time_step) {
+  for (double longer = 0.0; longer != time_step;) {
+    longer = time_step;
+    const double steps = stepsPerFrame(settings, longer);
+    const double frame = divide(settings.duration, steps * longer).length;
+    if (frame != steps * longer) time_step = frame / steps;
+  }
+  return time_step;
+}
 
 std::vector<Option> caseOptions(Settings& s) {
   std::vector<Option> options = scenarioOptions(s.scenario);
@@ -97,7 +131,7 @@ CaseMaker::CaseMaker(const Study& study) : study_(study), options_(caseOptions(c
   }
 }
 
-const Case& CaseMaker::make(std::int64_t index) try {
+const Case& CaseMaker::make(std::int64_t index) {
   case_.settings = study_.base;
   case_.index = index;
   const Place place = study_.placeOf(index);
@@ -108,8 +142,6 @@ const Case& CaseMaker::make(std::int64_t index) try {
   setFrames();
   setParticles();
   return case_;
-} catch (const InputError& error) {
-  throw InputError(fmt::format("case {}: {}", index, error.what()));
 }
 
 void CaseMaker::setFrames() {
@@ -118,14 +150,21 @@ void CaseMaker::setFrames() {
   if (duration == 0.0) return;
   double frame = scenario.frame_interval;
   if (scenario.method.get().hasFixedStep()) {
-    const double steps = std::max(1.0, std::round(std::min(frame, duration) / scenario.time_step));
-    frame = steps * scenario.time_step;
+    const double fitted = fittedTimeStep(case_.settings, scenario.time_step);
+    if (fitted != scenario.time_step) {
+      throw InputError(
+          fmt::format("time_step: whole steps must end at the duration, {} s, got {} s; "
+                      "try {}",
+                      numberText(duration), numberText(scenario.time_step), numberText(fitted)));
+    }
+    const double steps = stepsPerFrame(case_.settings, fitted);
+    frame = steps * fitted;
     // Longer frames than 64 bits can count are refused with the other options.
     scenario.steps_per_frame = static_cast<std::int64_t>(std::min(steps, 9e18));
   }
-  // The subtrahend ensures that rounding adds no frame.
-  const double frames = std::max(1.0, std::ceil(duration / frame - 1e-9)) + 1.0;
-  scenario.frames = static_cast<std::int64_t>(std::min(frames, 9e18));
+  const Division frames = divide(duration, frame);
+  scenario.frame_interval = frames.length;
+  scenario.frames = static_cast<std::int64_t>(std::min(frames.number + 1.0, 9e18));
 }
 
 void CaseMaker::setParticles() {
@@ -133,7 +172,7 @@ void CaseMaker::setParticles() {
   if (!study_.changesParticles(case_.settings)) return;
   State& state = case_.particles.state;
   const auto sample = static_cast<std::uint64_t>(case_.sample);
-  for (Eigen::Index i = 0; i < state.size(); ++i) {
+  for (Eigen::Index i = 1; i < state.size(); ++i) {  // the mass of the fixed particle is not used
     const auto numbersOf = [&](std::uint32_t quantity) {
       return RandomNumbers(study_.seed, sample, static_cast<std::uint32_t>(i), quantity);
     };
@@ -147,7 +186,6 @@ void CaseMaker::setParticles() {
       throw InputError(fmt::format("particle {}: mass must be positive and finite, got {}", i + 1,
                                    numberText(mass)));
     }
-    if (i == 0) continue;  // fixed
     add(study_.displacement, numbersOf(kDisplacement), state.x()[i], state.y()[i]);
     add(study_.velocity, numbersOf(kVelocity), state.vx()[i], state.vy()[i]);
   }

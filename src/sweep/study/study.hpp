@@ -16,14 +16,19 @@
 
 namespace spring_pendulum::sweep {
 
+constexpr double kMostCases = 1e9;
+
 /// What a case has besides the options of a run.
 struct Settings {
   Scenario scenario;
-  /// Simulated time in s. If above 0, it gives the number of frames, which are `frame_interval` s apart,
-  /// and for fixed steps the steps per frame.
+  /// Simulated time in s, at which every case ends. If above 0, it gives the number of frames, at most
+  /// `frame_interval` s apart (or a step, if that is longer), and for fixed steps the steps per frame.
   double duration = 0.0;
   double mass_factor = 1.0;  ///< for all masses
 };
+
+/// Returns the longest time step of at most `time_step` s with which whole frames end at the duration.
+double fittedTimeStep(const Settings& settings, double time_step);
 
 /// The options of a case, bound to `settings`.
 std::vector<Option> caseOptions(Settings& settings);
@@ -102,7 +107,8 @@ class CaseMaker {
   CaseMaker& operator=(const CaseMaker&) = delete;
 
   /// Returns case 0 <= index < study.cases(), valid until the next call.
-  /// \throws InputError naming the case for a mass out of range; `Run` checks the scenario
+  /// \throws InputError for a mass out of range and a time step that does not end at the duration; `Run`
+  /// checks the scenario
   const Case& make(std::int64_t index);
 
  private:

@@ -25,7 +25,6 @@ namespace {
 
 using Kind = YamlTree::Kind;
 
-constexpr double kMostCases = 1e9;
 /// Significant digits of the values of `linear` and `log`.
 constexpr int kDigits = 12;
 
@@ -69,8 +68,9 @@ void checkKeys(const YamlTree& map, std::string_view what, const std::vector<std
   }
 }
 
-/// The values `{linear: [first, last, number]}` or `{log: ...}`.
-std::vector<std::string> scale(const YamlTree& tree, const Option& option, bool is_log) {
+/// The values `{linear: [first, last, number]}` or `{log: ...}`. Time steps end at the duration of `base`.
+std::vector<std::string> scale(const YamlTree& tree, const Option& option, bool is_log,
+                               const Settings& base) {
   if (tree.kind != Kind::kList || tree.entries.size() != 3) {
     refuse(tree, option.key, "must be [first, last, number of values]");
   }
@@ -88,6 +88,8 @@ std::vector<std::string> scale(const YamlTree& tree, const Option& option, bool 
         is_log ? portableExp((1.0 - share) * portableLog(first) + share * portableLog(last))
                : (1.0 - share) * first + share * last;
     values.push_back(roundedText(value, kDigits));
+    if (option.key != "time_step" || base.duration == 0.0) continue;
+    values.back() = numberText(fittedTimeStep(base, parseNumber(values.back()).value_or(value)));
   }
   return values;
 }
@@ -117,7 +119,8 @@ std::vector<std::string> listOf(const YamlTree& tree, std::string_view key) {
   return values;
 }
 
-std::vector<std::string> axisValues(const YamlTree& tree, const Option& option) {
+std::vector<std::string> axisValues(const YamlTree& tree, const Option& option,
+                                    const Settings& base) {
   if (tree.kind == Kind::kScalar && option.key == "method") return methodsOf(tree);
   if (tree.kind == Kind::kList) return listOf(tree, option.key);
   checkKeys(tree, option.key, {"list", "linear", "log", "with"});
@@ -129,7 +132,7 @@ std::vector<std::string> axisValues(const YamlTree& tree, const Option& option) 
     refuse(tree, option.key, "must be {list: ...}, {linear: ...} or {log: ...}");
   }
   if (list != nullptr) return listOf(*list, option.key);
-  return scale(linear != nullptr ? *linear : *log, option, log != nullptr);
+  return scale(linear != nullptr ? *linear : *log, option, log != nullptr, base);
 }
 
 Distribution distributionOf(const YamlTree& tree, const std::string& key) {
@@ -202,7 +205,11 @@ class StudyReader {
     for (const auto& [key, value] : axes->entries) {
       const Option& option = take(options, key, value);
       Axis axis{key, key + (option.unit.empty() ? "" : fmt::format(" [{}]", option.unit)), {}};
-      for (const std::string& text : axisValues(value, option)) {
+      if (const YamlTree* base = tree_.find("base");
+          base != nullptr && base->find(key) != nullptr) {
+        refuse(value, key, "stands in base, too");
+      }
+      for (const std::string& text : axisValues(value, option, study_.base)) {
         YamlTree scalar{Kind::kScalar, value.place, text, option.isText(), {}};
         assign(option, scalar);
         axis.values.push_back(key == "particles" ? load(text, value) : option.text());
@@ -325,6 +332,22 @@ class StudyReader {
         (p.color.empty() && p.type == PlotOptions::Type::kMap)) {
       refuse(*plot, "plot", "needs type and x; map needs y and color, lines needs y");
     }
+    if (p.type == PlotOptions::Type::kMap) checkPlaces(*plot);
+  }
+
+  /// Refuses several cases at one place of a map.
+  void checkPlaces(const YamlTree& plot) const {
+    const PlotOptions& p = study_.plot;
+    std::set<std::string> hidden;
+    if (study_.samples > 1) hidden.insert("sample");
+    bool is_shown = false;
+    for (auto axis = study_.axes.rbegin(); axis != study_.axes.rend(); ++axis) {
+      is_shown = is_shown || axis->key == p.x || axis->key == p.y || axis->key == p.panels;
+      if (axis->is_joined) continue;
+      if (!is_shown && axis->values.size() > 1) hidden.insert(axis->key);
+      is_shown = false;
+    }
+    if (!hidden.empty()) refuse(plot, "plot", *hidden.begin() + " varies, too; use it for panels");
   }
 
   /// Returns the title of an axis or a column.
