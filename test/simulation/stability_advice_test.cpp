@@ -116,7 +116,7 @@ TEST(StabilityAdvice, ResemblesItselfWithAndWithoutSlightAir) {
   scenario.air_drag = 1e-9;
   const StabilityReport with = checkStability(scene.chain.inAir(1e-9), scene.start, scenario);
   EXPECT_EQ(with.stable.step, without.stable.step);
-  EXPECT_NEAR(with.accurate_step, without.accurate_step, 0.02 * without.accurate_step);
+  EXPECT_NEAR(with.accurate_step, without.accurate_step, 0.04 * without.accurate_step);
 }
 
 TEST(StabilityAdvice, CheckReportsTheVeryRun) {

@@ -123,8 +123,8 @@ class Trials {
     Scenario scenario = scenario_;
     scenario.time_step = step;
     scenario.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
-    const double frames = std::ceil(duration_ / frameSteps(scenario).timeOfFrame(1) * (1.0 - 1e-9));
-    scenario.frames = static_cast<std::int64_t>(std::min(frames, 1e9)) + 1;
+    const double frames = std::round(duration_ / frameSteps(scenario).timeOfFrame(1));
+    scenario.frames = static_cast<std::int64_t>(std::clamp(frames, 1.0, 1e9)) + 1;
     return run(scenario, reference, enough);
   }
 
