@@ -146,7 +146,7 @@ function why(ended, diverged) {
   }
   return ended.every(({method}) => !method.fixed) ?
     'Error-controlled methods choose their steps so that the error stays near the tolerance.' :
-    'The step is inside the stability region, so nothing grows; errors come from the truncated Taylor series' +
+    'No run gains energy; errors come from the truncated Taylor series' +
       (ended.some(({track}) => track.end.bad) ? ' and are too large with this step.' : '.');
 }
 

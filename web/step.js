@@ -77,25 +77,24 @@ function lawText(i) {
 }
 
 function tableauText(method, step, i) {
-  const parts = [];
-  step.slopes.forEach((slope, stage) => {
-    parts.push(formula(`k_{${stage + 1}} = F(${stage === 0 ? 'z' : sum(method.a[stage].slice(0, stage), 'h')})`),
-               neighbours(step.stages[stage], i), formula(`k_{${stage + 1}} = ${vector(pick(slope, i))}`));
-  });
-  parts.push(formula(`z_{\\text{new}} = ${sum(method.b, 'h')}`));
-  return parts;
+  return [...step.slopes.flatMap((slope, stage) => [
+    formula(`k_{${stage + 1}} = F(${stage === 0 ? 'z' : sum(method.a[stage].slice(0, stage), 'h')})`),
+    neighbours(step.stages[stage], i), formula(`k_{${stage + 1}} = ${vector(pick(slope, i))}`),
+  ]), formula(`z_{\\text{new}} = ${sum(method.b, 'h')}`)];
 }
 
-const symplectic = {
+const formulas = {
   'Semi-Implicit-Euler': ['v_{\\text{new}} = v + h\\,a_1', 'p_{\\text{new}} = p + h\\,v_{\\text{new}}'],
   'Velocity-Verlet': ['p_{\\text{new}} = p + h\\,(v + \\tfrac h2\\,a_1)', 'a_2 = a(p_{\\text{new}},\\; v + h\\,a_1)',
                       'v_{\\text{new}} = v + \\tfrac h2\\,(a_1 + a_2)'],
+  'Backward-Euler': ['v_{\\text{new}} = v + h\\,a(p_{\\text{new}},\\; v_{\\text{new}})',
+                     'p_{\\text{new}} = p + h\\,v_{\\text{new}}'],
 };
 
 function otherText(method, step, i) {
   const parts = [neighbours(step.stages[0], i)];
   step.slopes.forEach((slope, stage) => parts.push(formula(`a_{${stage + 1}} = ${vector(pick(slope, i).slice(2))}`)));
-  if (symplectic[method.name]) return [...parts, ...symplectic[method.name].map(formula)];
+  if (formulas[method.name]) return [...parts, ...formulas[method.name].map(formula)];
   return [...parts, paragraph(`${method.name} (${method.use}) chooses its steps itself. Its steps have no stages to show; this ` +
     'is the acceleration at the state, and the state after the time between frames:')];
 }

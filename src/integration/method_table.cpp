@@ -7,6 +7,7 @@
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 #include "integration/fixed_step/symplectic.hpp"
+#include "integration/implicit/backward_euler.hpp"
 #include "integration/implicit/radau_stepper.hpp"
 #include "integration/tableau.hpp"
 #include "integration/taylor/stabilized_taylor_stepper.hpp"
@@ -38,10 +39,11 @@ std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const C
   return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, engine);
 }
 
-template <typename SymplecticMethod>
-std::unique_ptr<Integrator> makeSymplectic(const Method&, const Chain& chain,
-                                           const IntegratorOptions& options) {
-  return std::make_unique<SymplecticMethod>(chain, options.track_dissipation);
+/// \tparam FixedStepMethod made from a chain
+template <typename FixedStepMethod>
+std::unique_ptr<Integrator> makeFixedStep(const Method&, const Chain& chain,
+                                          const IntegratorOptions& options) {
+  return std::make_unique<FixedStepMethod>(chain, options.track_dissipation);
 }
 
 /// \tparam Stepper    made from a chain, arguments and a tolerance
@@ -74,11 +76,16 @@ std::deque<Method> builtInMethods() {
        "doi:10.1017/S0962492902000144",
        "symplectic without damping: inaccurate, but the energy error stays bounded; common in "
        "games",
-       nullptr, makeSymplectic<SemiImplicitEuler>, true, 80},
+       nullptr, makeFixedStep<SemiImplicitEuler>, true, 80},
       {"Velocity-Verlet", 2, 2, StepControl::kFixed, 2.0, 2.0,
        "W. C. Swope and others, J. Chem. Phys. 76 (1982) 637-649, doi:10.1063/1.442716",
        "symplectic and reversible without damping: for very long undamped runs", nullptr,
-       makeSymplectic<VelocityVerlet>, true, 130},
+       makeFixedStep<VelocityVerlet>, true, 130},
+      {"Backward-Euler", 1, 1, StepControl::kFixed, kUnlimited, kUnlimited,
+       "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer 1996, section "
+       "IV.3",
+       "implicit, for teaching: stable with every step, but it loses energy; common in graphics",
+       nullptr, makeFixedStep<BackwardEuler>, false, 280},
       {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
        "doi:10.1016/0771-050X(80)90013-3",
@@ -153,11 +160,16 @@ constexpr std::pair<std::string_view, std::string_view> kAbbreviations[] = {
 
 /// Names of other methods and programs, and the method here that is nearest.
 constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
-    {"Backward-Euler", "Radau-9"},   {"BDF", "Radau-9"},
-    {"DOP853", "Taylor-8"},          {"Heun", "Runge-Kutta-2"},
-    {"Leapfrog", "Velocity-Verlet"}, {"LSODA", "Auto"},
-    {"Midpoint", "Runge-Kutta-2"},   {"ode45", "Dormand-Prince-5"},
-    {"RK45", "Dormand-Prince-5"},    {"Symplectic-Euler", "Semi-Implicit-Euler"},
+    {"BDF", "Radau-9"},
+    {"Implicit-Euler", "Backward-Euler"},
+    {"DOP853", "Taylor-8"},
+    {"Heun", "Runge-Kutta-2"},
+    {"Leapfrog", "Velocity-Verlet"},
+    {"LSODA", "Auto"},
+    {"Midpoint", "Runge-Kutta-2"},
+    {"ode45", "Dormand-Prince-5"},
+    {"RK45", "Dormand-Prince-5"},
+    {"Symplectic-Euler", "Semi-Implicit-Euler"},
     {"Verlet", "Velocity-Verlet"},
 };
 

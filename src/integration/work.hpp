@@ -23,7 +23,8 @@ constexpr NominalTime kTaylorTime{3e-9};
 constexpr NominalTime kStabilizedTaylor8Time{1.15 * 3e-9};
 /// Steps of order 4 have fewer terms to share the work that is done once per step.
 constexpr NominalTime kStabilizedTaylor4Time{1.4 * 3e-9};
-/// The linear algebra uses no vector instructions.
+/// The linear algebra of the implicit methods uses no vector instructions.
 constexpr NominalTime kRadauTime{41e-9, 0.0};
+constexpr NominalTime kBackwardEulerTime{30e-9, 0.0};
 
 }  // namespace spring_pendulum

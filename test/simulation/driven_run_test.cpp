@@ -141,7 +141,9 @@ TEST(DrivenRun, HasTheOrderOfItsMethod) {
                                                        {"Runge-Kutta-4", 4, 2, 0.0},
                                                        {"Runge-Kutta-4", 4, 2, 0.3},
                                                        {"Semi-Implicit-Euler", 1, 64, 0.0},
-                                                       {"Velocity-Verlet", 2, 4, 0.3}}) {
+                                                       {"Velocity-Verlet", 2, 4, 0.3},
+                                                       {"Backward-Euler", 1, 64, 0.0},
+                                                       {"Backward-Euler", 1, 64, 0.3}}) {
     const Scene scene = slackCable(7, 1.0, air_drag);
     double residual = 0.0, half_residual = 0.0;
     const double error = errorOf(scene, method, steps, &residual);

@@ -54,6 +54,7 @@ TEST(GrowthPerStep, IsThatOfTheIntegrator) {
 TEST(GrowthPerStep, ChangesSignAtTheLimitsOfTheTable) {
   forEachFixedStepMethod([](const Method& method) {
     const double real = method.real_stability_limit;
+    if (std::isinf(real)) return;
     EXPECT_LE(growthPerStep(method, 0.0, 0.999999 * real), 0.0);
     EXPECT_GT(growthPerStep(method, 0.0, 1.000001 * real), 0.0);
     const double imaginary = method.imaginary_stability_limit;
@@ -134,6 +135,7 @@ double growth(const Method& method, double stiffness, double damping, double ste
 
 TEST(MethodTable, StabilityLimitsLieOnTheBorder) {
   forEachFixedStepMethod([](const Method& method) {
+    if (std::isinf(method.real_stability_limit)) return;
     EXPECT_LT(growth(method, 0.0, 1.0, 0.99 * method.real_stability_limit), 1.0);
     EXPECT_GT(growth(method, 0.0, 1.0, 1.01 * method.real_stability_limit), 10.0);
     const double limit = method.imaginary_stability_limit;

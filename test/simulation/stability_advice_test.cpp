@@ -52,6 +52,10 @@ TEST(StabilityAdvice, LargestStableStepIsThatOfRealRuns) {
       const double step =
           largestStableStep(scene.chain, scene.start, scenarioOf(scene, method, 0.01)).step;
       ASSERT_GT(step, 0.0);
+      if (std::isinf(step)) {
+        EXPECT_TRUE(isStable(scene, method, kDuration));
+        return;
+      }
       EXPECT_TRUE(isStable(scene, method, 0.9 * step)) << step;
       EXPECT_TRUE(isStable(scene, method, 0.95 * step)) << step;
       EXPECT_FALSE(isStable(scene, method, 1.05 * step) && isStable(scene, method, 1.1 * step))

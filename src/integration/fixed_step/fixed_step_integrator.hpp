@@ -17,7 +17,7 @@ namespace spring_pendulum {
 /// the first particle, which is fixed, to 0.
 class FixedStepIntegrator : public Integrator {
  public:
-  double work() const final {
+  double work() const override {
     return kFixedStepTime.of(chain().size) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const final { return force_evaluations_; }

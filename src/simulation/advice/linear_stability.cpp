@@ -18,8 +18,14 @@ using Complex = std::complex<double>;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// Returns ln |R(z)|. A method without a tableau sums the Taylor series to its order.
+bool isImplicitEuler(const Method& method) {
+  return method.order == 1 && std::isinf(method.real_stability_limit);
+}
+
+/// Returns ln |R(z)|. A method without a tableau sums the Taylor series to its order; R(z) of the implicit
+/// Euler method is 1/(1 - z).
 double growthOf(const Method& method, Complex z) {
+  if (isImplicitEuler(method)) return -std::log(std::abs(1.0 - z));
   if (method.tableau != nullptr) {
     return spring_pendulum::growthOf(stabilityIncrement(*method.tableau, z));
   }
@@ -71,8 +77,9 @@ double stepForMode(const Method& method, double frequency, double damping, doubl
 }  // namespace
 
 double growthPerStep(const Method& method, double swing, double decay) {
-  if (std::isinf(method.imaginary_stability_limit)) return -0.5 * decay;
-  if (method.tableau == nullptr && method.hasFixedStep() &&
+  const bool unlimited = std::isinf(method.imaginary_stability_limit);
+  if (unlimited && !isImplicitEuler(method)) return -0.5 * decay;
+  if (method.tableau == nullptr && method.hasFixedStep() && !unlimited &&
       method.imaginary_stability_limit > 0.0) {
     return growthFromLimits(method, swing, decay);
   }

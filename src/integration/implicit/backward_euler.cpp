@@ -1,0 +1,97 @@
+#include "integration/implicit/backward_euler.hpp"
+
+#include "base/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr int kMostIterations = 50;
+
+/// Relative change below which the next iteration, whose error is of second order, would only round.
+constexpr double kSettled = 1e-9;
+/// Rounding error of a coordinate, relative to the largest.
+constexpr double kRounding = 1e-13;
+
+}  // namespace
+
+BackwardEuler::BackwardEuler(const Chain& chain, bool track_dissipation)
+    : FixedStepIntegrator(chain, track_dissipation, fastestChainKernels()),
+      chain_(chain),
+      solver_(chain_),
+      springs_(static_cast<std::size_t>(chain.size() - 1)),
+      begin_(chain.size()),
+      end_(chain.size()),
+      slope_(chain.size()),
+      x_(static_cast<std::size_t>(chain.size())),
+      y_(x_.size()) {}
+
+std::string BackwardEuler::report() const {
+  return failed_ ? "Newton's method did not converge: take a smaller step" : "";
+}
+
+void BackwardEuler::restart() {
+  FixedStepIntegrator::restart();
+  failed_ = false;
+}
+
+void BackwardEuler::integrate(State& state, double time_step, std::int64_t steps) {
+  requireAdvance(chain().size, state.size(), time_step, steps);
+  state.velocities().row(0).setZero();
+  end_.values() = state.values();
+  for (std::int64_t n = 0; n < steps && !failed_; ++n) {
+    failed_ = !step(time_step);
+    addPowers(end_, time_step);
+  }
+  state.values() = end_.values();
+  if (!failed_) return;
+  auto moving = state.values().bottomRows(state.size() - 1);
+  moving.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+bool BackwardEuler::step(double time_step) {
+  begin_.values() = end_.values();
+  auto velocities = end_.values().rightCols<2>();
+  auto positions = end_.values().leftCols<2>();
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    positions = begin_.values().leftCols<2>() + time_step * velocities;
+    linearise(time_step);
+    solver_.factor(springs_, time_step);
+    solver_.solve(x_.data(), y_.data());
+    double change = 0.0, finite = 0.0;
+    for (Eigen::Index i = 1; i < end_.size(); ++i) {
+      const double x = x_[static_cast<std::size_t>(i)], y = y_[static_cast<std::size_t>(i)];
+      velocities(i, 0) += x;
+      velocities(i, 1) += y;
+      change = std::max({change, std::abs(x), std::abs(y)});
+      finite += 0.0 * (x + y);
+    }
+    if (!std::isfinite(change + finite)) return false;
+    const double rounding = kRounding * positions.cwiseAbs().maxCoeff() / time_step;
+    if (change > kSettled * velocities.cwiseAbs().maxCoeff() + rounding) continue;
+    positions = begin_.values().leftCols<2>() + time_step * velocities;
+    return true;
+  }
+  return false;
+}
+
+void BackwardEuler::linearise(double time_step) {
+  evaluate(end_, slope_);
+  const auto z = end_.values(), from = begin_.values(), slope = slope_.values();
+  for (Eigen::Index i = 0; i < z.rows(); ++i) {
+    const double mass = chain_.masses()[i];
+    const auto row = static_cast<std::size_t>(i);
+    x_[row] = mass * (time_step * slope(i, 2) - (z(i, 2) - from(i, 2)));
+    y_[row] = mass * (time_step * slope(i, 3) - (z(i, 3) - from(i, 3)));
+    if (i + 1 == z.rows()) break;
+    const PlaneVector<double> separation{z(i + 1, 0) - z(i, 0), z(i + 1, 1) - z(i, 1)};
+    const PlaneVector<double> velocity{z(i + 1, 2) - z(i, 2), z(i + 1, 3) - z(i, 3)};
+    springs_[row] = linearSpring(chain_.spring(), separation, velocity,
+                                 springTension(chain_.spring(), separation, velocity));
+  }
+}
+
+}  // namespace spring_pendulum

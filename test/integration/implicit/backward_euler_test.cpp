@@ -1,0 +1,90 @@
+#include "integration/implicit/backward_euler.hpp"
+
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/energy.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "support/random_scenes.hpp"
+#include "support/scenes.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+State after(const char* method, const test::Scene& scene, std::int64_t steps) {
+  State state = scene.start;
+  const auto integrator = makeIntegrator(method, scene.chain, {1e-10, false, 1});
+  integrator->advance(state, 1.0 / static_cast<double>(steps), steps);
+  return state;
+}
+
+TEST(BackwardEuler, HasOrderOneAgainstRadau) {
+  for (const double air_drag : {0.0, 0.5}) {
+    test::Scene scene = test::horizontalChain("chain", 7, 1.0);
+    scene.chain = scene.chain.inAir(air_drag);
+    const State exact = after("Radau-9", scene, 1);
+    const auto error = [&](std::int64_t steps) {
+      return (after("Backward-Euler", scene, steps).values() - exact.values()).norm();
+    };
+    EXPECT_NEAR(std::log2(error(20000) / error(40000)), 1.0, 0.05) << air_drag;
+  }
+}
+
+// One spring along y with the force -k (L - L_0) - d L' - m g - c v is linear in its unknowns.
+TEST(BackwardEuler, SolvesTheEquationsOfALinearStep) {
+  constexpr double kStep = 0.7, kStiffness = 50.0, kDamping = 0.5, kAir = 0.3, kMass = 2.0,
+                   kG = 9.81;
+  Chain chain(Eigen::Vector2d(1.0, kMass), SpringLaw{kStiffness, kDamping, 1.0}, kG);
+  chain = chain.inAir(kAir);
+  State state(2);
+  state.y()[1] = -1.3;
+  state.vy()[1] = -0.4;
+  const double force = -kStiffness * (-1.3 + 1.0) - kMass * kG;
+  const double expected = (kMass * -0.4 + kStep * force) /
+                          (kMass + kStep * (kDamping + kAir) + kStep * kStep * kStiffness);
+  BackwardEuler(chain, false).advance(state, kStep, 1);
+  EXPECT_NEAR(state.vy()[1], expected, 1e-13);
+  EXPECT_NEAR(state.y()[1], -1.3 + kStep * expected, 1e-13);
+}
+
+TEST(BackwardEuler, OnlyLosesEnergyOfStretchedSprings) {
+  for (const double step : {1e-3, 0.1, 10.0, 1e4}) {
+    test::Scene scene = test::horizontalChain("chain", 11, 1.0);
+    const SpringLaw spring{50.0, 0.0, 0.0};  // potential energies are convex without a rest length
+    const Chain chain(scene.chain.masses(), spring, 9.81);
+    BackwardEuler integrator(chain, false);
+    double before = computeEnergy(chain, scene.start).total();
+    for (int n = 0; n < 200; ++n) {
+      integrator.advance(scene.start, step, 1);
+      const double energy = computeEnergy(chain, scene.start).total();
+      ASSERT_LE(energy, before + 1e-9 * std::abs(before)) << step << " s, step " << n;
+      before = energy;
+    }
+    EXPECT_EQ(integrator.report(), "");
+  }
+}
+
+TEST(BackwardEuler, SaysWhereNewtonsMethodDoesNotConverge) {
+  int failures = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    test::Scene scene = test::randomScene(seed);
+    BackwardEuler integrator(scene.chain, false);
+    integrator.advance(scene.start, 0.5, 20);
+    const bool finite = scene.start.values().allFinite();
+    EXPECT_EQ(integrator.report().empty(), finite) << scene.name;
+    if (finite) continue;
+    ++failures;
+    EXPECT_NE(integrator.report().find("did not converge"), std::string::npos);
+    EXPECT_TRUE(scene.start.values().row(0).allFinite()) << scene.name;
+    integrator.restart();
+    EXPECT_EQ(integrator.report(), "");
+  }
+  EXPECT_GT(failures, 0);
+  EXPECT_LT(failures, 20);
+}
+
+}  // namespace
+}  // namespace spring_pendulum
