@@ -1,6 +1,6 @@
 // The table of methods.
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/integration/tableau_method.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
 

@@ -147,14 +147,14 @@ def folder_errors(files):
 # Lines of code that a newcomer has to hold in the head: rooms with their public headers, and a program with its room.
 # A change that does not fit takes something else out; a budget only falls.
 BUDGETS = {
-    'base, model': (1540, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
-    'integration': (6660, 'src/integration', 'include/spring_pendulum/integration'),
-    'simulation': (2960, 'src/simulation', 'include/spring_pendulum/simulation'),
+    'base, model': (1500, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
+    'integration': (6500, 'src/integration', 'include/spring_pendulum/integration'),
+    'simulation': (2870, 'src/simulation', 'include/spring_pendulum/simulation'),
     'io': (3140, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),
-    'ros': (4640, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),
+    'ros': (4630, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),
     'check': (1790, 'src/check', 'src/check_frames.cpp'),
-    'sweep': (2300, 'src/sweep', 'src/sweep.cpp'),
-    'src, include': (22930, 'src', 'include'),
+    'sweep': (2275, 'src/sweep', 'src/sweep.cpp'),
+    'src, include': (22730, 'src', 'include'),
     'web': (3000, 'web'),
     'python': (1045, 'python'),
     'test': (19780, 'test'),

@@ -1,7 +1,6 @@
 #include "base/checks.hpp"
 #include "base/spelling.hpp"
 #include "integration/automatic/auto_stepper.hpp"
-#include "integration/driven_integrator.hpp"
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 #include "integration/error_control/dense_output_integrator.hpp"
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
@@ -20,7 +19,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace spring_pendulum {
@@ -161,9 +159,9 @@ constexpr std::pair<std::string_view, std::string_view> kAbbreviations[] = {
 /// Names of other methods and programs, and the method here that is nearest.
 constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
     {"BDF", "Radau-9"},
-    {"Implicit-Euler", "Backward-Euler"},
     {"DOP853", "Taylor-8"},
     {"Heun", "Runge-Kutta-2"},
+    {"Implicit-Euler", "Backward-Euler"},
     {"Leapfrog", "Velocity-Verlet"},
     {"LSODA", "Auto"},
     {"Midpoint", "Runge-Kutta-2"},
@@ -226,14 +224,10 @@ std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& ch
     throw InputError(
         fmt::format("method '{}' has no factory: register it with registerMethod", method.name));
   }
-  std::optional<Chain> longer;
-  if (chain.isDriven() && chain.airDrag() != 0.0) longer = chain.behindRest();
-  const Chain& seen = longer ? *longer : chain;
-  std::unique_ptr<Integrator> integrator = method.make(method, seen.seenFromAnchor(), options);
+  std::unique_ptr<Integrator> integrator = method.make(method, chain, options);
   if (!integrator)
     throw InputError(fmt::format("the factory of method '{}' returned no integrator", method.name));
-  if (!chain.isDriven()) return integrator;
-  return std::make_unique<DrivenIntegrator>(seen, std::move(integrator), method.hasFixedStep());
+  return integrator;
 }
 
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,

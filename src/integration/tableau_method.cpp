@@ -1,7 +1,7 @@
 #include "integration/order_conditions.hpp"
 #include "integration/tableau.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/integration/tableau_method.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
 

@@ -12,9 +12,6 @@
 namespace spring_pendulum {
 namespace {
 
-/// Mass of a held particle where code divides by it, kg: no spring changes its motion by a bit.
-constexpr double kHeldMass = 1e30;
-
 void requireFinite(const char* what, std::ptrdiff_t particle, const PlaneVector<double>& value) {
   if (std::isfinite(value.x) && std::isfinite(value.y)) return;
   throw InputError(fmt::format("{} of particle {} must be finite, got ({}, {})", what, particle + 1,
@@ -91,34 +88,6 @@ Chain Chain::inAir(double drag) const {
 PlaneVector<double> Chain::springlessAcceleration(std::ptrdiff_t i) const {
   if (isDriven()) return {accelerations_[i], accelerations_[size() + i]};
   return {0.0, i == 0 ? 0.0 : -gravity_};
-}
-
-Chain Chain::seenFromAnchor() const {
-  Chain chain = *this;
-  if (!isDriven()) return chain;
-  const PlaneVector<double> anchor = springlessAcceleration(0);
-  for (std::ptrdiff_t i = 0; i < size(); ++i) {
-    chain.accelerations_[i] -= anchor.x;
-    chain.accelerations_[size() + i] -= anchor.y;
-    if (isHeld(i)) chain.masses_[i] = kHeldMass;
-  }
-  return chain;
-}
-
-Chain Chain::behindRest() const {
-  AlignedNumbers masses(size() + 1);
-  masses[0] = masses[1] = kHeldMass;
-  masses.view().tail(size() - 1) = masses_.view().tail(size() - 1);
-  Drive drive{{}, drive_.forces};
-  const PlaneVector<double> anchor = springlessAcceleration(0);
-  drive.held.push_back({1, anchor});
-  for (const HeldParticle& held : drive_.held) {
-    if (held.particle > 0) drive.held.push_back({held.particle + 1, held.acceleration});
-  }
-  for (AppliedForce& applied : drive.forces) ++applied.particle;
-  Chain chain = Chain(masses, spring_, gravity_).inAir(air_drag_).drivenBy(std::move(drive));
-  chain.first_spring_ = 1;
-  return chain;
 }
 
 }  // namespace spring_pendulum

@@ -1,5 +1,5 @@
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/integration/tableau_method.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>
 

@@ -91,7 +91,6 @@ class Integrator {
                                        double most_work);
 
  private:
-  friend class DrivenIntegrator;
   double step_work_ = 0.0;  ///< of the last steps in `integrateWithin`, s per step
 };
 

@@ -47,6 +47,14 @@ struct Method {
 /// All methods, in the order in which they are listed. References to rows stay valid.
 const std::deque<Method>& methodTable();
 
+/// Returns the row of an explicit Runge-Kutta method with a fixed step, for `registerMethod`. Its order
+/// follows from the order conditions, up to 10, its stability limits from the stability function: up to
+/// there, no mode grows by more than 1e-12 per step.
+/// \param tableau must outlive the row
+/// \throws InputError if the tableau is not one of an explicit method, or the method is not consistent:
+///   its weights do not add up to 1
+Method methodOfTableau(const std::string& name, const ButcherTableau& tableau);
+
 /// Adds a row to the table, so that the method can be used by name. The table copies the row and
 /// its tableau. Not thread-safe: register methods before starting other threads.
 /// \throws InputError if the name is empty or taken, the tableau is not one of an explicit method

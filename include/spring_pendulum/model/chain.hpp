@@ -52,13 +52,6 @@ class Chain {
   /// Returns the acceleration of particle i without springs, m/s²: that of gravity and the applied
   /// forces, or the prescribed one.
   PlaneVector<double> springlessAcceleration(std::ptrdiff_t i) const;
-  /// Returns the chain as seen from P_1: there, P_1 is at rest, and all springless accelerations are
-  /// less by its acceleration. Held particles have a very large mass.
-  Chain seenFromAnchor() const;
-  /// Returns the same chain with one more particle at rest before P_1, which is held then: the air stays
-  /// at rest when P_1 moves. The spring between the two does not count: `firstSpring()` is 1.
-  Chain behindRest() const;
-  std::ptrdiff_t firstSpring() const { return first_spring_; }
 
  private:
   AlignedNumbers masses_;
@@ -68,7 +61,6 @@ class Chain {
   double air_drag_ = 0.0;
   bool equal_masses_;
   Drive drive_;
-  std::ptrdiff_t first_spring_ = 0;
   AlignedNumbers accelerations_;  ///< springless ones, all x and then all y; empty: not driven
 };
 

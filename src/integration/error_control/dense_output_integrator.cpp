@@ -39,10 +39,12 @@ DenseOutputIntegrator::DenseOutputIntegrator(const Chain& chain,
     : stepper_(std::move(stepper)),
       constants_(chain),
       kernels_(fastestChainKernels(chain.size())),
+      held_(chain),
       energy_flow_(chain, track_dissipation) {}
 
 void DenseOutputIntegrator::restart() {
   started_ = false;
+  held_.restart();
   before_step_ = in_step_ = {};
 }
 
@@ -78,6 +80,7 @@ void DenseOutputIntegrator::integrate(State& state, double time_step, std::int64
 std::int64_t DenseOutputIntegrator::integrateWithin(State& state, double time_step,
                                                     std::int64_t steps, double most_work) {
   requireAdvance(constants_.chain().size, state.size(), time_step, steps);
+  held_.begin(state, time_step);
   if (!started_) {
     stepper_->start(state);
     started_ = true;
@@ -103,10 +106,12 @@ std::int64_t DenseOutputIntegrator::integrateWithin(State& state, double time_st
     state.values()
         .bottomRows(state.size() - 1)
         .setConstant(std::numeric_limits<double>::quiet_NaN());
+    held_.place(state.values(), steps);
     return steps;
   }
   const double fraction = std::min((output_time - step_begin_) / step_length_, 1.0);
   state.values() = stepper_->stateAt(fraction).values();
+  held_.place(state.values(), steps);
   in_step_ = energiesOf(fraction);
   return steps;
 }

@@ -9,6 +9,7 @@
 
 #include "integration/error_control/dense_output_stepper.hpp"
 #include "integration/kernels/energy_flow.hpp"
+#include "integration/kernels/held_motion.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/work.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
@@ -57,6 +58,7 @@ class DenseOutputIntegrator final : public Integrator {
   std::unique_ptr<DenseOutputStepper> stepper_;
   KernelConstants constants_;
   const ChainKernels& kernels_;
+  HeldMotion held_;
   EnergyFlow energy_flow_;  ///< of a part of the last step
   bool started_ = false;
   bool diverged_ = false;

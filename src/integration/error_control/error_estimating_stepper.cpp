@@ -32,7 +32,6 @@ ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowe
 
 void ErrorEstimatingStepper::start(const State& state) {
   end_.values() = state.values();
-  end_.values().row(0).rightCols<2>().setZero();
   end_carry_.values().setZero();
   controller_.restart();
   restarted_ = true;

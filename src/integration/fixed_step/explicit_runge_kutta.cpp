@@ -66,7 +66,7 @@ Skips ExplicitRungeKutta::skips() const {
 
 void ExplicitRungeKutta::integrate(State& state, double time_step, std::int64_t steps) {
   requireAdvance(chain().size, state.size(), time_step, steps);
-  state.velocities().row(0).setZero();
+  held().begin(state, time_step);
   for (std::size_t i = 0; i < stages_; ++i) {
     const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
     for (std::size_t j = 0; j <= i; ++j) weights_.after[i][j] = time_step * row[j];

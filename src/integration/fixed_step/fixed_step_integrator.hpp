@@ -1,8 +1,10 @@
 // What all methods with a fixed step have in common.
 #pragma once
 
+#include "base/checks.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/energy_flow.hpp"
+#include "integration/kernels/held_motion.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/work.hpp"
@@ -13,8 +15,7 @@
 
 namespace spring_pendulum {
 
-/// Counts evaluations, and sums the dissipated energy of each spring. `advance` sets the velocity of
-/// the first particle, which is fixed, to 0.
+/// Counts evaluations, and sums the dissipated energy of each spring.
 class FixedStepIntegrator : public Integrator {
  public:
   double work() const override {
@@ -23,19 +24,26 @@ class FixedStepIntegrator : public Integrator {
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
   double dissipatedEnergy() const final { return energy_flow_.dissipated().total(); }
   double suppliedEnergy() const final { return energy_flow_.supplied(); }
-  void restart() override { energy_flow_.reset(); }
+  void restart() override {
+    energy_flow_.reset();
+    held_.restart();
+  }
 
   /// Empty if the energy is not tracked.
   DissipatedEnergy& dissipated() { return energy_flow_.dissipated(); }
 
  protected:
   FixedStepIntegrator(const Chain& chain, bool track_dissipation, const ChainKernels& kernels)
-      : constants_(chain), kernels_(kernels), energy_flow_(chain, track_dissipation) {}
+      : constants_(chain),
+        kernels_(kernels),
+        held_(chain),
+        energy_flow_(chain, track_dissipation) {}
 
   const KernelConstants& constants() const { return constants_; }
   const KernelChain& chain() const { return constants_.chain(); }
   const ChainKernels& kernels() const { return kernels_; }
 
+  HeldMotion& held() { return held_; }
   void countEvaluations(std::int64_t count) { force_evaluations_ += count; }
   /// Computes F of a state.
   void evaluate(const StateBuffer& state, StateBuffer& slope) {
@@ -50,8 +58,44 @@ class FixedStepIntegrator : public Integrator {
  private:
   KernelConstants constants_;
   const ChainKernels& kernels_;
+  HeldMotion held_;
   EnergyFlow energy_flow_;
   std::int64_t force_evaluations_ = 0;
+};
+
+/// A method that is written as one step of `current()`.
+class SteppedIntegrator : public FixedStepIntegrator {
+ protected:
+  SteppedIntegrator(const Chain& chain, bool track_dissipation,
+                    const ChainKernels& kernels = fastestChainKernels())
+      : FixedStepIntegrator(chain, track_dissipation, kernels), current_(chain.size()) {}
+
+  virtual void step(double time_step) = 0;
+  StateBuffer& current() { return current_; }
+  /// state velocities += weight * slope accelerations
+  void kick(StateBuffer& state, double weight, const StateBuffer& slope) const {
+    const Eigen::Index velocities = 2 * state.pitch();
+    kernels().addWeighted(velocities, weight, slope.data() + velocities, state.data() + velocities);
+  }
+  /// positions += weight * velocities
+  void drift(StateBuffer& state, double weight) const {
+    const Eigen::Index positions = 2 * state.pitch();
+    kernels().addWeighted(positions, weight, state.data() + positions, state.data());
+  }
+
+ private:
+  void integrate(State& state, double time_step, std::int64_t steps) final {
+    requireAdvance(chain().size, state.size(), time_step, steps);
+    held().begin(state, time_step);
+    current_.values() = state.values();
+    for (std::int64_t n = 0; n < steps; ++n) {
+      step(time_step);
+      held().place(current_.values(), 1);
+    }
+    state.values() = current_.values();
+  }
+
+  StateBuffer current_;
 };
 
 }  // namespace spring_pendulum

@@ -10,17 +10,15 @@
 
 namespace spring_pendulum {
 
-class PlainRungeKutta final : public FixedStepIntegrator {
+class PlainRungeKutta final : public SteppedIntegrator {
  public:
   PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau, bool track_dissipation,
                   const ChainKernels& kernels = fastestChainKernels());
 
  private:
-  void integrate(State& state, double time_step, std::int64_t steps) override;
-  void step(double time_step);
+  void step(double time_step) override;
 
   ButcherTableau tableau_;
-  StateBuffer state_;
   StateBuffer stage_;                ///< z_n + h sum a_ij k_j
   std::vector<StateBuffer> slopes_;  ///< k_i, one per stage
 };

@@ -14,6 +14,8 @@
 // Both are stable for undamped oscillation of angular frequency ω if h ω < 2, and for pure damping
 // of rate γ if h γ < 2.
 //
+// The dissipated and supplied energies are integrated with the trapezoidal rule over each step.
+//
 // References: L. Verlet, Phys. Rev. 159 (1967) 98-103, doi:10.1103/PhysRev.159.98; W. C. Swope,
 // H. C. Andersen, P. H. Berens, K. R. Wilson, J. Chem. Phys. 76 (1982) 637-649,
 // doi:10.1063/1.442716; E. Hairer, C. Lubich, G. Wanner, Acta Numer. 12 (2003) 399-450,
@@ -24,29 +26,8 @@
 
 namespace spring_pendulum {
 
-/// Base class with the current state. The dissipated and supplied energies are integrated with the
-/// trapezoidal rule over each step.
-class SymplecticMethod : public FixedStepIntegrator {
- protected:
-  SymplecticMethod(const Chain& chain, bool track_dissipation);
-
-  /// Advances `current()` by one step.
-  virtual void step(double time_step) = 0;
-
-  StateBuffer& current() { return current_; }
-  /// state velocities += weight * slope accelerations
-  void kick(StateBuffer& state, double weight, const StateBuffer& slope) const;
-  /// positions += weight * velocities
-  void drift(StateBuffer& state, double weight) const;
-
- private:
-  void integrate(State& state, double time_step, std::int64_t steps) final;
-
-  StateBuffer current_;
-};
-
 /// Order 1. R. de Vogelaere 1956 (unpublished); Hairer, Lubich, Wanner, section 1.3.
-class SemiImplicitEuler final : public SymplecticMethod {
+class SemiImplicitEuler final : public SteppedIntegrator {
  public:
   SemiImplicitEuler(const Chain& chain, bool track_dissipation);
 
@@ -58,12 +39,12 @@ class SemiImplicitEuler final : public SymplecticMethod {
 
 /// Order 2. One evaluation per step without damping, because the accelerations at the end of a step
 /// are also those at the beginning of the next.
-class VelocityVerlet final : public SymplecticMethod {
+class VelocityVerlet final : public SteppedIntegrator {
  public:
   VelocityVerlet(const Chain& chain, bool track_dissipation);
 
   void restart() override {
-    FixedStepIntegrator::restart();
+    SteppedIntegrator::restart();
     begin_slope_known_ = false;
   }
 

@@ -1,7 +1,5 @@
 #include "integration/implicit/backward_euler.hpp"
 
-#include "base/checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +8,6 @@ namespace spring_pendulum {
 namespace {
 
 constexpr int kMostIterations = 50;
-
 /// Relative change below which the next iteration, whose error is of second order, would only round.
 constexpr double kSettled = 1e-9;
 /// Rounding error of a coordinate, relative to the largest.
@@ -19,12 +16,11 @@ constexpr double kRounding = 1e-13;
 }  // namespace
 
 BackwardEuler::BackwardEuler(const Chain& chain, bool track_dissipation)
-    : FixedStepIntegrator(chain, track_dissipation, fastestChainKernels()),
+    : SteppedIntegrator(chain, track_dissipation),
       chain_(chain),
       solver_(chain_),
       springs_(static_cast<std::size_t>(chain.size() - 1)),
       begin_(chain.size()),
-      end_(chain.size()),
       slope_(chain.size()),
       x_(static_cast<std::size_t>(chain.size())),
       y_(x_.size()) {}
@@ -34,35 +30,34 @@ std::string BackwardEuler::report() const {
 }
 
 void BackwardEuler::restart() {
-  FixedStepIntegrator::restart();
+  SteppedIntegrator::restart();
   failed_ = false;
 }
 
-void BackwardEuler::integrate(State& state, double time_step, std::int64_t steps) {
-  requireAdvance(chain().size, state.size(), time_step, steps);
-  state.velocities().row(0).setZero();
-  end_.values() = state.values();
-  for (std::int64_t n = 0; n < steps && !failed_; ++n) {
-    failed_ = !step(time_step);
-    addPowers(end_, time_step);
+void BackwardEuler::step(double time_step) {
+  failed_ = failed_ || !solve(time_step);
+  addPowers(current(), time_step);
+  if (failed_) {
+    auto moving = current().values().bottomRows(current().size() - 1);
+    moving.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  state.values() = end_.values();
-  if (!failed_) return;
-  auto moving = state.values().bottomRows(state.size() - 1);
-  moving.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-bool BackwardEuler::step(double time_step) {
-  begin_.values() = end_.values();
-  auto velocities = end_.values().rightCols<2>();
-  auto positions = end_.values().leftCols<2>();
+bool BackwardEuler::solve(double time_step) {
+  begin_.values() = current().values();
+  auto velocities = current().values().rightCols<2>();
+  auto positions = current().values().leftCols<2>();
+  if (chain_.isDriven()) {
+    velocities(0, 0) += time_step * chain_.springlessAcceleration(0).x;
+    velocities(0, 1) += time_step * chain_.springlessAcceleration(0).y;
+  }
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     positions = begin_.values().leftCols<2>() + time_step * velocities;
     linearise(time_step);
     solver_.factor(springs_, time_step);
     solver_.solve(x_.data(), y_.data());
     double change = 0.0, finite = 0.0;
-    for (Eigen::Index i = 1; i < end_.size(); ++i) {
+    for (Eigen::Index i = 1; i < current().size(); ++i) {
       const double x = x_[static_cast<std::size_t>(i)], y = y_[static_cast<std::size_t>(i)];
       velocities(i, 0) += x;
       velocities(i, 1) += y;
@@ -79,10 +74,10 @@ bool BackwardEuler::step(double time_step) {
 }
 
 void BackwardEuler::linearise(double time_step) {
-  evaluate(end_, slope_);
-  const auto z = end_.values(), from = begin_.values(), slope = slope_.values();
+  evaluate(current(), slope_);
+  const auto z = current().values(), from = begin_.values(), slope = slope_.values();
   for (Eigen::Index i = 0; i < z.rows(); ++i) {
-    const double mass = chain_.masses()[i];
+    const double mass = massOf(chain_, i);
     const auto row = static_cast<std::size_t>(i);
     x_[row] = mass * (time_step * slope(i, 2) - (z(i, 2) - from(i, 2)));
     y_[row] = mass * (time_step * slope(i, 3) - (z(i, 3) - from(i, 3)));

@@ -23,7 +23,7 @@ namespace spring_pendulum {
 
 /// The dissipated and supplied energies are integrated with the powers at the end of each step. Where
 /// Newton's method does not converge, the state becomes NaN, except for the first particle.
-class BackwardEuler final : public FixedStepIntegrator {
+class BackwardEuler final : public SteppedIntegrator {
  public:
   BackwardEuler(const Chain& chain, bool track_dissipation);
 
@@ -34,16 +34,16 @@ class BackwardEuler final : public FixedStepIntegrator {
   void restart() override;
 
  private:
-  void integrate(State& state, double time_step, std::int64_t steps) override;
+  void step(double time_step) override;
   /// \returns whether Newton's method converged
-  bool step(double time_step);
-  /// Computes the right-hand side of the linear system from the current guess `end_`, and its springs.
+  bool solve(double time_step);
+  /// Computes the right-hand side of the linear system from the guess `current()`, and its springs.
   void linearise(double time_step);
 
   Chain chain_;
   ChainSolver<double> solver_;
   std::vector<LinearSpring> springs_;
-  StateBuffer begin_, end_, slope_;
+  StateBuffer begin_, slope_;
   std::vector<double> x_, y_;
   bool failed_ = false;
 };

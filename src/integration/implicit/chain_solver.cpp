@@ -39,7 +39,7 @@ typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::springBlock(Eigen::Inde
 template <typename Scalar>
 typename ChainSolver<Scalar>::Block ChainSolver<Scalar>::diagonal(Eigen::Index particle) const {
   const Block left = springBlock(particle - 1), right = springBlock(particle);
-  Scalar mass = chain_.masses()[particle];
+  Scalar mass = massOf(chain_, particle);
   if (!chain_.isHeld(particle)) mass = mass + chain_.airDrag() * q_;
   return {mass + (left.xx + right.xx), left.xy + right.xy, left.yx + right.yx,
           mass + (left.yy + right.yy)};

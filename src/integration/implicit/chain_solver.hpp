@@ -31,6 +31,12 @@
 
 namespace spring_pendulum {
 
+/// Mass of a particle in these systems, kg: no spring changes the motion of a held one by a bit.
+inline double massOf(const Chain& chain, Eigen::Index particle) {
+  constexpr double kHeldMass = 1e30;
+  return chain.isHeld(particle) ? kHeldMass : chain.masses()[particle];
+}
+
 /// \tparam Scalar double or Complex
 template <typename Scalar>
 class ChainSolver {
@@ -44,7 +50,7 @@ class ChainSolver {
   void factor(const std::vector<LinearSpring>& springs, Scalar q);
 
   /// Solves for one right-hand side, in place.
-  /// \param x, y N entries of each component; the entry of the first, fixed particle is not used
+  /// \param x, y N entries of each component; the entry of the first particle is not used
   void solve(Scalar* x, Scalar* y) const;
 
  private:

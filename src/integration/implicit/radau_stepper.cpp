@@ -117,6 +117,7 @@ void RadauStepper::predict(double h) {
     guess(velocity[0], old.vx, next.x, next.vx);
     guess(velocity[pitch], old.vy, next.y, next.vy);
   }
+  if (chain().isDriven()) setAnchor(h);
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     Row& tensions = stages_.tensions[i];
     const Ends ends = endsOf(i, begin());
@@ -125,6 +126,19 @@ void RadauStepper::predict(double h) {
     for (std::size_t s = 0; s < kStages; ++s) {
       tensions[s] = radau::dot(tension_weights[s], previous_.tensions[i]);
     }
+  }
+}
+
+void RadauStepper::setAnchor(double h) {
+  const PlaneVector<double> speed = velocityOf(begin(), 0);
+  const PlaneVector<double> acceleration = chain().springlessAcceleration(0);
+  Increments& stage = stages_.particles[0];
+  for (std::size_t s = 0; s < kStages; ++s) {
+    const double time = h * radau::kNodes[s];
+    stage.vx[s] = time * acceleration.x;
+    stage.vy[s] = time * acceleration.y;
+    stage.x[s] = time * (speed.x + 0.5 * stage.vx[s]);
+    stage.y[s] = time * (speed.y + 0.5 * stage.vy[s]);
   }
 }
 
@@ -178,7 +192,7 @@ void RadauStepper::computeResiduals() {
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     Row right_x{}, right_y{};
     if (i < springs_.size()) springForces(i, right_x, right_y);
-    const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
+    const double mass = massOf(chain(), static_cast<Eigen::Index>(i));
     const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
     Row fx, fy;
     for (std::size_t s = 0; s < kStages; ++s) {
@@ -270,7 +284,7 @@ double RadauStepper::filteredError(bool corrected) {
           springs_[i].stiffnessTimes({next.x - here.x, next.y - here.y});
       right = {q * (force.x + change.x), q * (force.y + change.y)};
     }
-    const double mass = chain().masses()[static_cast<Eigen::Index>(i)];
+    const double mass = massOf(chain(), static_cast<Eigen::Index>(i));
     const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
     const Increments& stage = stages_.particles[i];
     real_.x[i] = mass * (radau::dot(radau::kError, stage.vx) + q * fall.x) + (right.x - left.x);
@@ -283,6 +297,7 @@ double RadauStepper::filteredError(bool corrected) {
   }
   real_.solve();
   ++counters().force_evaluations;
+  setRow(change_, 0, {0.0, 0.0, 0.0, 0.0});
   double largest = 0.0, finite = 0.0;
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
     const PlaneVector<double> part = position_part(i);
@@ -337,7 +352,7 @@ const StateBuffer& RadauStepper::stateInside(double fraction) const {
   const Row weights = radau::lagrangeWeights(fraction, true);
   auto values = change_.values();
   values = begin().values();
-  for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const Increments& stage = stages_.particles[i];
     const auto row = static_cast<Eigen::Index>(i);
     values(row, 0) += radau::dot(weights, stage.x);

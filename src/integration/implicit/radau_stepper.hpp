@@ -28,7 +28,7 @@
 #include "integration/implicit/chain_solver.hpp"
 #include "integration/implicit/complex.hpp"
 #include "integration/implicit/linear_spring.hpp"
-#include "integration/implicit/radau_sums.hpp"
+#include "integration/implicit/radau_coefficients.hpp"
 
 #include <algorithm>
 #include <array>
@@ -140,6 +140,8 @@ class RadauStepper final : public ErrorEstimatingStepper {
 
   /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.
   void predict(double h);
+  /// Sets the stages of the first particle of a driven chain.
+  void setAnchor(double h);
   void linearise();
   /// Solves for the stages with a simplified Newton iteration.
   /// \returns whether it converged

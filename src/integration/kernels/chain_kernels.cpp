@@ -96,6 +96,8 @@ KernelConstants::KernelConstants(const Chain& chain) {
   if (chain.isDriven()) {
     drive_ = AlignedNumbers(2 * chain_.pitch);
     chain_.drive = drive_.data();
+    chain_.anchor[0] = chain.springlessAcceleration(0).x;
+    chain_.anchor[1] = chain.springlessAcceleration(0).y;
     for (std::ptrdiff_t i = 1; i < chain.size(); ++i) {
       const PlaneVector<double> acceleration = chain.springlessAcceleration(i);
       drive_[i - 1] = acceleration.x;

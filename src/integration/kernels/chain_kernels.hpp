@@ -23,7 +23,7 @@ namespace spring_pendulum {
 struct TaylorWeights;    // taylor_workspace.hpp
 struct TaylorWorkspace;  // taylor_workspace.hpp
 
-/// Element of the first moving particle in a column of `StateBuffer`. The fixed particle precedes it,
+/// Element of the first moving particle in a column of `StateBuffer`. The first particle precedes it,
 /// so aligned vectors contain moving particles only: N - 1 particles and N - 1 springs.
 inline constexpr std::ptrdiff_t kFirstMoving = 8;
 
@@ -35,11 +35,12 @@ struct KernelChain {
   /// Springless accelerations (x, y) of the particles of a driven chain after the first, m/s²: two
   /// columns, `pitch` apart; else null
   const double* drive = nullptr;
+  double anchor[2] = {};  ///< acceleration of the first particle of a driven chain, m/s²
   const double* drag_rates = nullptr;  ///< k_air/m of the moving particles, 1/s; null without air
   /// Of the N - 1 moving particles, 1/kg, or 8 equal numbers if `mass_stride` is 0
   const double* inverse_masses = nullptr;
   std::ptrdiff_t mass_stride = 1;  ///< 1, or 0 if all moving particles have the same mass
-  std::ptrdiff_t size = 0;         ///< N >= 1; the first particle is fixed
+  std::ptrdiff_t size = 0;         ///< N >= 1; the first particle is held
   std::ptrdiff_t pitch = 0;        ///< length of a column, see `StateBuffer::pitchFor`
 };
 
@@ -121,7 +122,7 @@ struct LastCoefficients {
 struct ChainKernels {
   std::string_view name;  ///< "baseline", "avx2", "avx512"
 
-  /// slope = F(state + sum), or F(state) for an empty sum. Row 0, the fixed particle, is zero.
+  /// slope = F(state + sum), or F(state) for an empty sum. Row 0 is zero unless the chain is driven.
   void (*stageSlope)(const KernelChain& chain, const double* state, SlopeSum sum, double* slope);
 
   /// out = state + sum; `out` may be `state`

@@ -101,7 +101,10 @@ void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, dou
   spring_slope(chain, state, sum, slope);
   double* accelerations = slope + 2 * chain.pitch + kFirstMoving;
   if (chain.drive != nullptr) {
+    const Block before = combinedBlock(chain.pitch, state, sum, -1);
+    store({before.vx, before.vy, {}, {}}, placeOf(slope, chain.pitch, -1));
     for (int column = 0; column < 2; ++column) {
+      accelerations[column * chain.pitch - 1] = chain.anchor[column];
       addTo(blocksOf(chain.size), chain.drive + column * chain.pitch,
             accelerations + column * chain.pitch);
     }
@@ -236,7 +239,16 @@ void taylorState(const TaylorWorkspace& callers_work, const double* state, const
                  const TaylorWeights& weights, double* out) {
   const TaylorWorkspace work = callers_work;
   const double time = weights.start_velocity;
+  const double* velocity =
+      state + 2 * work.chain.pitch + kFirstMoving - 1;  // of the first particle
+  const double start_velocity[] = {velocity[0], velocity[work.chain.pitch]};
   store(load(placeOf(base, work.chain.pitch, -1)), placeOf(out, work.chain.pitch, -1));
+  for (int column = 0; work.chain.drive != nullptr && column < 2; ++column) {
+    const double acceleration = work.chain.anchor[column];
+    double* place = out + column * work.chain.pitch + kFirstMoving - 1;
+    place[0] += time * start_velocity[column] + weights.position[0] * acceleration;
+    place[2 * work.chain.pitch] += weights.velocity[0] * acceleration;
+  }
   for (std::ptrdiff_t block = 0; block < blocksOf(work.chain.size); ++block) {
     const Block change = weightedSum(work, weights, block);
     const Block start = load(placeOf(state, work.chain.pitch, block));

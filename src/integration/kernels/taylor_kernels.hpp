@@ -280,12 +280,13 @@ template <Index n, Index kBlocks>
 
 /// Adds more accelerations to coefficient n of the accelerations and, as differences of neighbours,
 /// to coefficient n + 2 of the separations.
+/// \param left     that of the first particle
 /// \param of_block returns those of the particles of a block
 template <typename OfBlock>
 [[gnu::always_inline]] inline void addAccelerations(const TaylorWorkspace& work, Index n,
+                                                    PlaneVector<Pack> left,
                                                     const OfBlock& of_block) {
   const double share = 1.0 / static_cast<double>((n + 1) * (n + 2));
-  PlaneVector<Pack> left{};
   for (Index block = 0; block < blocksOf(work.chain.size); ++block) {
     const PlaneVector<Pack> here = of_block(block * kLanes);
     double* x = work.accelerations + n * 2 * work.chain.pitch + block * kLanes;
@@ -305,7 +306,8 @@ template <typename OfBlock>
 
 [[gnu::noinline]] inline void addDrive(const TaylorWorkspace& work) {
   const double* drive = work.chain.drive;
-  addAccelerations(work, 0, [&](Index first) {
+  const PlaneVector<Pack> anchor{Pack::all(work.chain.anchor[0]), Pack::all(work.chain.anchor[1])};
+  addAccelerations(work, 0, anchor, [&](Index first) {
     return PlaneVector<Pack>{Pack::load(drive + first),
                              Pack::load(drive + work.chain.pitch + first)};
   });
@@ -318,7 +320,7 @@ template <typename OfBlock>
   const double* velocities = n == 0 ? placeOf(state, pitch, 0).first + 2 * pitch
                                     : work.accelerations + (n - 1) * 2 * pitch;
   const double divisor = n == 0 ? -1.0 : -1.0 / static_cast<double>(n);
-  addAccelerations(work, n, [&](Index first) {
+  addAccelerations(work, n, {}, [&](Index first) {
     const Pack rate = divisor * Pack::load(work.chain.drag_rates + first);
     return PlaneVector<Pack>{rate * Pack::load(velocities + first),
                              rate * Pack::load(velocities + pitch + first)};

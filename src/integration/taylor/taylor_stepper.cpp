@@ -1,7 +1,6 @@
 #include "integration/taylor/taylor_stepper.hpp"
 
 #include "integration/error_control/step_size_controller.hpp"
-#include "integration/taylor/free_fall.hpp"
 #include "model/chain_modes.hpp"
 
 #include <algorithm>
@@ -49,6 +48,24 @@ double stepForGrowth(const LastCoefficients& last, double growth, std::ptrdiff_t
       kShortestStep, kLongestStep);
 }
 
+/// Whether a spring exerts no force until its neighbours do: it is level, has exactly its rest length,
+/// and both ends have the same vertical velocity and no horizontal one.
+bool fallsFreely(const StateBuffer& state, Eigen::Index spring, double rest_length) {
+  const auto z = state.values();
+  const double width = z(spring + 1, 0) - z(spring, 0);
+  const double square = width * width;
+  return z(spring, 1) == z(spring + 1, 1) && z(spring, 2) == 0.0 && z(spring + 1, 2) == 0.0 &&
+         z(spring, 3) == z(spring + 1, 3) && square * inverseSquareRoot(square) == rest_length;
+}
+
+/// Returns the particle at which the end that falls freely begins, at least 1.
+/// \param size number of particles to examine: those beyond fall freely
+Eigen::Index beginOfFreeFall(const StateBuffer& state, Eigen::Index size, double rest_length) {
+  Eigen::Index first = size - 1;
+  while (first > 1 && fallsFreely(state, first - 1, rest_length)) --first;
+  return first;
+}
+
 }  // namespace
 
 // The first omitted term of the velocities, |a_K| h^(K+1) / (K+1), may be `allowed_rate` times h. Its
@@ -89,7 +106,6 @@ TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
 
 void TaylorStepper::start(const State& state) {
   end_.values() = state.values();
-  end_.values().row(0).rightCols<2>().setZero();
   work_.chain.size = chain_.size();
 }
 
