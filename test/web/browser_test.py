@@ -195,6 +195,10 @@ class LabTest(unittest.TestCase):
             self.call('pendulumLab.seek(0.05)')
             self.element('step').click()  # shows the step that was done
             self.wait('return document.getElementById("step-text").textContent.includes("from t = 0.05 s")')
+            phone = {'width': 390, 'height': 844, 'deviceScaleFactor': 1, 'mobile': True}
+            self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', phone)
+            self.wait('return document.documentElement.scrollWidth === 390')
+            self.browser.execute_cdp_cmd('Emulation.clearDeviceMetricsOverride', {})
             step = self.state()['step']
             z, k = step['stages'][0], step['slopes']
             (p, v), a, h, half = (z[:6], z[6:]), [slope[6:] for slope in k], 0.01, 6
