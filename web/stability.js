@@ -123,7 +123,7 @@ function describe(method, points, growth, small) {
   const outside = points.filter(({x}, i) => x <= 1e-6 && growth[i] > 1e-9).length;
   const kind = method.symplectic ? ' The region of a symplectic method is that of an oscillator.' :
     Number.isFinite(method.realLimit) ? '' : ' This method is stable wherever the motion itself decays.';
-  return `${outside} of ${points.length} points are outside. The farthest of ${points.length} points hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
+  return `${outside} of ${points.length} points are outside. The farthest point hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
     `${short(Math.abs(far.y), 3)} i; half the step halves its distance from 0. Points inside the region decay or keep ` +
     'their size, points outside grow with every step.' +
     (growing ? ` ${growing} points lie right of the axis: there the motion itself, not the method, spreads apart.` : '') +

@@ -164,6 +164,9 @@ TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
   controlled.method = findMethod("Auto");
   EXPECT_EQ(remedyForDivergence(light.chain, light.start, controlled),
             "try a tolerance below 1e-06 m");
+  controlled.method = findMethod("Backward-Euler");  // has no limit, but Newton's method may fail
+  const std::string of_newton = remedyForDivergence(light.chain, light.start, controlled);
+  EXPECT_THAT(of_newton, StartsWith("try a step below 0.01 s"));
 }
 
 TEST(StabilityAdvice, RemedyEndsWhenItIsStopped) {

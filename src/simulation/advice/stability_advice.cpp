@@ -299,11 +299,14 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Sc
                                 const std::function<bool()>& stop) {
   Trials trials(chain, start, scenario, stop);
   const Method& method = scenario.method;
-  std::string text =
-      method.hasFixedStep()
-          ? fmt::format("largest stable step for {}: {}", method.name,
-                        textOf(stableStep(trials, chain, scenario)))
-          : fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
+  std::string text = fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
+  if (method.hasFixedStep()) {
+    const StableStep stable = stableStep(trials, chain, scenario);
+    // The equations of an implicit method may have no solution for this step, and one for larger steps.
+    text = stable.step > scenario.time_step
+               ? fmt::format("try a step below {} s", numberText(scenario.time_step))
+               : fmt::format("largest stable step for {}: {}", method.name, textOf(stable));
+  }
   if (method.name != "Auto") {
     Scenario other = trials.scenario();
     other.method = findMethod("Auto");

