@@ -119,12 +119,12 @@ class ReferenceTrajectories {
                const std::function<bool()>& stop) {
     if (reference_.left == 0 && companion_.left == 0) reference_.left = companion_.left = steps;
     const auto ends = [&] { return work() >= allowed_work || (stop && stop()); };
-    for (Trajectory* trajectory : {&reference_, &companion_}) {
-      trajectory->left -=
-          trajectory->integrator->advance(trajectory->state, time_step, trajectory->left, ends);
-      if (trajectory->left > 0) return false;
-    }
-    return true;
+    const auto finish = [&](Trajectory& trajectory) {
+      trajectory.left -=
+          trajectory.integrator->advance(trajectory.state, time_step, trajectory.left, ends);
+      return trajectory.left == 0;
+    };
+    return finish(reference_) && finish(companion_);
   }
 
   double work() const { return reference_.integrator->work() + companion_.integrator->work(); }

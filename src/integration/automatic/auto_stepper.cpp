@@ -117,7 +117,7 @@ void AutoStepper::start(const State& state) {
 
 // The difference is taken before the product. Its rounding then does not depend on earlier work, so
 // a restarted run gives the same bits.
-double AutoStepper::workSince(const Candidate& candidate, const StepStatistics& before) const {
+double AutoStepper::workSince(const Candidate& candidate, const StepStatistics& before) {
   const StepStatistics now = statisticsOf(candidate);
   return candidate.work_per_evaluation *
          static_cast<double>(now.force_evaluations - before.force_evaluations);

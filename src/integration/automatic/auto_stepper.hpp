@@ -73,7 +73,7 @@ class AutoStepper final : public DenseOutputStepper {
   const Candidate& active() const { return candidates_[active_]; }
   /// Evaluations, rejected steps and what was left out, with those of released steppers.
   static StepStatistics statisticsOf(const Candidate& candidate);
-  double workSince(const Candidate& candidate, const StepStatistics& before) const;
+  static double workSince(const Candidate& candidate, const StepStatistics& before);
   Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
   /// Whether the work since the last race suffices for another. Otherwise begins a new measurement of

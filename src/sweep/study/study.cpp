@@ -173,21 +173,21 @@ void CaseMaker::setParticles() {
   State& state = case_.particles.state;
   const auto sample = static_cast<std::uint64_t>(case_.sample);
   for (Eigen::Index i = 1; i < state.size(); ++i) {  // the mass of the fixed particle is not used
-    const auto numbersOf = [&](std::uint32_t quantity) {
+    const auto numbers_of = [&](std::uint32_t quantity) {
       return RandomNumbers(study_.seed, sample, static_cast<std::uint32_t>(i), quantity);
     };
     double& mass = case_.particles.masses[i];
     mass *= case_.settings.mass_factor;
     if (study_.mass_factor.kind != Distribution::Kind::kNone) {
-      RandomNumbers numbers = numbersOf(kMass);
+      RandomNumbers numbers = numbers_of(kMass);
       mass *= draw(study_.mass_factor, numbers);
     }
     if (!std::isfinite(mass) || mass <= 0.0) {
       throw InputError(fmt::format("particle {}: mass must be positive and finite, got {}", i + 1,
                                    numberText(mass)));
     }
-    add(study_.displacement, numbersOf(kDisplacement), state.x()[i], state.y()[i]);
-    add(study_.velocity, numbersOf(kVelocity), state.vx()[i], state.vy()[i]);
+    add(study_.displacement, numbers_of(kDisplacement), state.x()[i], state.y()[i]);
+    add(study_.velocity, numbers_of(kVelocity), state.vx()[i], state.vy()[i]);
   }
 }
 
