@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
+
+#include "support/reference_table.hpp"
 
 namespace spring_pendulum::benchmark {
 namespace {
@@ -17,15 +18,6 @@ struct SceneName {
 constexpr SceneName kScenes[] = {
     {"single_vertical", 5}, {"two_masses_45deg", 5}, {"horizontal_11", 5},  {"horizontal_1000", 2},
     {"light_100", 5},       {"lighter_100", 5},      {"alternating_50", 5}, {"feather_50", 5}};
-
-/// Columns of a table of numbers; empty if there is no such file.
-std::vector<std::vector<double>> readColumns(const std::string& path, std::size_t columns) {
-  std::ifstream file(path);
-  std::vector<std::vector<double>> table(columns);
-  double value = 0.0;
-  for (std::size_t i = 0; file >> value; ++i) table[i % columns].push_back(value);
-  return table;
-}
 
 double worst(double a, double b) {
   return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
@@ -78,11 +70,10 @@ ReferenceScene stiffCable(double duration) {
 std::vector<ReferenceScene> referenceScenes() {
   std::vector<ReferenceScene> scenes;
   for (const SceneName& row : kScenes) {
-    const std::string folder = REFERENCE_DIR;
-    const auto particles = readColumns(fmt::format("{}/{}.txt", folder, row.name), 3);
-    const auto exact = readColumns(fmt::format("{}/{}_t{}.txt", folder, row.name, row.seconds), 4);
+    const auto table = test::readReferenceTable(REFERENCE_DIR, row.name);
+    const auto& particles = table.columns;
+    const auto* const exact = table.stateAfter(row.seconds);
     const std::size_t n = particles[0].size();
-    if (n == 0 || exact[3].size() != n) continue;
     ReferenceScene scene;
     scene.problem.name = row.name;
     scene.problem.masses = particles[2];
@@ -90,8 +81,8 @@ std::vector<ReferenceScene> referenceScenes() {
     std::copy(particles[0].begin(), particles[0].end(), scene.problem.start.begin());
     std::copy(particles[1].begin(), particles[1].end(),
               scene.problem.start.begin() + static_cast<std::ptrdiff_t>(n));
-    for (const auto& column : exact) {
-      scene.exact.insert(scene.exact.end(), column.begin(), column.end());
+    for (const auto* column = exact; column != exact + 4; ++column) {
+      scene.exact.insert(scene.exact.end(), column->begin(), column->end());
     }
     scene.duration = row.seconds;
     scenes.push_back(std::move(scene));

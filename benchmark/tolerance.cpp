@@ -47,16 +47,6 @@ struct Case {
   int exponent = 0;  ///< the tolerance is 10^-exponent m
 };
 
-/// Times with a reference file, s.
-std::vector<int> referenceTimes(const std::string& scene) {
-  std::vector<int> times;
-  for (const int time : {1, 2, 5, 10, 20, 50}) {
-    if (std::filesystem::exists(fmt::format("{}/reference/{}_t{}.txt", TEST_DATA_DIR, scene, time)))
-      times.push_back(time);
-  }
-  return times;
-}
-
 /// Runs in a separate process. Returns the worst error in tolerances and its time, the number of
 /// force evaluations, and the processor time in s.
 std::string measure(const Case& one) {
@@ -68,7 +58,7 @@ std::string measure(const Case& one) {
   int worst_time = 0;
   int now = 0;
   const Stopwatch stopwatch;
-  for (const int time : referenceTimes(one.scene)) {
+  for (const int time : test::readReferenceTable(TEST_DATA_DIR "/reference", one.scene).times) {
     integrator->advance(state, 1.0, time - now);
     now = time;
     const State exact = test::referenceSolution(one.scene, time);

@@ -52,7 +52,7 @@ show_progress() {
 
 # For ctest -E: measurements that repeat shorter tests on larger or on many random scenes, and with the
 # products of extreme options all long tests. They take half of the time of the unit tests.
-long_measurements='WithinAFactorOfTwo/(feather|alternating)|NeverComesBeforeAStableRun'
+long_measurements='NeverComesBeforeAStableRun'
 long_measurements+='|RandomScenes\.KeepTheTolerance|OnLongAndLightChains|TenMillionSteps'
 long_measurements+='|LinearLimitIsDefinedInEveryCorner|LargestStableStepIsThat'
 long_measurements+='|HangingChain\.MovesAsItsModes/[23]'

@@ -1,11 +1,8 @@
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/reference_run.hpp>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -63,70 +60,6 @@ TEST_P(ReferenceRunOn, StaysWithinItsUncertainty) {
     EXPECT_LE(largestDistance(*reference.state(), exact), reference.uncertainty()) << time << " s";
     EXPECT_LE(reference.uncertainty(), 5e-8) << time << " s";
   }
-}
-
-/// A run of a method from the start, as long as it is finite and affordable.
-class TriedRun {
- public:
-  TriedRun(const Method& method, double tolerance, const test::Scene& scene)
-      : method_(method.name),
-        name_(fmt::format("{} to {} m", method.name, tolerance)),
-        integrator_(makeIntegrator(method.name, scene.chain, {tolerance})),
-        state_(scene.start) {}
-
-  void advance(int seconds) {
-    if (!goes_on_) return;
-    const bool fixed = findMethod(method_).hasFixedStep();
-    const std::int64_t steps = (fixed ? 100L : 10L) * seconds;
-    const auto stop = [this] { return integrator_->work() >= kMostWork; };
-    goes_on_ = integrator_->advance(state_, fixed ? 0.01 : 0.1, steps, stop) == steps &&
-               state_.values().allFinite();
-  }
-
-  bool goesOn() const { return goes_on_; }
-  const std::string& name() const { return name_; }
-  const State& state() const { return state_; }
-
- private:
-  static constexpr double kMostWork = 0.2;  // s, nominal
-
-  std::string method_;
-  std::string name_;
-  std::unique_ptr<Integrator> integrator_;
-  State state_;
-  bool goes_on_ = true;
-};
-
-std::vector<TriedRun> allRuns(const test::Scene& scene) {
-  std::vector<TriedRun> runs;
-  for (const Method& method : methodTable()) {
-    runs.emplace_back(method, 1e-3, scene);
-    if (method.control == StepControl::kErrorControlled) runs.emplace_back(method, 1e-6, scene);
-  }
-  return runs;
-}
-
-// Stiff chains leave out the methods that would take long.
-TEST_P(ReferenceRunOn, TellsTheErrorOfEveryMethodWithinAFactorOfTwo) {
-  const test::Scene scene = test::referenceScene(GetParam().scene);
-  ReferenceRun reference(scene.chain, scene.start, {1e-6, true});
-  std::vector<TriedRun> runs = allRuns(scene);
-  int reached = 0, compared = 0;
-  for (const int time : GetParam().times) {
-    advance(reference, 0.1, 10L * (time - reached));
-    const State exact = test::referenceSolution(GetParam().scene, time);
-    for (TriedRun& run : runs) {
-      run.advance(time - reached);
-      if (!run.goesOn()) continue;
-      ++compared;
-      const double error = largestDistance(run.state(), exact);
-      const double told = reference.errorOf(run.state());
-      EXPECT_LE(told, 2.0 * error + reference.uncertainty()) << run.name() << ", " << time << " s";
-      EXPECT_GE(told, 0.5 * error - reference.uncertainty()) << run.name() << ", " << time << " s";
-    }
-    reached = time;
-  }
-  EXPECT_GE(compared, 2);
 }
 
 // A light particle creeps into the first one, at a distance of exp(-50 t) after t seconds. The
