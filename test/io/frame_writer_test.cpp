@@ -1,12 +1,15 @@
 // Frame files: their names, and that each number reads back as the same double, in few digits.
 #include "base/numbers.hpp"
 #include "io/files/frame_folder.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/frame_writer.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -69,6 +72,68 @@ TEST(FrameWriter, EveryNumberReadsBackAsTheSameDouble) {
   }
   EXPECT_FALSE(lines >> x);
 }
+
+/// Frames of a few particles are written at once, large ones in a thread.
+class FrameWriterThread : public testing::TestWithParam<Eigen::Index> {
+ protected:
+  static constexpr int kFrames = 6;
+
+  static State frame(int index) {
+    State state(GetParam());
+    state.x().setLinSpaced(0.1 * index, 1.0);
+    state.y().setConstant(index / 3.0);
+    return state;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(FrameWriterThread, WritesFramesInOrder) {
+  FrameWriter writer(folder_.path(), kFrames);
+  for (int i = 0; i < kFrames; ++i) {
+    State state = frame(i);
+    writer.write(i, state);
+    state.values().setZero();  // the writer has copied the state
+  }
+  writer.finish();
+  for (int i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(readFile(folder_.path(frameName(i))), textOfFrame(frame(i)));
+  }
+  EXPECT_GT(writer.seconds(), 0.0);
+}
+
+// Frame 2 can't be renamed to its name, as a folder is in its way.
+TEST_P(FrameWriterThread, FailedFrameIsNamedAndNothingIsWrittenAfterIt) {
+  FrameWriter writer(folder_.path(), kFrames);
+  std::filesystem::create_directory(folder_.path(frameName(2)));
+  std::string message;
+  try {
+    for (int i = 0; i < kFrames; ++i) writer.write(i, frame(i));
+    writer.finish();
+  } catch (const FileError& error) {
+    message = error.what();
+  }
+  EXPECT_THAT(message, testing::HasSubstr(folder_.path(frameName(2))));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path(frameName(1))));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path(frameName(3))));
+}
+
+TEST_P(FrameWriterThread, FailureOfTheLastFrameIsToldByFinish) {
+  FrameWriter writer(folder_.path(), 1);
+  std::filesystem::create_directory(folder_.path(frameName(0)));
+  const auto write_and_finish = [&] {
+    writer.write(0, frame(0));
+    writer.finish();
+  };
+  EXPECT_THROW(write_and_finish(), FileError);
+}
+
+TEST_P(FrameWriterThread, FrameHandedOverIsWrittenThoughTheRunIsGivenUp) {
+  FrameWriter(folder_.path(), 1).write(0, frame(0));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path(frameName(0))));
+}
+
+INSTANTIATE_TEST_SUITE_P(SmallAndLarge, FrameWriterThread, testing::Values(3, 2000));
 
 }  // namespace
 }  // namespace spring_pendulum

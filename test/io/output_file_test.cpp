@@ -28,7 +28,7 @@ TEST(OutputFile, IsCompleteHoweverManyRunsWriteIt) {
         file.finish();
         ++written;
       } catch (const FileError& error) {
-        EXPECT_THAT(error.what(), testing::EndsWith("use a different file for each run"));
+        EXPECT_THAT(error.what(), testing::EndsWith("use a different path for each run"));
       }
       const std::string text = readFile(path);  // empty until the first run has finished
       EXPECT_TRUE(text == std::string(text.size(), text[0])) << text;

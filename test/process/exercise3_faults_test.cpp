@@ -87,8 +87,9 @@ TEST_F(Disturbed, ASecondRunWithTheSameEnergyBalanceIsRefused) {
   first.waitForFile(folder_.path(kFrame));
   const Result second = run(exercise3(folder_, {"Euler", "--no-frames", "--energy", "energy.csv"}));
   EXPECT_EQ(second.status, 1);
-  EXPECT_EQ(second.errors, folder_.path("energy.csv") +
-                               ": another run is writing it; use a different file for each run\n");
+  EXPECT_EQ(second.errors,
+            folder_.path("energy.csv") +
+                ": another run is writing here; use a different path for each run\n");
 }
 
 TEST_F(Disturbed, ParticleFileReplacedDuringTheRunDoesNotMatter) {

@@ -86,12 +86,12 @@ class RecordBag(unittest.TestCase):
                 [program('record_bag'), 'Runge-Kutta-4', '--bag', 'run.bag', '--frames', '1000000'],
                 cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             try:
-                wait_until(lambda: os.path.exists(folder + '/run.bag.unfinished'), 'a bag')
+                wait_until(lambda: os.path.exists(folder + '/.run.bag.tmp'), 'a bag')
                 for arguments in ((), ('--append',)):
                     second = record(folder, *arguments)
                     self.assertEqual(second.returncode, 1)
-                    self.assertEqual(second.stderr, folder + '/run.bag: another run is writing it; '
-                                     'use a different file for each run\n')
+                    self.assertEqual(second.stderr, folder + '/run.bag: another run is writing here; '
+                                     'use a different path for each run\n')
                 first.send_signal(signal.SIGINT)
                 output, errors = first.communicate()
                 self.assertEqual(first.returncode, 128 + signal.SIGINT, errors)

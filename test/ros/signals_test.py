@@ -48,7 +48,7 @@ class Signals(unittest.TestCase):
                     [program('record_bag'), 'Runge-Kutta-4', SCENE, '--bag', folder + '/run.bag', *options],
                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 try:
-                    wait_until(lambda: os.path.exists(folder + '/run.bag.unfinished'), 'a bag')
+                    wait_until(lambda: os.path.exists(folder + '/.run.bag.tmp'), 'a bag')
                     before = computing_time(process.pid)
                     ended_before = total_computing_time()
                     process.send_signal(signal.SIGINT)

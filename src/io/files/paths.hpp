@@ -3,6 +3,7 @@
 
 #include <string>
 #include <sys/stat.h>
+#include <vector>
 
 namespace spring_pendulum {
 
@@ -17,7 +18,11 @@ inline bool isSameFile(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// Whether a path leads to the open file or folder `descriptor`.
-bool leadsTo(const std::string& path, int descriptor);
+/// Returns the path behind all symbolic links, whether the file exists or not.
+std::string followLinks(const std::string& path);
+
+/// Returns the names in a folder, in any order.
+/// \throws FileError naming the folder if it can't be read
+std::vector<std::string> namesIn(const std::string& folder);
 
 }  // namespace spring_pendulum

@@ -13,14 +13,8 @@ struct TouchedFiles {
   std::string frame_folder;          ///< files with the name of a frame are replaced or removed
 };
 
-/// An output has this added to its name until it is complete.
-inline constexpr const char* kUnfinished = ".unfinished";
-
-/// Returns the path behind all symbolic links, whether the file exists or not.
-std::string followLinks(const std::string& path);
-
-/// Compares every name that the run writes or removes with all other names, and with the files to
-/// which the standard streams are redirected. Different names of one file count as the same.
+/// Compares outputs and the files to which the standard streams are redirected with each other and with
+/// the inputs, by device and inode.
 /// \throws InputError if an output is an input, another output, or a frame
 /// \throws FileError if an output is also a standard stream
 void checkTouchedFiles(const TouchedFiles& files);

@@ -1,9 +1,9 @@
 #include "io/formats/run_files.hpp"
 
 #include "base/numbers.hpp"
-#include "io/formats/background_frame_writer.hpp"
 #include "io/formats/energy_file.hpp"
 #include "io/formats/state_file.hpp"
+#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ Particles readStart(const Scenario& scenario) {
 struct RunFiles::Files {
   std::optional<EnergyFile> energy;
   std::optional<StateFile> state;
-  std::optional<BackgroundFrameWriter> frames;
+  std::optional<FrameWriter> frames;
   std::int64_t next_frame = 0;
   std::map<std::int64_t, std::int64_t> left_out;  ///< first frame and end of what a jump left out
   bool finished = false;
@@ -104,7 +104,7 @@ std::string RunFiles::description() const {
 
 std::string RunFiles::closingText() const {
   if (!files_->frames) return "";
-  return fmt::format(", {} writing to {}", durationText(files_->frames->secondsWriting()),
+  return fmt::format(", {} writing to {}", durationText(files_->frames->seconds()),
                      files_->frameFolder());
 }
 
