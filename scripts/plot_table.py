@@ -2,7 +2,7 @@
 """Draws the table of a sweep as a PNG: plot_table.py TABLE.csv PICTURE.png --type lines --x KEY --y KEY ...
 
 sweep --plot calls it with the options of the study's entry `plot`; docs/sweep.md explains them. It can also
-draw an existing table again.
+draw an existing table again. With --try, it only finds out whether it could; the table may lack columns.
 """
 import argparse
 import csv
@@ -12,17 +12,26 @@ import os
 import statistics
 import sys
 
-import matplotlib
+try:
+    import matplotlib
+    matplotlib.use('Agg')
+    from matplotlib import pyplot
+    from matplotlib.colors import LogNorm, Normalize
+except ImportError:
+    sys.exit('--plot: needs matplotlib for /usr/bin/python3 (Debian: python3-matplotlib)')
 
-matplotlib.use('Agg')
-from matplotlib import pyplot  # noqa: E402
-from matplotlib.colors import LogNorm, Normalize  # noqa: E402
-
-# Colours that people with any colour vision can tell apart (M. Okabe, K. Ito, 2008), with a marker and a
-# line style each, so that no two of 18 lines look alike.
+# The look of a method in all pictures of the package, each with a colour and a line style of its own.
+METHODS = {
+    'Euler': ('#c1440e', '-'), 'Semi-Implicit-Euler': ('#c1440e', '--'), 'Backward-Euler': ('#c1440e', ':'),
+    'Runge-Kutta-2': ('#b8860b', '-'), 'Velocity-Verlet': ('#b8860b', '--'),
+    'Runge-Kutta-4': ('#1f5fa8', '-'), 'Dormand-Prince-5': ('#1f5fa8', '--'),
+    'Taylor-8': ('#0f8f8f', '-'), 'Taylor-12': ('#0f8f8f', '--'),
+    'Stabilized-Taylor-4': ('#8f5fc4', '--'), 'Stabilized-Taylor-8': ('#8f5fc4', '-'),
+    'Radau-9': ('#8a8a8a', '-'), 'Auto': ('#111111', '-')}
+# Colours that people with any colour vision can tell apart (M. Okabe, K. Ito, 2008), for everything else.
 COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9']
-STYLES = [style for style in itertools.product(['-', '--', ':'], COLORS)]
-MARKERS = 'osD^vP'
+STYLES = [(color, style) for style, color in itertools.product(['-', '--', ':'], COLORS)]
+MARKERS = 'osD^vPX'
 # From harmless to bad.
 VERDICTS = {'ok': '#c6dbef', 'not checked': '#d9d9d9', 'sensitive': '#74c476', 'inaccurate': '#9e9ac8',
             'drift': '#fee391', 'gained energy': '#f98e1b', 'diverged': '#662506'}
@@ -35,6 +44,11 @@ def number(text):
         return math.nan
 
 
+def refuse(what):
+    print('plot: ' + what, file=sys.stderr)
+    sys.exit(2)
+
+
 class Table:
     """The rows of a table as dictionaries; a key is the title of a column without its unit."""
 
@@ -42,7 +56,7 @@ class Table:
         with open(path, newline='') as file:
             titles, *rows = csv.reader(file)
         self.titles = {title.split(' [')[0]: title for title in titles}
-        self.rows = [dict(zip(self.titles, row)) for row in rows]
+        self.rows = [dict(itertools.zip_longest(self.titles, row, fillvalue='nan')) for row in rows]
 
     def values(self, key):
         """The different values of a key in the order of the table; one None without a key."""
@@ -62,7 +76,7 @@ def draw_lines(axes, rows, table, options):
             # What a diverged run measured, it measured until then only.
             if (line is None or row[options.lines] == line) and row.get('verdict') != 'diverged':
                 points.setdefault(number(row[options.x]), []).append(number(row[options.y]))
-        style, color = STYLES[k % len(STYLES)]
+        color, style = METHODS.get(line) or STYLES[k % len(STYLES)]
         x = sorted(v for v in points if math.isfinite(v))
         middle = [statistics.median(points[v]) for v in x]
         axes.plot(x, middle, style, color=color, marker=MARKERS[k % len(MARKERS)], markersize=3.5,
@@ -75,28 +89,29 @@ def borders(values, logarithmic):
     """The borders of the cells around sorted values."""
     at = [math.log10(v) if logarithmic else v for v in values]
     if len(at) == 1:
-        at = [at[0] - 0.5, at[0], at[0] + 0.5]
-    inner = [(a + b) / 2 for a, b in zip(at, at[1:])]
-    if len(values) > 1:
+        inner = [at[0] - 0.25, at[0] + 0.25]
+    else:
+        inner = [(a + b) / 2 for a, b in zip(at, at[1:])]
         inner = [2 * at[0] - inner[0], *inner, 2 * at[-1] - inner[-1]]
     return [10 ** v if logarithmic else v for v in inner]
 
 
 def draw_map(axes, rows, table, options):
-    x = sorted({number(row[options.x]) for row in rows})
-    y = sorted({number(row[options.y]) for row in rows})
+    x = sorted({row[options.x] for row in rows}, key=number)
+    y = sorted({row[options.y] for row in rows}, key=number)
     verdicts = list(VERDICTS)
     cells = [[math.nan] * len(x) for _ in y]
+    drawn = set()
     for row in rows:
+        place = row[options.x], row[options.y]
+        if place in drawn:
+            refuse('several rows have %s = %s and %s = %s; draw them in panels'
+                   % (options.x, place[0], options.y, place[1]))
+        drawn.add(place)
         value = row[options.color]
-        if options.color == 'verdict':
-            value = verdicts.index(value)
-        line, column = y.index(number(row[options.y])), x.index(number(row[options.x]))
-        if not math.isnan(cells[line][column]):
-            sys.exit('plot_table.py: several rows have %s = %s and %s = %s: draw them in --panels'
-                     % (options.x, row[options.x], options.y, row[options.y]))
-        cells[line][column] = number(value)
-    places = borders(x, 'x' in options.log), borders(y, 'y' in options.log)
+        cells[y.index(place[1])][x.index(place[0])] = (
+            verdicts.index(value) if value in verdicts else number(value))
+    places = borders(map(number, x), 'x' in options.log), borders(map(number, y), 'y' in options.log)
     if options.color == 'verdict':
         colors = matplotlib.colors.ListedColormap(list(VERDICTS.values()))
         axes.pcolormesh(*places, cells, cmap=colors, vmin=-0.5, vmax=len(verdicts) - 0.5)
@@ -153,6 +168,8 @@ def draw(table, options):
         height = 0.28 * -(-len(legend) // 4) / size[1]
         figure.legend(legend.values(), legend.keys(), loc='lower center', ncol=4, fontsize=8)
     figure.tight_layout(rect=(0, height, 1, 1))
+    if options.only_try:
+        return
     # Whole or absent, as all outputs.
     unfinished = options.picture + '.unfinished'
     try:
@@ -164,17 +181,30 @@ def draw(table, options):
         sys.exit('%s: could not be drawn: %s' % (options.picture, error.strerror))
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        refuse(message)
+
+
 def main():
-    if sys.argv[1:] == ['--test']:
-        return
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = Parser(description=__doc__)
     parser.add_argument('table')
     parser.add_argument('picture')
-    parser.add_argument('--type', choices=['lines', 'map', 'histogram'], default='lines')
-    for key in ('x', 'y', 'color', 'lines', 'panels', 'limit', 'title', 'log'):
+    parser.add_argument('--try', dest='only_try', action='store_true', help='write nothing')
+    parser.add_argument('--type', choices=['lines', 'map', 'histogram'], required=True)
+    for key in ('x', 'y', 'color', 'lines', 'panels', 'limit', 'title'):
         parser.add_argument('--' + key, default='')
+    parser.add_argument('--log', choices=['x', 'y', 'xy'], default='')
     options = parser.parse_args()
-    draw(Table(options.table), options)
+    table = Table(options.table)
+    for key in {'lines': ['x', 'y'], 'map': ['x', 'y', 'color'], 'histogram': ['x']}[options.type]:
+        if not getattr(options, key):
+            refuse('%s needs %s' % (options.type, key))
+    for key in ('x', 'y', 'color', 'lines', 'panels', 'limit'):
+        if getattr(options, key) not in ('', *table.titles):
+            refuse("%s: unknown axis or column '%s'; known are %s"
+                   % (key, getattr(options, key), ', '.join(list(table.titles)[1:])))
+    draw(table, options)
 
 
 if __name__ == '__main__':

@@ -5,8 +5,8 @@
 #include <spring_pendulum/base/errors.hpp>
 
 #include "sweep/command_line.hpp"
-#include "sweep/running/sweep_run.hpp"
 #include "sweep/single_case.hpp"
+#include "sweep/sweep_run.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {
@@ -30,8 +30,11 @@ int runCommandLine(const CommandLine& line, CaseCounter& counter) {
   }
   const Study study = readStudy(line.study);
   checkFiles(line, study);
-  if (line.only_case >= 0) return runSingleCase(study, line.only_case, line.options.output);
-  if (line.options.plot && study.plot.type == PlotOptions::Type::kNone) {
+  if (line.only_case >= 0) {
+    printCase(study, line.only_case, line.options.output);
+    return kDone;
+  }
+  if (line.options.plot && study.plot.empty()) {
     throw InputError("--plot: the study has no entry plot");
   }
   return runSweep(study, line.options, counter);

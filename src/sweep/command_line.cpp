@@ -14,7 +14,7 @@
 #include <set>
 #include <sstream>
 
-#include "sweep/study/columns.hpp"
+#include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {
@@ -29,7 +29,7 @@ po::options_description describe() {
     description.add_options()(name, po::value<std::string>()->value_name(placeholder), help);
   };
   add("output,o", "FILE", "table of all cases [STUDY.csv]; with --case a folder for its frames");
-  add("case", "N", "print case N as a command line of Exercise3; with --output, run it");
+  add("case", "N", "print case N as a command line of Exercise3");
   add("threads", "N", "number of threads; the table does not depend on it [one per core]");
   add("shard", "I/N", "run only part I of N, counted from 1; the last part writes the table");
   description.add_options()("plot", "draw the table as PNG with matplotlib")(

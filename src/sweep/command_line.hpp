@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sweep/running/sweep_run.hpp"
+#include "sweep/sweep_run.hpp"
 
 namespace spring_pendulum::sweep {
 

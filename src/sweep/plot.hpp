@@ -7,11 +7,11 @@
 
 namespace spring_pendulum::sweep {
 
-/// \throws FileError if the script, Python or matplotlib is missing
-void requirePlotter();
-
-/// Draws a table. The script gets the plot options as arguments: no text of a study is ever a command.
-/// \throws FileError if it fails
-void drawPlot(const Study& study, const std::string& table, const std::string& picture);
+/// Draws a table. The script gets the plot entries as arguments: no text of a study is ever a command.
+/// \param only_try find out whether the table, which may lack columns, can be drawn
+/// \returns the exit status of the script, which prints what is wrong
+/// \throws FileError if there is no Python
+int drawPlot(const Study& study, const std::string& table, const std::string& picture,
+             bool only_try);
 
 }  // namespace spring_pendulum::sweep

@@ -2,10 +2,6 @@
 
 #include "base/numbers.hpp"
 #include "io/files/output_file.hpp"
-#include "io/formats/run_files.hpp"
-#include "io/program/closing.hpp"
-#include "io/program/exit_status.hpp"
-#include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
@@ -14,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 namespace spring_pendulum::sweep {
 namespace {
@@ -68,37 +63,25 @@ std::string particlesPath(const std::string& folder, std::int64_t index) {
   return fmt::format("{}/case_{}.txt", folder, index);
 }
 
-int runSingleCase(const Study& study, std::int64_t index, const std::string& folder) {
+void printCase(const Study& study, std::int64_t index, const std::string& folder) {
   if (index >= study.cases()) {
     throw InputError(fmt::format("--case: must be from 0 to {}, got {}", study.cases() - 1, index));
   }
-  CaseMaker maker(study);
-  const Case& made = maker.make(index);
-  Scenario scenario = made.settings.scenario;
-  const bool has_own_particles = study.changesParticles(made.settings);
-  if (has_own_particles && folder.empty()) {
-    throw InputError(
-        fmt::format("--case: case {} has particles that are in no file; give a folder for "
-                    "them with --output",
-                    index));
-  }
+  Case made = caseOf(study, index);
+  Scenario& scenario = made.settings.scenario;
   if (!folder.empty()) scenario.output = folder;
   const Run checked(scenario, made.particles);  // before anything is written
-  if (has_own_particles) {
+  if (study.changesParticles(made.settings)) {
+    if (folder.empty()) {
+      throw InputError(
+          fmt::format("--case: case {} has particles that are in no file; give a folder for "
+                      "them with --output",
+                      index));
+    }
     scenario.particles = particlesPath(folder, index);
     writeParticles(made.particles, scenario.particles);
   }
   printOutput(commandLine(scenario));
-  if (folder.empty()) return kDone;
-  Run run(scenario, made.particles, {false, 0.0, interruption});
-  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
-  catchInterruptions();
-  printError(remarksOn(run));
-  RunFiles files(run);
-  while (run.advance(*integrator)) files.write(run);
-  files.finish();
-  printClosingLine(run.closingLine(*integrator, files.closingText()));
-  return spring_pendulum::conclude(run);
 }
 
 }  // namespace spring_pendulum::sweep

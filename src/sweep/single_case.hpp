@@ -8,13 +8,12 @@
 
 namespace spring_pendulum::sweep {
 
-/// Returns the particle file that `runSingleCase` writes for a case whose particles are in no file.
+/// Returns the particle file that `printCase` writes for a case whose particles are in no file.
 std::string particlesPath(const std::string& folder, std::int64_t index);
 
-/// Prints a case as a command line of Exercise3 and, if there is a folder, runs it.
+/// Prints a case as a command line of Exercise3.
 /// \param folder for the frames, and for particles that are in no file; empty: none
-/// \returns the exit status, as that of Exercise3
 /// \throws InputError also if there is no such case
-int runSingleCase(const Study& study, std::int64_t index, const std::string& folder);
+void printCase(const Study& study, std::int64_t index, const std::string& folder);
 
 }  // namespace spring_pendulum::sweep

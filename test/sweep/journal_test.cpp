@@ -1,8 +1,7 @@
-#include "sweep/running/journal.hpp"
+#include "sweep/journal.hpp"
 
 #include <spring_pendulum/base/errors.hpp>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,63 +17,65 @@ using Rows = std::map<std::int64_t, std::string>;
 
 constexpr std::uint64_t kStudy = 0x1234;
 
-/// Writes two cases. \returns the path of the journal
-std::string writeJournal(const std::string& folder) {
-  Journals journals(folder, kStudy);
-  journals.start();
-  journals.append(7, ",ok,0.25");
-  journals.append(4711, ",not checked,nan");
-  return folder + "/1.journal";
-}
+class JournalOfTwoCases : public testing::Test {
+ protected:
+  JournalOfTwoCases() : path_(folder_.path("journal")) {
+    Journal journal(path_, kStudy);
+    journal.append(7, ",ok,0.25");
+    journal.append(4711, ",not checked,nan");
+  }
 
-Rows rowsIn(const std::string& folder, std::uint64_t study = kStudy) {
-  Rows rows;
-  Journals(folder, study).read([&](std::int64_t index, std::string_view text) {
-    rows[index] = text;
-  });
-  return rows;
-}
+  static Rows rowsIn(const Journal& journal) {
+    Rows rows;
+    journal.read([&](std::int64_t index, std::string_view text) { rows[index] = text; });
+    return rows;
+  }
 
-TEST(Journals, KeepCasesOfAllProcesses) {
-  const TemporaryFolder folder;
-  EXPECT_TRUE(rowsIn(folder.path("absent")).empty());
-  writeJournal(folder.path());
-  Journals second(folder.path(), kStudy);
-  second.start();
+  TemporaryFolder folder_;
+  std::string path_;
+};
+
+TEST_F(JournalOfTwoCases, KeepsCasesOfAllProcesses) {
+  Journal first(path_, kStudy);
+  Journal second(path_, kStudy);
   second.append(8, ",diverged,1");
-  EXPECT_EQ(rowsIn(folder.path()),
-            (Rows{{7, ",ok,0.25"}, {8, ",diverged,1"}, {4711, ",not checked,nan"}}));
+  first.append(9, ",ok,2");
+  EXPECT_EQ(rowsIn(first),
+            (Rows{{7, ",ok,0.25"}, {8, ",diverged,1"}, {9, ",ok,2"}, {4711, ",not checked,nan"}}));
 }
 
-TEST(Journals, DropEveryTornEnd) {
-  const TemporaryFolder folder;
-  const std::string path = writeJournal(folder.path());
-  const std::string whole = readFile(path);
+// Also if another process dies while this one works.
+TEST_F(JournalOfTwoCases, DropsEveryTornEnd) {
+  const std::string whole = readFile(path_);
   const std::size_t first_end = whole.find("\n4711") + 1;
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    folder.write("1.journal", whole.substr(0, size));
+    folder_.write("journal", whole.substr(0, size));
+    Journal journal(path_, kStudy);
     const Rows expected = size < first_end ? Rows{} : Rows{{7, ",ok,0.25"}};
-    EXPECT_EQ(rowsIn(folder.path()), expected) << size;
+    EXPECT_EQ(rowsIn(journal), expected) << size;
+    journal.append(4711, ",not checked,nan");
+    folder_.write("journal", whole.substr(0, whole.size() - 5));
+    journal.append(4711, ",not checked,nan");
+    EXPECT_EQ(readFile(path_), whole) << size;
   }
 }
 
-TEST(Journals, RefuseAnotherStudy) {
-  const TemporaryFolder folder;
-  writeJournal(folder.path());
+TEST_F(JournalOfTwoCases, RefusesAnotherStudy) {
   try {
-    rowsIn(folder.path(), kStudy + 1);
+    const Journal other(path_, kStudy + 1);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("is the journal of another study or version"));
   }
 }
 
-TEST(Journals, AreRemovedWithTheirFolder) {
-  const TemporaryFolder folder;
-  const std::string path = folder.path("a/b");
-  writeJournal(path);
-  Journals(path, kStudy).remove();
-  EXPECT_FALSE(std::filesystem::exists(path));
+TEST_F(JournalOfTwoCases, KnowsThatItWasRemoved) {
+  Journal first(path_, kStudy);
+  Journal second(path_, kStudy);
+  EXPECT_TRUE(first.lock());
+  first.remove();
+  first.unlock();
+  EXPECT_FALSE(second.lock());
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ constexpr std::uint32_t kMass = 0;
 constexpr std::uint32_t kDisplacement = 1;
 constexpr std::uint32_t kVelocity = 2;
 
+constexpr double kMostStepsPerFrame = 1e6;
+
 /// Options that belong to a single run, not to a case.
 constexpr std::string_view kOfOneRun[] = {"resume", "output",     "no_frames",
                                           "energy", "save_state", "threads"};
@@ -40,49 +42,78 @@ double draw(const Distribution& distribution, RandomNumbers& numbers) {
     case Distribution::Kind::kNone:
       break;
   }
-  return 0.0;
+  return a;
 }
 
-void add(const Distribution& distribution, RandomNumbers numbers, double& x, double& y) {
-  if (distribution.kind == Distribution::Kind::kNone) return;
-  x += draw(distribution, numbers);
-  y += draw(distribution, numbers);
+/// The least whole number of parts, so that none is longer than wanted.
+double partsOf(double whole, double wanted) {
+  return std::max(1.0, std::ceil(whole / wanted - 1e-9));
 }
 
-/// Steps, or intervals between frames, that end at a time.
-struct Division {
-  double length;  ///< s
-  double number;
-};
-
-/// Divides a duration into lengths that are as long as wanted, or else the next shorter ones.
-Division divide(double duration, double wanted) {
-  const double number = std::max(1.0, std::ceil(duration / wanted - 1e-9));
-  const bool fits = std::abs(number * wanted - duration) <= 1e-9 * duration;
-  return {fits ? wanted : duration / number, number};
+bool isSame(double duration, double other) {
+  return std::abs(other - duration) <= 1e-9 * duration;
 }
 
-/// As many steps as fit into a frame if such frames end at the duration, else the next smaller power of 2.
-double stepsPerFrame(const Settings& settings, double time_step) {
-  const double frame = std::min(settings.scenario.frame_interval, settings.duration);
-  const double most = std::max(1.0, std::floor(frame / time_step + 1e-9));
-  if (divide(settings.duration, most * time_step).length == most * time_step) return most;
-  double power = 1.0;
-  while (2.0 * power <= most) power *= 2.0;
-  return power;
+/// Sets frames that end at the duration.
+void setFrames(Settings& settings) {
+  Scenario& scenario = settings.scenario;
+  const double duration = settings.duration;
+  if (duration == 0.0) return;
+  double frames = partsOf(duration, scenario.frame_interval);
+  if (scenario.method.get().hasFixedStep()) {
+    const double fitted = fittedTimeStep(settings, scenario.time_step);
+    if (fitted != scenario.time_step) {
+      throw InputError(
+          fmt::format("time_step: whole steps must end at the duration, {} s, got {} s; try {}",
+                      numberText(duration), numberText(scenario.time_step), numberText(fitted)));
+    }
+    const double steps = std::round(duration / fitted);
+    double per_frame = std::floor(scenario.frame_interval / fitted + 1e-9);
+    per_frame = std::clamp(per_frame, 1.0, std::min(steps, kMostStepsPerFrame));
+    while (std::fmod(steps, per_frame) != 0.0) --per_frame;
+    scenario.steps_per_frame = static_cast<std::int64_t>(per_frame);
+    frames = steps / per_frame;
+  } else if (!isSame(duration, frames * scenario.frame_interval)) {
+    scenario.frame_interval = duration / frames;
+  }
+  // More frames than 64 bits can count are refused with the other options.
+  scenario.frames = static_cast<std::int64_t>(std::min(frames + 1.0, 9e18));
+}
+
+/// Sets the particles of the file, changed by the factors and random numbers of a case.
+void setParticles(const Study& study, Case& made) {
+  made.particles = study.particles.at(made.settings.scenario.particles);
+  if (!study.changesParticles(made.settings)) return;
+  State& state = made.particles.state;
+  for (Eigen::Index i = 1; i < state.size(); ++i) {  // the mass of the fixed particle is not used
+    const auto numbers_of = [&](std::uint32_t quantity) {
+      return RandomNumbers(static_cast<std::uint64_t>(study.seed),
+                           static_cast<std::uint64_t>(made.sample), static_cast<std::uint32_t>(i),
+                           quantity);
+    };
+    RandomNumbers of_mass = numbers_of(kMass), of_position = numbers_of(kDisplacement),
+                  of_velocity = numbers_of(kVelocity);
+    double& mass = made.particles.masses[i];
+    mass *= made.settings.mass_factor;
+    mass *= draw(study.mass_factor, of_mass);
+    if (!std::isfinite(mass) || mass <= 0.0) {
+      throw InputError(fmt::format("particle {}: mass must be positive and finite, got {}", i + 1,
+                                   numberText(mass)));
+    }
+    state.x()[i] += draw(study.displacement, of_position);
+    state.y()[i] += draw(study.displacement, of_position);
+    state.vx()[i] += draw(study.velocity, of_velocity);
+    state.vy()[i] += draw(study.velocity, of_velocity);
+  }
 }
 
 }  // namespace
 
-// A shorter step may have room for more in a frame.
 double fittedTimeStep(const Settings& settings, double time_step) {
-  for (double longer = 0.0; longer != time_step;) {
-    longer = time_step;
-    const double steps = stepsPerFrame(settings, longer);
-    const double frame = divide(settings.duration, steps * longer).length;
-    if (frame != steps * longer) time_step = frame / steps;
-  }
-  return time_step;
+  const double duration = settings.duration;
+  if (isSame(duration, std::round(duration / time_step) * time_step)) return time_step;
+  const double frames = partsOf(duration, std::max(settings.scenario.frame_interval, time_step));
+  return duration / (frames * partsOf(duration / frames, time_step));
 }
 
 std::vector<Option> caseOptions(Settings& s) {
@@ -124,71 +155,17 @@ bool Study::changesParticles(const Settings& settings) const {
          velocity.kind != Distribution::Kind::kNone;
 }
 
-CaseMaker::CaseMaker(const Study& study) : study_(study), options_(caseOptions(case_.settings)) {
-  for (const Axis& axis : study.axes) {
-    varied_.push_back(&*std::find_if(options_.begin(), options_.end(),
-                                     [&](const Option& option) { return option.key == axis.key; }));
+Case caseOf(const Study& study, std::int64_t index) {
+  const Place place = study.placeOf(index);
+  Case made{place.sample, study.base, {}};
+  const OptionSet options(caseOptions(made.settings));
+  for (std::size_t i = 0; i < study.axes.size(); ++i) {
+    const Axis& axis = study.axes[i];
+    options.find(axis.key, "").assign(axis.values[place.values[i]]);
   }
-}
-
-const Case& CaseMaker::make(std::int64_t index) {
-  case_.settings = study_.base;
-  case_.index = index;
-  const Place place = study_.placeOf(index);
-  case_.sample = place.sample;
-  for (std::size_t i = 0; i < varied_.size(); ++i) {
-    varied_[i]->assign(study_.axes[i].values[place.values[i]]);
-  }
-  setFrames();
-  setParticles();
-  return case_;
-}
-
-void CaseMaker::setFrames() {
-  Scenario& scenario = case_.settings.scenario;
-  const double duration = case_.settings.duration;
-  if (duration == 0.0) return;
-  double frame = scenario.frame_interval;
-  if (scenario.method.get().hasFixedStep()) {
-    const double fitted = fittedTimeStep(case_.settings, scenario.time_step);
-    if (fitted != scenario.time_step) {
-      throw InputError(
-          fmt::format("time_step: whole steps must end at the duration, {} s, got {} s; "
-                      "try {}",
-                      numberText(duration), numberText(scenario.time_step), numberText(fitted)));
-    }
-    const double steps = stepsPerFrame(case_.settings, fitted);
-    frame = steps * fitted;
-    // Longer frames than 64 bits can count are refused with the other options.
-    scenario.steps_per_frame = static_cast<std::int64_t>(std::min(steps, 9e18));
-  }
-  const Division frames = divide(duration, frame);
-  scenario.frame_interval = frames.length;
-  scenario.frames = static_cast<std::int64_t>(std::min(frames.number + 1.0, 9e18));
-}
-
-void CaseMaker::setParticles() {
-  case_.particles = study_.particles.at(case_.settings.scenario.particles);
-  if (!study_.changesParticles(case_.settings)) return;
-  State& state = case_.particles.state;
-  const auto sample = static_cast<std::uint64_t>(case_.sample);
-  for (Eigen::Index i = 1; i < state.size(); ++i) {  // the mass of the fixed particle is not used
-    const auto numbers_of = [&](std::uint32_t quantity) {
-      return RandomNumbers(study_.seed, sample, static_cast<std::uint32_t>(i), quantity);
-    };
-    double& mass = case_.particles.masses[i];
-    mass *= case_.settings.mass_factor;
-    if (study_.mass_factor.kind != Distribution::Kind::kNone) {
-      RandomNumbers numbers = numbers_of(kMass);
-      mass *= draw(study_.mass_factor, numbers);
-    }
-    if (!std::isfinite(mass) || mass <= 0.0) {
-      throw InputError(fmt::format("particle {}: mass must be positive and finite, got {}", i + 1,
-                                   numberText(mass)));
-    }
-    add(study_.displacement, numbers_of(kDisplacement), state.x()[i], state.y()[i]);
-    add(study_.velocity, numbers_of(kVelocity), state.vx()[i], state.vy()[i]);
-  }
+  setFrames(made.settings);
+  setParticles(study, made);
+  return made;
 }
 
 }  // namespace spring_pendulum::sweep

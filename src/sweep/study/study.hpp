@@ -16,6 +16,8 @@
 
 namespace spring_pendulum::sweep {
 
+struct Column;
+
 constexpr double kMostCases = 1e9;
 
 /// What a case has besides the options of a run.
@@ -27,7 +29,8 @@ struct Settings {
   double mass_factor = 1.0;  ///< for all masses
 };
 
-/// Returns the longest time step of at most `time_step` s with which whole frames end at the duration.
+/// Returns a time step of at most `time_step` s with which whole steps end at the duration: this one if
+/// possible.
 double fittedTimeStep(const Settings& settings, double time_step);
 
 /// The options of a case, bound to `settings`.
@@ -36,28 +39,15 @@ std::vector<Option> caseOptions(Settings& settings);
 struct Distribution {
   enum class Kind { kNone, kUniform, kLogUniform, kNormal, kLogNormal };
   Kind kind = Kind::kNone;
-  double first = 0.0;   ///< least value, mean or median
+  double first = 0.0;   ///< least value, mean or median; without a distribution, the only value
   double second = 0.0;  ///< most value, or standard deviation (of the logarithm)
 };
 
 struct Axis {
   std::string key;
-  std::string title;                ///< key and unit: "time_step [s]"
+  std::string unit;
   std::vector<std::string> values;  ///< as Exercise3 takes them
   bool is_joined = false;           ///< to the axis before: both take their n-th value at once
-};
-
-/// How --plot draws the table. All but `type` are titles of axes and columns without units.
-struct PlotOptions {
-  enum class Type { kNone, kMap, kLines, kHistogram };
-  Type type = Type::kNone;
-  std::string x, y;
-  std::string color;   ///< of a map
-  std::string lines;   ///< one line for each value of this axis
-  std::string panels;  ///< one panel for each value of this axis
-  std::string limit;   ///< drawn as a line over a map
-  std::string title;
-  bool log_x = false, log_y = false;
 };
 
 /// Where a case is in a study.
@@ -70,13 +60,13 @@ struct Study {
   std::string name;  ///< of the file, without folder and extension
   Settings base;
   std::vector<Axis> axes;
-  std::uint64_t seed = 0;
-  std::int64_t samples = 0;   ///< 0: nothing is random
-  Distribution mass_factor;   ///< of each particle
-  Distribution displacement;  ///< of each particle in x and in y, m
-  Distribution velocity;      ///< added to that of each particle in x and in y, m/s
-  std::vector<std::string> columns;
-  PlotOptions plot;
+  std::int64_t seed = 0;
+  std::int64_t samples = 0;                                  ///< 0: nothing is random
+  Distribution mass_factor{Distribution::Kind::kNone, 1.0};  ///< of each particle
+  Distribution displacement;                                 ///< of each particle in x and in y, m
+  Distribution velocity;  ///< added to that of each particle in x and in y, m/s
+  std::vector<const Column*> columns;
+  std::vector<std::string> plot;               ///< arguments of the script that draws the table
   std::map<std::string, Particles> particles;  ///< content of each particle file
   std::uint64_t hash = 0;                      ///< of the study and its particle files
 
@@ -92,33 +82,14 @@ Study readStudy(const std::string& path);
 
 /// One case of a study.
 struct Case {
-  std::int64_t index = 0;
   std::int64_t sample = 0;
   Settings settings;
   Particles particles;
 };
 
-/// Makes cases; one object for each thread.
-class CaseMaker {
- public:
-  /// \param study must outlive this object
-  explicit CaseMaker(const Study& study);
-  CaseMaker(const CaseMaker&) = delete;
-  CaseMaker& operator=(const CaseMaker&) = delete;
-
-  /// Returns case 0 <= index < study.cases(), valid until the next call.
-  /// \throws InputError for a mass out of range and a time step that does not end at the duration; `Run`
-  /// checks the scenario
-  const Case& make(std::int64_t index);
-
- private:
-  void setFrames();
-  void setParticles();
-
-  const Study& study_;
-  Case case_;
-  std::vector<Option> options_;        ///< bound to `case_`
-  std::vector<const Option*> varied_;  ///< for each axis
-};
+/// Returns case 0 <= index < study.cases().
+/// \throws InputError for a mass out of range and a time step that does not end at the duration; `Run`
+/// checks the scenario
+Case caseOf(const Study& study, std::int64_t index);
 
 }  // namespace spring_pendulum::sweep

@@ -1,4 +1,4 @@
-#include "sweep/running/case_counter.hpp"
+#include "sweep/case_counter.hpp"
 
 #include "io/program/command_line.hpp"
 #include <spring_pendulum/base/errors.hpp>
@@ -43,10 +43,7 @@ CaseCounter::CaseCounter() {
   mpi_ = std::make_unique<Mpi>();
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &size_);
-  MPI_Comm machine = MPI_COMM_NULL;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-  MPI_Comm_size(machine, &on_this_machine_);
-  MPI_Comm_free(&machine);
+  if (size_ == 1) refuseSeveralRanks("start them with mpirun or srun --mpi=pmix, or use --shard");
 }
 
 std::int64_t CaseCounter::next() {

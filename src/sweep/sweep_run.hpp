@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sweep/running/case_counter.hpp"
+#include "sweep/case_counter.hpp"
 #include "sweep/study/study.hpp"
 
 namespace spring_pendulum::sweep {
@@ -22,9 +22,9 @@ std::string picturePath(const std::string& output);
 
 /// Makes a Run of each case, which checks its input.
 /// \throws InputError naming the first case with bad input
-void checkCases(const Study& study, int threads);
+void checkCases(const Study& study, std::int64_t threads);
 
-/// Runs all cases that no journal holds and, if none is left to other shards, writes the table.
+/// Runs all cases that are not in the journal and, if none is left to other shards, writes the table.
 /// \returns the exit status; 0 also if cases diverged
 int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter);
 

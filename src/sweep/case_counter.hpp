@@ -12,7 +12,8 @@ namespace spring_pendulum::sweep {
 class CaseCounter {
  public:
   /// Starts MPI if the program was started as one of several processes. All ranks construct one.
-  /// \throws InputError if it was but is built without MPI, or MPI does not support threads
+  /// \throws InputError if it was but is built without MPI, MPI does not know the others, or it does
+  ///   not support threads
   CaseCounter();
   ~CaseCounter();
   CaseCounter(const CaseCounter&) = delete;
@@ -20,7 +21,6 @@ class CaseCounter {
 
   int rank() const { return rank_; }
   int size() const { return size_; }
-  int ranksOnThisMachine() const { return on_this_machine_; }
 
   /// Returns 0, 1, 2, ...: each number once.
   std::int64_t next();
@@ -37,7 +37,6 @@ class CaseCounter {
   std::unique_ptr<Mpi> mpi_;  ///< null: one process
   int rank_ = 0;
   int size_ = 1;
-  int on_this_machine_ = 1;
   std::mutex mutex_;  ///< MPI is called by one thread at a time
   std::atomic<std::int64_t> next_{0};
 };

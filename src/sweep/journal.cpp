@@ -1,0 +1,106 @@
+#include "sweep/journal.hpp"
+
+#include "base/numbers.hpp"
+#include "io/files/paths.hpp"
+#include "io/files/text_file.hpp"
+#include <spring_pendulum/base/errors.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <optional>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace spring_pendulum::sweep {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path) {
+  throw FileError(fmt::format("{}: could not be written: {}", fullPath(path), messageForErrno()));
+}
+
+}  // namespace
+
+Journal::Journal(std::string path, std::uint64_t hash)
+    : path_(std::move(path)),
+      head_(fmt::format("spring_pendulum " SPRING_PENDULUM_VERSION " sweep {:016x}\n", hash)) {
+  do {
+    // A lock on NFS needs a file that is open for writing.
+    file_ = FileDescriptor(
+        ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666));
+    if (!file_.isOpen()) refuse(path_);
+  } while (!lock());
+  cutTornLine();
+  const std::string text = readTextFile(path_);
+  if (text.empty()) write(head_);
+  if (!text.empty() && text.compare(0, head_.size(), head_) != 0) {
+    throw InputError(fmt::format(
+        "{}: is the journal of another study or version; remove it to start anew, or give another "
+        "--output",
+        fullPath(path_)));
+  }
+  unlock();
+}
+
+void Journal::read(
+    const std::function<void(std::int64_t index, std::string_view text)>& take) const {
+  const std::string file = readTextFile(path_);
+  const std::string_view text(file);
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string_view::npos;
+       begin = end + 1) {
+    const std::string_view line = text.substr(begin, end - begin);
+    const std::size_t comma = std::min(line.find(','), line.size());
+    const std::optional<std::int64_t> index = parseInteger(line.substr(0, comma));
+    if (index) take(*index, line.substr(comma));
+  }
+}
+
+void Journal::append(std::int64_t index, std::string_view text) {
+  lock();
+  cutTornLine();
+  write(fmt::format("{}{}\n", index, text));
+  unlock();
+}
+
+bool Journal::lock() {
+  // Where a file system has no locks, appending one line is still one call.
+  while (::flock(file_.get(), LOCK_EX) != 0 && errno == EINTR) {
+  }
+  struct stat named {};
+  struct stat opened {};
+  return ::stat(path_.c_str(), &named) == 0 && ::fstat(file_.get(), &opened) == 0 &&
+         named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
+}
+
+void Journal::unlock() {
+  ::flock(file_.get(), LOCK_UN);
+}
+
+void Journal::remove() {
+  ::unlink(path_.c_str());
+}
+
+void Journal::cutTornLine() {
+  off_t size = ::lseek(file_.get(), 0, SEEK_END);
+  for (char last = 0; size > 0; --size) {
+    if (::pread(file_.get(), &last, 1, size - 1) != 1 || last == '\n') break;
+  }
+  if (size < ::lseek(file_.get(), 0, SEEK_END) && ::ftruncate(file_.get(), size) != 0) {
+    refuse(path_);
+  }
+}
+
+void Journal::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(file_.get(), text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse(path_);
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace spring_pendulum::sweep

@@ -1,0 +1,47 @@
+// The finished cases of a sweep, on disk as soon as they are finished.
+//
+// All processes that work on a table append to one file beside it, each time under the lock of the file.
+// The first line names the study and the version; each other line is a case. A kill can only tear the
+// last line, which is cut off before anything is appended.
+#pragma once
+
+#include "io/files/file_descriptor.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace spring_pendulum::sweep {
+
+class Journal {
+ public:
+  /// Opens the file, or creates it.
+  /// \param hash of the study
+  /// \throws FileError, and InputError for a journal of another study or version
+  Journal(std::string path, std::uint64_t hash);
+
+  /// Passes all finished cases to `take`, in any order. \throws FileError
+  void read(const std::function<void(std::int64_t index, std::string_view text)>& take) const;
+  /// Appends a case. \throws FileError
+  void append(std::int64_t index, std::string_view text);
+
+  /// Keeps other processes from this file until `unlock` or the end.
+  /// \returns false if the file was removed meanwhile: another process has written the table
+  bool lock();
+  void unlock();
+  /// Removes the file.
+  void remove();
+
+  const std::string& path() const { return path_; }
+
+ private:
+  void cutTornLine();
+  void write(std::string_view text);
+
+  std::string path_;
+  std::string head_;
+  FileDescriptor file_;
+};
+
+}  // namespace spring_pendulum::sweep

@@ -1,0 +1,252 @@
+#include "sweep/sweep_run.hpp"
+
+#include "base/numbers.hpp"
+#include "io/files/output_file.hpp"
+#include "io/program/exit_status.hpp"
+#include "io/program/interruption.hpp"
+#include "io/program/progress.hpp"
+#include "io/program/standard_streams.hpp"
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <future>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "sweep/journal.hpp"
+#include "sweep/plot.hpp"
+#include "sweep/table.hpp"
+
+namespace spring_pendulum::sweep {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{1};  // for requests of other ranks
+constexpr std::size_t kFlushedText = 1 << 16;
+
+/// A loop over cases on several threads.
+struct Loop {
+  std::function<std::int64_t()> next;  ///< the next case, or one beyond the last
+  /// Works on a case; `stop` tells whether to break off.
+  std::function<void(std::int64_t index, const Case& a_case, const std::function<bool()>& stop)>
+      work;
+  std::function<void()> meanwhile;  ///< called all the time by the thread that has started the loop
+};
+
+/// Runs a loop on as many threads as the system grants.
+/// \throws InputError or std::runtime_error for the first case that fails
+void run(const Loop& loop, const Study& study, std::int64_t threads) {
+  std::mutex mutex;
+  std::map<std::int64_t, Failure> failures;
+  std::atomic<bool> failed{false};
+  const auto stop = [&] { return failed || interruption() != 0; };
+  const auto work = [&] {
+    for (std::int64_t i = 0; !stop() && (i = loop.next()) < study.cases();) {
+      try {
+        loop.work(i, caseOf(study, i), stop);
+      } catch (const std::exception& error) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        failures.emplace(i, failureOf(error));
+        failed = true;
+      }
+    }
+  };
+  std::vector<std::future<void>> workers;
+  try {
+    while (workers.size() < static_cast<std::size_t>(threads)) {
+      workers.push_back(std::async(std::launch::async, work));
+    }
+  } catch (const std::system_error&) {  // the system refuses more threads
+    if (workers.empty()) work();
+  }
+  for (const std::future<void>& worker : workers) {
+    while (worker.wait_for(kLook) != std::future_status::ready) loop.meanwhile();
+  }
+  if (failures.empty()) return;
+  const auto& [index, failure] = *failures.begin();
+  const std::string message = fmt::format("case {}: {}", index, failure.message);
+  if (failure.status == kBadInput) throw InputError(message);
+  throw std::runtime_error(message);
+}
+
+class Sweep {
+ public:
+  Sweep(const Study& study, const SweepOptions& options, CaseCounter& counter)
+      : study_(study),
+        options_(options),
+        counter_(counter),
+        threads_(options.threads > 0
+                     ? options.threads
+                     : std::max<std::int64_t>(1, std::thread::hardware_concurrency())),
+        rows_(static_cast<std::size_t>(study.cases())) {}
+
+  /// Finds out before the first case what would prevent the last line of the table, and the picture.
+  /// \returns the exit status
+  int prepare() {
+    checkCases(study_, threads_);
+    if (options_.shards > 1 && std::filesystem::exists(options_.output)) {
+      throw InputError(options_.output + ": exists; remove it to run its shards anew");
+    }
+    if (counter_.rank() == 0) {
+      const int status = tryOutputs();
+      if (status != kDone) return status;
+    }
+    journal_.emplace(options_.output + ".journal", study_.hash);
+    readJournal();
+    return kDone;
+  }
+
+  /// Runs the cases that are not done.
+  void work() {
+    Progress progress(study_.cases(), "cases");
+    std::atomic<std::int64_t> reached{0};
+    Loop loop;
+    loop.next = [&] {
+      std::int64_t index = 0;
+      do {  // a shard takes every n-th case
+        index = counter_.next() * options_.shards + options_.shard - 1;
+      } while (index < study_.cases() && !rows_[static_cast<std::size_t>(index)].empty());
+      reached = index;
+      return index;
+    };
+    loop.work = [&](std::int64_t index, const Case& a_case, const std::function<bool()>& stop) {
+      std::optional<std::string> text = runCase(study_, a_case, stop);
+      if (!text) return;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      journal_->append(index, *text);
+      rows_[static_cast<std::size_t>(index)] = std::move(*text);
+    };
+    loop.meanwhile = [&] {
+      counter_.poll();
+      if (counter_.rank() == 0) progress.show(std::min<std::int64_t>(reached, study_.cases()));
+    };
+    run(loop, study_, threads_);
+  }
+
+  /// Writes the table, or says why it is not complete.
+  /// \param signal that has stopped a rank; 0: none
+  /// \returns the exit status
+  int conclude(int signal) {
+    // Shards that finish at the same moment conclude one after the other.
+    if (!journal_->lock()) {
+      printOutput(fmt::format("another process has written {}\n", options_.output));
+      return kDone;
+    }
+    readJournal();
+    const std::int64_t missing =
+        std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return row.empty(); });
+    const std::string done =
+        fmt::format("{} of {} cases are done", study_.cases() - missing, study_.cases());
+    if (missing > 0 && signal != 0) {
+      printError(done + "; the same command goes on\n");
+      return kSignalled + signal;
+    }
+    if (missing > 0 && options_.shards > 1) {
+      printOutput(fmt::format("{}; the last shard writes {}\n", done, options_.output));
+      return kDone;
+    }
+    if (missing > 0) {
+      throw FileError(
+          fmt::format("{}; all ranks must see the same file {}", done, journal_->path()));
+    }
+    return writeTable();
+  }
+
+ private:
+  int tryOutputs() const {
+    // Shards may start at the same moment.
+    const std::string shard = options_.shards > 1 ? fmt::format(".{}", options_.shard) : "";
+    OutputFile table(options_.output + shard);
+    if (!options_.plot) return kDone;
+    const OutputFile picture(picturePath(options_.output) + shard);
+    writeRows(table);
+    return drawPlot(study_, table.unfinishedPath(), picturePath(options_.output), true);
+  }
+
+  /// Takes over what this and other processes have finished.
+  void readJournal() {
+    journal_->read([this](std::int64_t index, std::string_view text) {
+      if (index >= 0 && index < study_.cases()) rows_[static_cast<std::size_t>(index)] = text;
+    });
+  }
+
+  int writeTable() {
+    OutputFile table(options_.output);
+    writeRows(table);
+    table.finish();
+    journal_->remove();
+    std::string text = fmt::format("{}: {}, table {}", study_.name, counted(study_.cases(), "case"),
+                                   options_.output);
+    if (options_.plot) {
+      const std::string picture = picturePath(options_.output);
+      const int status = drawPlot(study_, options_.output, picture, false);
+      if (status != kDone) return status;
+      text += ", picture " + picture;
+    }
+    printOutput(text + "\n");
+    return kDone;
+  }
+
+  /// Writes the header and all rows, of which some may lack the columns.
+  void writeRows(OutputFile& table) const {
+    std::string text = tableHeader(study_);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      text += rowStart(study_, static_cast<std::int64_t>(i)) + rows_[i] + '\n';
+      if (text.size() < kFlushedText) continue;
+      table.write(text);
+      text.clear();
+    }
+    table.write(text);
+  }
+
+  const Study& study_;
+  const SweepOptions& options_;
+  CaseCounter& counter_;
+  std::int64_t threads_;
+  std::optional<Journal> journal_;
+  std::vector<std::string> rows_;  ///< columns of the finished cases
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+std::string picturePath(const std::string& output) {
+  return std::filesystem::path(output).replace_extension(".png").string();
+}
+
+void checkCases(const Study& study, std::int64_t threads) {
+  std::atomic<std::int64_t> next{0};
+  Loop loop;
+  loop.next = [&] { return next++; };
+  loop.work = [](std::int64_t, const Case& a_case, const std::function<bool()>&) {
+    Scenario scenario = a_case.settings.scenario;
+    scenario.reference = ReferenceUse::kNever;
+    const Run checked(scenario, a_case.particles);
+  };
+  loop.meanwhile = [] {};
+  run(loop, study, threads);
+}
+
+int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter) {
+  catchInterruptions();
+  Sweep sweep(study, options, counter);
+  const int status = sweep.prepare();
+  if (status != kDone) counter.abort(status);
+  if (status != kDone) return status;
+  if (counter.rank() == 0) counter.largest(0);  // the others may begin
+  sweep.work();
+  const int signal = counter.largest(interruption());
+  return counter.rank() == 0 ? sweep.conclude(signal) : kDone;
+}
+
+}  // namespace spring_pendulum::sweep

@@ -1,0 +1,157 @@
+#include "sweep/table.hpp"
+
+#include "base/numbers.hpp"
+#include "base/spelling.hpp"
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
+#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/stability_advice.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spring_pendulum::sweep {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+double largestStretch(const Run& run) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i + 1 < run.chain().size(); ++i) {
+    largest = std::max(largest, springLength(run.state(), i) - run.scenario().rest_length);
+  }
+  return largest;
+}
+
+double energyError(const Run& run) {
+  return std::abs(run.energyEntry().relative_residual.value_or(kNan));
+}
+
+double duration(const Run& run) {
+  return frameSteps(run.scenario()).timeOfFrame(run.scenario().frames - 1);
+}
+
+double largestStableStep(const Run& run) {
+  if (!(duration(run) > 0.0)) return kNan;
+  return largestStableStep(run.chain(), run.start(), run.scenario()).step;
+}
+
+double linearStep(const Run& run) {
+  if (!(duration(run) > 0.0)) return kNan;
+  return linearStepLimit(run.scenario().method, run.chain(), duration(run));
+}
+
+double divergenceTime(const Run& run) {
+  return run.verdict().kind == VerdictKind::kDiverged ? run.verdict().time : kNan;
+}
+
+/// A text as a field of CSV.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+const std::vector<Column>& allColumns() {
+  static const std::vector<Column> kColumns{
+      {"verdict", "", "verdict on the run, as Exercise3 reports it", nullptr,
+       [](const Run& run, const Integrator&) { return std::string(toString(run.verdict().kind)); }},
+      {"position_error", "m", "largest position error at the frames, against the reference run",
+       nullptr,
+       [](const Run& run, const Integrator&) { return numberText(run.positionError().largest); }},
+      {"error_bound", "m", "largest sum of position error and uncertainty of the reference run",
+       nullptr,
+       [](const Run& run, const Integrator&) { return numberText(run.positionError().bound); }},
+      {"measured_until", "s", "time until which the position error is known", nullptr,
+       [](const Run& run, const Integrator&) {
+         return numberText(run.positionError().measured_until);
+       }},
+      {"energy_error", "1", "largest residual of the energy balance, in energy scales",
+       energyError},
+      {"largest_stretch", "m", "largest elongation of a spring at the frames", largestStretch},
+      {"tip_x", "m", "position of the last particle at the end", nullptr,
+       [](const Run& run, const Integrator&) {
+         return numberText(run.state().x()[run.chain().size() - 1]);
+       }},
+      {"tip_y", "m", "position of the last particle at the end", nullptr,
+       [](const Run& run, const Integrator&) {
+         return numberText(run.state().y()[run.chain().size() - 1]);
+       }},
+      {"diverged_at", "s", "time of the divergence", nullptr,
+       [](const Run& run, const Integrator&) { return numberText(divergenceTime(run)); }},
+      {"seconds", "s", "nominal computing time of the method, counted and not measured", nullptr,
+       [](const Run&, const Integrator& integrator) { return roundedText(integrator.work(), 6); }},
+      {"force_evaluations", "1", "evaluations of the forces on the whole chain", nullptr,
+       [](const Run&, const Integrator& integrator) {
+         return std::to_string(integrator.forceEvaluations());
+       }},
+      {"largest_stable_step", "s", "largest stable step size of a fixed-step method, by trial runs",
+       nullptr,
+       [](const Run& run, const Integrator&) { return numberText(largestStableStep(run)); }},
+      {"linear_step", "s", "stability limit of the linearised chain, with a margin", nullptr,
+       [](const Run& run, const Integrator&) { return numberText(linearStep(run)); }},
+  };
+  return kColumns;
+}
+
+const Column& findColumn(std::string_view name, std::string_view place) {
+  std::vector<std::string> known;
+  for (const Column& column : allColumns()) {
+    if (column.name == name) return column;
+    known.emplace_back(column.name);
+  }
+  throw InputError(fmt::format("{}: {}", place, unknownName("column", name, known)));
+}
+
+std::string tableHeader(const Study& study) {
+  std::string header = "case";
+  const auto add = [&](std::string_view name, std::string_view unit) {
+    const bool has_unit = !unit.empty() && unit != "1";
+    header += has_unit ? fmt::format(",{} [{}]", name, unit) : fmt::format(",{}", name);
+  };
+  for (const Axis& axis : study.axes) add(axis.key, axis.unit);
+  if (study.samples > 0) add("sample", "");
+  for (const Column* column : study.columns) add(column->name, column->unit);
+  return header + '\n';
+}
+
+std::string rowStart(const Study& study, std::int64_t index) {
+  std::string row = std::to_string(index);
+  const Place place = study.placeOf(index);
+  for (std::size_t i = 0; i < study.axes.size(); ++i) {
+    row += ',' + field(study.axes[i].values[place.values[i]]);
+  }
+  if (study.samples > 0) row += ',' + std::to_string(place.sample);
+  return row;
+}
+
+std::optional<std::string> runCase(const Study& study, const Case& a_case,
+                                   const std::function<bool()>& stop) {
+  Scenario scenario = a_case.settings.scenario;
+  scenario.threads = 1;
+  Run run(scenario, a_case.particles, {false, 0.0, stop, false});
+  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
+  std::vector<double> largest(study.columns.size(), kNan);
+  while (run.advance(*integrator)) {
+    for (std::size_t i = 0; i < largest.size(); ++i) {
+      if (const auto at_frame = study.columns[i]->at_frame) {
+        largest[i] = std::fmax(largest[i], at_frame(run));
+      }
+    }
+  }
+  if (run.wasStopped()) return std::nullopt;
+  std::string text;
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    const auto at_end = study.columns[i]->at_end;
+    text += ',' + (at_end != nullptr ? at_end(run, *integrator) : numberText(largest[i]));
+  }
+  return text;
+}
+
+}  // namespace spring_pendulum::sweep
