@@ -6,10 +6,9 @@
 int main(int argc, char** argv) try {
   using namespace spring_pendulum;
   Run run(Scenario{}, readParticleFile(argc > 1 ? argv[1] : "particle.txt"));
-  const auto integrator = run.makeIntegrator();
-  while (run.advance(*integrator)) {
+  while (run.advance()) {
   }
-  std::cout << run.closingLine(*integrator) << '\n' << run.verdict().text << '\n';
+  std::cout << run.closingLine() << '\n' << run.verdict().text << '\n';
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;

@@ -147,7 +147,6 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
   const Particles start = particlesOf(particles, scenario);
   Interruption interruption;
   Run run(scenario, start, {true, 0.0, [&] { return interruption(); }});
-  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   const py::ssize_t frames = scenario.frames - start.frame;
   const py::ssize_t state_size = run.state().values().size();
   py::array_t<double> numbers({kFrameNumbers, frames});
@@ -159,7 +158,7 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
   std::vector<std::string> warnings;
   {
     const Computation computation;
-    while (run.advance(*integrator)) {
+    while (run.advance()) {
       std::copy_n(run.state().values().data(), state_size, state + count * state_size);
       recordNumbers(run, number + count++, frames);
       output.write(run);
@@ -173,8 +172,8 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
                   "chain"_a = run.chain(), "method"_a = scenario.method.get().name,
                   "verdict"_a = tupleOf(run.verdict()), "warnings"_a = warnings,
                   "seconds"_a = run.seconds(),
-                  "force_evaluations"_a = integrator->forceEvaluations(),
-                  "closing_line"_a = run.closingLine(*integrator, output.closingText()));
+                  "force_evaluations"_a = run.integrator().forceEvaluations(),
+                  "closing_line"_a = run.closingLine(output.closingText()));
 }
 
 /// NaN becomes None.

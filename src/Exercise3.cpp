@@ -16,20 +16,19 @@ namespace {
 int simulate(const Scenario& scenario, const Switches& switches) {
   refuseSeveralRanks("start Exercise3 without mpirun");
   Run run(scenario, readParticles(scenario), {!scenario.energy.empty(), 0.0, interruption});
-  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
-  printAnswers(run, *integrator, switches);
+  printAnswers(run, switches);
   if (switches.check) return kDone;
   catchInterruptions();
   const std::string remarks = remarksOn(run);
   RunFiles files(run, switches.config);  // last, because it removes the frames of earlier runs
   printError(remarks);
   Progress progress(scenario.frames, "frames");
-  while (run.advance(*integrator)) {
+  while (run.advance()) {
     files.write(run);
     progress.show(run.frame() + 1);
   }
   files.finish();
-  printClosingLine(run.closingLine(*integrator, files.closingText()));
+  printClosingLine(run.closingLine(files.closingText()));
   return conclude(run);
 }
 

@@ -47,14 +47,13 @@ int record(int argc, const char* const* argv) {
   const Particles particles = replay ? replay->begin(scenario) : readParticles(scenario);
   Run run(scenario, particles,
           {display.track_dissipation || !scenario.energy.empty(), display_interval, interruption});
-  std::unique_ptr<Integrator> integrator = run.makeIntegrator();
-  printAnswers(run, *integrator, switches);
+  printAnswers(run, switches);
   if (switches.check) return kDone;
   catchInterruptions();
   const std::string remarks = remarksOn(run) + warningLine(replay ? replay->missing() : "");
-  const std::string output = recordBag(run, integrator, replay ? &*replay : nullptr, display, bag,
-                                       [&] { printError(remarks); });
-  printClosingLine(run.closingLine(*integrator, output));
+  const std::string output =
+      recordBag(run, replay ? &*replay : nullptr, display, bag, [&] { printError(remarks); });
+  printClosingLine(run.closingLine(output));
   if (replay && interruption() == 0) printError(warningLine(replay->unreached()));
   return conclude(run);
 }

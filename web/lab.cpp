@@ -127,12 +127,10 @@ class LabRun {
   /// \param tick called about every 20 ms with the number of the last frame
   LabRun(const val& settings, double display_interval, bool energies, const val& tick)
       : run_(scenarioOf(settings), readParticleFile(scenarioOf(settings).particles),
-             {energies || !scenarioOf(settings).energy.empty(), display_interval,
-              [this, tick] {
+             {energies || !scenarioOf(settings).energy.empty(), display_interval, [this, tick] {
                 tick(static_cast<double>(run_.frame()));
                 return false;
-              }}),
-        integrator_(run_.makeIntegrator()) {
+              }}) {
     const std::string remarks = remarksOn(run_);
     files_.emplace(run_);
     printError(remarks);
@@ -147,7 +145,7 @@ class LabRun {
     const double end = now() + milliseconds;
     bool more = true;
     do {
-      more = run_.advancePart(*integrator_);
+      more = run_.advancePart();
       if (more) sample();
     } while (more && now() < end && 8.0 * static_cast<double>(states_.size()) < bytes);
     if (times_.empty()) return val::null();
@@ -162,7 +160,7 @@ class LabRun {
   val finish() {
     files_->finish();
     val end = val::object();
-    end.set("output", run_.closingLine(*integrator_));
+    end.set("output", run_.closingLine());
     end.set("status", conclude(run_));
     const Verdict& verdict = run_.verdict();
     end.set("kind", std::string(toString(verdict.kind)));
@@ -177,8 +175,8 @@ class LabRun {
     end.set("resolved", error.isResolved());
     end.set("measuredUntil", error.measured_until);
     end.set("energyError", largest_energy_error_);
-    end.set("evaluations", static_cast<double>(integrator_->forceEvaluations()));
-    end.set("report", integrator_->report());
+    end.set("evaluations", static_cast<double>(run_.integrator().forceEvaluations()));
+    end.set("report", run_.integrator().report());
     end.set("measurements", run_.measurements());
     return end;
   }
@@ -210,7 +208,6 @@ class LabRun {
   }
 
   Run run_;
-  std::unique_ptr<Integrator> integrator_;
   std::optional<RunFiles> files_;
   std::vector<double> times_, states_, truths_;
   double largest_energy_error_ = 0.0;

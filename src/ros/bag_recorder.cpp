@@ -88,18 +88,17 @@ std::string topicPrefix(const std::string& name_space) {
 }
 
 /// Records until the end of the run or a signal, also the status of a run that diverged.
-void recordRun(Run& run, std::unique_ptr<Integrator>& integrator, Replay* replay,
-               BagRecorder& recorder, RunFiles& files) {
+void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files) {
   bool goes_on = true;
   while (goes_on) {
-    goes_on = run.advancePart(*integrator);
+    goes_on = run.advancePart();
     if (goes_on) {
       recorder.write(run);
       files.write(run);
     }
     if (replay == nullptr || run.wasStopped()) continue;
     // A run that is over may go back.
-    goes_on = replay->apply(run, integrator) || (goes_on && !replay->isOver(run));
+    goes_on = replay->apply(run) || (goes_on && !replay->isOver(run));
   }
   if (!run.isShown()) recorder.write(run);
 }
@@ -118,8 +117,7 @@ std::vector<Option> bagOptions(BagOptions& o) {
   };
 }
 
-std::string recordBag(Run& run, std::unique_ptr<Integrator>& integrator, Replay* replay,
-                      const NodeOptions& options, const BagOptions& to,
+std::string recordBag(Run& run, Replay* replay, const NodeOptions& options, const BagOptions& to,
                       const std::function<void()>& started) {
   const Scenario& scenario = run.scenario();
   auto bag = std::make_unique<rosbag::Bag>();
@@ -139,7 +137,7 @@ std::string recordBag(Run& run, std::unique_ptr<Integrator>& integrator, Replay*
     bag->open(file.unfinishedPath(),
               has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     started();
-    recordRun(run, integrator, replay, recorder, files);
+    recordRun(run, replay, recorder, files);
     bag->close();
     messages = recorder.messages();
   } catch (const rosbag::BagException& error) {

@@ -32,7 +32,7 @@ std::vector<Option> bagOptions(BagOptions& options);
 /// \returns for the closing line: ", 501 messages, 123456 bytes in /home/me/pendulum.bag"
 /// \throws FileError naming the bag
 std::string recordBag(
-    Run& run, std::unique_ptr<Integrator>& integrator, Replay* replay, const NodeOptions& options,
-    const BagOptions& to, const std::function<void()>& started = [] {});
+    Run& run, Replay* replay, const NodeOptions& options, const BagOptions& to,
+    const std::function<void()>& started = [] {});
 
 }  // namespace spring_pendulum

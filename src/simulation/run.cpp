@@ -82,6 +82,7 @@ Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions&
   checkMemory(scenario, chain_.size());
   if (!scenario.method.get().hasFixedStep()) checkTolerance(scenario.tolerance, chain_, start_);
   setFrameSteps();
+  makeIntegrator();
   startReference(start_);
   judgeFrame();
 }
@@ -106,37 +107,37 @@ void Run::startReference(const State& start) {
   reference_.emplace(chain_, start, reference);
 }
 
-std::unique_ptr<Integrator> Run::makeIntegrator() const {
+void Run::makeIntegrator() {
   const int threads = static_cast<int>(std::min(scenario_.threads, kMostThreads));
-  return spring_pendulum::makeIntegrator(scenario_.method, chain_,
-                                         {scenario_.tolerance, track_dissipation_, threads});
+  integrator_ = spring_pendulum::makeIntegrator(scenario_.method, chain_,
+                                                {scenario_.tolerance, track_dissipation_, threads});
 }
 
-bool Run::advance(Integrator& integrator) {
-  return advanceTo(parts_, integrator);
+bool Run::advance() {
+  return advanceTo(parts_);
 }
 
-bool Run::advancePart(Integrator& integrator) {
-  return advanceTo(part_ + 1, integrator);
+bool Run::advancePart() {
+  return advanceTo(part_ + 1);
 }
 
-bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
+bool Run::advanceTo(std::int64_t part) {
   if (!started_) {
     started_ = true;
-    work_at_start_ = integrator.work();
+    work_at_start_ = integrator_->work();
     if (isShown()) ++totals_.frames;
     return isShown();
   }
   if (isOver()) return false;
   const std::int64_t steps = stepOfPart(part) - stepOfPart(part_);
-  stopped_ = !integrate(steps, integrator) || !advanceReference(steps);
+  stopped_ = !integrate(steps) || !advanceReference(steps);
   if (stopped_) return false;
   part_ = part % parts_;
-  dissipated_ = dissipated_before_ + integrator.dissipatedEnergy();
-  supplied_ = supplied_before_ + integrator.suppliedEnergy();
+  dissipated_ = dissipated_before_ + integrator_->dissipatedEnergy();
+  supplied_ = supplied_before_ + integrator_->suppliedEnergy();
   if (part_ != 0) return true;
   ++frame_;
-  work_ = integrator.work() - work_at_start_;
+  work_ = integrator_->work() - work_at_start_;
   judgeFrame();
   if (!isShown()) return false;
   ++totals_.frames;
@@ -144,23 +145,23 @@ bool Run::advanceTo(std::int64_t part, Integrator& integrator) {
   return true;
 }
 
-bool Run::integrate(std::int64_t steps, Integrator& integrator) {
+bool Run::integrate(std::int64_t steps) {
   std::optional<Stopwatch> stopwatch;
   if (options_.measure_seconds) stopwatch.emplace(totals_.seconds);
-  if (scenario_.sleep > 0.0 && !chain_.isDriven() && sleeps(integrator))
+  if (scenario_.sleep > 0.0 && !chain_.isDriven() && sleeps())
     return !(options_.stop && options_.stop());
-  return integrator.advance(state_, frame_steps_.time_step, steps, options_.stop) == steps;
+  return integrator_->advance(state_, frame_steps_.time_step, steps, options_.stop) == steps;
 }
 
-bool Run::sleeps(Integrator& integrator) {
+bool Run::sleeps() {
   if (isAtRest(chain_, state_, frame_steps_.timeOfFrame(1), scenario_.sleep)) {
     asleep_ = true;
     return true;
   }
   if (asleep_) {
     // The integrator keeps data from before the sleep. Its restart also clears the dissipated energy.
-    dissipated_before_ += integrator.dissipatedEnergy();
-    integrator.restart();
+    dissipated_before_ += integrator_->dissipatedEnergy();
+    integrator_->restart();
     asleep_ = false;
   }
   return false;
@@ -177,7 +178,7 @@ void Run::judgeFrame() {
   judge_.judge(time(), state_, dissipated_, reference_ ? &*reference_ : nullptr, supplied_);
 }
 
-void Run::reset(Integrator& integrator) {
+void Run::reset() {
   if (changed_) {
     judge_ = Judge(chain_, start_, judgeOptions(first_frame_));
     startReference(start_);
@@ -186,20 +187,20 @@ void Run::reset(Integrator& integrator) {
     judge_.restart();
     if (reference_) reference_->restart();
   }
-  begin(first_frame_, start_, integrator);
+  begin(first_frame_, start_);
 }
 
-void Run::goTo(std::int64_t frame, const State& state, Integrator& integrator) {
+void Run::goTo(std::int64_t frame, const State& state) {
   checkFirstFrame(scenario_, frame);
   checkState(state);
   changed_ = true;
   judge_ = Judge(chain_, state, judgeOptions(frame));
   startReference(state);
-  begin(frame, state, integrator);
+  begin(frame, state);
 }
 
-void Run::begin(std::int64_t frame, const State& state, Integrator& integrator) {
-  integrator.restart();
+void Run::begin(std::int64_t frame, const State& state) {
+  integrator_->restart();
   state_ = state;
   frame_ = frame;
   part_ = frame_origin_ = 0;
@@ -213,8 +214,7 @@ void Run::checkState(const State& state) const {
   if (!state.values().allFinite()) throw InputError("the state has numbers that are not finite");
 }
 
-void Run::change(const Scenario& scenario, const Drive& drive, const State& state,
-                 std::unique_ptr<Integrator>& integrator) {
+void Run::change(const Scenario& scenario, const Drive& drive, const State& state) {
   Scenario next = scenario_;
   next.method = scenario.method;
   next.tolerance = scenario.tolerance;
@@ -252,10 +252,10 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   }
   dissipated_before_ = dissipated_;
   supplied_before_ = supplied_ = supplied;
-  evaluations_before_ += integrator->forceEvaluations();
-  work_at_start_ -= integrator->work();
+  evaluations_before_ += integrator_->forceEvaluations();
+  work_at_start_ -= integrator_->work();
   asleep_ = false;
-  integrator = makeIntegrator();
+  makeIntegrator();
 }
 
 bool Run::isOver() const {
@@ -282,9 +282,9 @@ const State* Run::referenceState() const {
   return reference_ ? reference_->state() : nullptr;
 }
 
-std::string Run::closingLine(const Integrator& integrator, const std::string& output) const {
+std::string Run::closingLine(const std::string& output) const {
   const Method& method = scenario_.method;
-  const std::string report = integrator.report();
+  const std::string report = integrator_->report();
   return fmt::format(
       "{}{}: {}, {}{}, {}{}, {} integrating{}, {} reference run, {}, verdict: {}", method.name,
       report.empty() ? "" : " (" + report + ")", counted(chain_.size(), "particle"),
@@ -293,7 +293,7 @@ std::string Run::closingLine(const Integrator& integrator, const std::string& ou
                                : "",
       method.hasFixedStep() ? counted(totals_.integrated_frames * frame_steps_.steps, "step") + ", "
                             : "",
-      counted(evaluations_before_ + integrator.forceEvaluations(), "force evaluation"),
+      counted(evaluations_before_ + integrator_->forceEvaluations(), "force evaluation"),
       durationText(totals_.seconds), output, durationText(totals_.reference_seconds),
       measurements(), toString(verdict().kind));
 }

@@ -61,41 +61,30 @@ std::string field(const std::string& text) {
 const std::vector<Column>& allColumns() {
   static const std::vector<Column> kColumns{
       {"verdict", "", "verdict on the run, as Exercise3 reports it", nullptr,
-       [](const Run& run, const Integrator&) { return std::string(toString(run.verdict().kind)); }},
+       [](const Run& run) { return std::string(toString(run.verdict().kind)); }},
       {"position_error", "m", "largest position error at the frames, against the reference run",
-       nullptr,
-       [](const Run& run, const Integrator&) { return numberText(run.positionError().largest); }},
+       nullptr, [](const Run& run) { return numberText(run.positionError().largest); }},
       {"error_bound", "m", "largest sum of position error and uncertainty of the reference run",
-       nullptr,
-       [](const Run& run, const Integrator&) { return numberText(run.positionError().bound); }},
+       nullptr, [](const Run& run) { return numberText(run.positionError().bound); }},
       {"measured_until", "s", "time until which the position error is known", nullptr,
-       [](const Run& run, const Integrator&) {
-         return numberText(run.positionError().measured_until);
-       }},
+       [](const Run& run) { return numberText(run.positionError().measured_until); }},
       {"energy_error", "1", "largest residual of the energy balance, in energy scales",
        energyError},
       {"largest_stretch", "m", "largest elongation of a spring at the frames", largestStretch},
       {"tip_x", "m", "position of the last particle at the end", nullptr,
-       [](const Run& run, const Integrator&) {
-         return numberText(run.state().x()[run.chain().size() - 1]);
-       }},
+       [](const Run& run) { return numberText(run.state().x()[run.chain().size() - 1]); }},
       {"tip_y", "m", "position of the last particle at the end", nullptr,
-       [](const Run& run, const Integrator&) {
-         return numberText(run.state().y()[run.chain().size() - 1]);
-       }},
+       [](const Run& run) { return numberText(run.state().y()[run.chain().size() - 1]); }},
       {"diverged_at", "s", "time of the divergence", nullptr,
-       [](const Run& run, const Integrator&) { return numberText(divergenceTime(run)); }},
+       [](const Run& run) { return numberText(divergenceTime(run)); }},
       {"seconds", "s", "nominal computing time of the method, counted and not measured", nullptr,
-       [](const Run&, const Integrator& integrator) { return roundedText(integrator.work(), 6); }},
+       [](const Run& run) { return roundedText(run.integrator().work(), 6); }},
       {"force_evaluations", "1", "evaluations of the forces on the whole chain", nullptr,
-       [](const Run&, const Integrator& integrator) {
-         return std::to_string(integrator.forceEvaluations());
-       }},
+       [](const Run& run) { return std::to_string(run.integrator().forceEvaluations()); }},
       {"largest_stable_step", "s", "largest stable step size of a fixed-step method, by trial runs",
-       nullptr,
-       [](const Run& run, const Integrator&) { return numberText(largestStableStep(run)); }},
+       nullptr, [](const Run& run) { return numberText(largestStableStep(run)); }},
       {"linear_step", "s", "stability limit of the linearised chain, with a margin", nullptr,
-       [](const Run& run, const Integrator&) { return numberText(linearStep(run)); }},
+       [](const Run& run) { return numberText(linearStep(run)); }},
   };
   return kColumns;
 }
@@ -136,9 +125,8 @@ std::optional<std::string> runCase(const Study& study, const Case& a_case,
   Scenario scenario = a_case.settings.scenario;
   scenario.threads = 1;
   Run run(scenario, a_case.particles, {false, 0.0, stop, false});
-  const std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   std::vector<double> largest(study.columns.size(), kNan);
-  while (run.advance(*integrator)) {
+  while (run.advance()) {
     for (std::size_t i = 0; i < largest.size(); ++i) {
       if (const auto at_frame = study.columns[i]->at_frame) {
         largest[i] = std::fmax(largest[i], at_frame(run));
@@ -149,7 +137,7 @@ std::optional<std::string> runCase(const Study& study, const Case& a_case,
   std::string text;
   for (std::size_t i = 0; i < largest.size(); ++i) {
     const auto at_end = study.columns[i]->at_end;
-    text += ',' + (at_end != nullptr ? at_end(run, *integrator) : numberText(largest[i]));
+    text += ',' + (at_end != nullptr ? at_end(run) : numberText(largest[i]));
   }
   return text;
 }

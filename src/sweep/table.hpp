@@ -19,7 +19,7 @@ struct Column {
   std::string_view unit;  ///< empty: none
   std::string_view meaning;
   double (*at_frame)(const Run&);  ///< the column is the largest of these; null: given at the end
-  std::string (*at_end)(const Run&, const Integrator&) = nullptr;
+  std::string (*at_end)(const Run&) = nullptr;
 };
 
 const std::vector<Column>& allColumns();

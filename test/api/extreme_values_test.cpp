@@ -59,9 +59,8 @@ int tryFunctions(const Scenario& scenario) {
   const auto stop = [&asked] { return ++asked > 10; };
   int results = gives([&] {
     Run run(scenario, particles, {true, 0.0, stop});
-    const auto integrator = run.makeIntegrator();
-    while (run.advance(*integrator)) continue;
-    run.closingLine(*integrator);
+    while (run.advance()) continue;
+    run.closingLine();
   });
   gives([&] {
     const Chain chain(particles.masses, scenario.spring(), scenario.gravity);

@@ -98,8 +98,7 @@ Outcome carried(const std::string& method, double tolerance, std::int64_t steps 
   scenario.time_step = kStateInterval / static_cast<double>(steps);
   scenario.frame_interval = kStateInterval;
   Run run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}});
-  std::unique_ptr<Integrator> integrator = run.makeIntegrator();
-  run.advance(*integrator);
+  run.advance();
   test::PreciseMotion precise(scene);
   Driver driver(run);
   Robot left(0, scene.start, 0.3, 1), right(6, scene.start, 2.0, 2);
@@ -107,10 +106,10 @@ Outcome carried(const std::string& method, double tolerance, std::int64_t steps 
   for (int k = 0; k < kStates; ++k) {
     left.follow(run, driver);
     right.follow(run, driver);
-    driver.apply(run, integrator, run.nextTime(), false);
+    driver.apply(run, run.nextTime(), false);
     precise.drive(run.chain());
     const double before = run.time();
-    run.advance(*integrator);
+    run.advance();
     precise.advance(run.time() - before);
     outcome.lag = std::max({outcome.lag, left.lag(run), right.lag(run)});
   }

@@ -18,7 +18,7 @@ namespace {
 
 struct Live {
   explicit Live(Scenario wanted = {}) : run(scenarioOf(std::move(wanted)), particles(), options()) {
-    run.advance(*integrator);
+    run.advance();
   }
 
   static Scenario scenarioOf(Scenario scenario) {
@@ -34,13 +34,12 @@ struct Live {
   void go(double seconds) {
     const double end = run.time() + seconds;
     while (run.time() < end - 1e-9) {
-      driver.apply(run, integrator, run.nextTime(), false);
-      run.advancePart(*integrator);
+      driver.apply(run, run.nextTime(), false);
+      run.advancePart();
     }
   }
 
   Run run;
-  std::unique_ptr<Integrator> integrator = run.makeIntegrator();
   int changes = 0;
   InputLog log{0.0, {}, [this](const PendulumInput&) { ++changes; }};
   Driver driver{run, &log};
@@ -67,8 +66,8 @@ TEST(Driver, FollowAMovingTargetWithoutLag) {
   for (int k = 0; k < 60; ++k) {
     time = live.run.time();
     live.driver.on(Hold{0, Target{{0.5 * time, 0.2 * time}, {0.5, 0.2}}});
-    live.driver.apply(live.run, live.integrator, live.run.nextTime(), false);
-    live.run.advancePart(*live.integrator);
+    live.driver.apply(live.run, live.run.nextTime(), false);
+    live.run.advancePart();
   }
   time = live.run.time();
   EXPECT_NEAR(live.run.state().x()[0], 0.5 * time, 1e-9);
@@ -103,7 +102,7 @@ TEST(Driver, PlaceParticlesWhilePaused) {
   Live live;
   live.go(0.5);
   live.driver.on(Hold{3, Target{{1.0, 1.0}, {}}});
-  live.driver.apply(live.run, live.integrator, live.run.nextTime(), true);
+  live.driver.apply(live.run, live.run.nextTime(), true);
   EXPECT_EQ(live.run.state().x()[3], 1.0);
   EXPECT_EQ(live.run.state().vx()[3], 0.0);
   EXPECT_TRUE(live.run.chain().isHeld(3));
@@ -126,11 +125,11 @@ TEST(Driver, GiveTheImpulseOfAForce) {
 TEST(Driver, SwitchBetweenStepControlsAtAFrame) {
   Live live;
   live.driver.on(SetConstant{"method", "Auto"});
-  live.run.advancePart(*live.integrator);
+  live.run.advancePart();
   ASSERT_FALSE(live.run.isAtFrame());
   live.go(1.0);
   EXPECT_EQ(live.run.scenario().method.get().name, "Auto");
-  live.driver.reset(live.run, live.integrator);
+  live.driver.reset(live.run);
   EXPECT_EQ(live.run.time(), 0.0);
   EXPECT_EQ(live.run.state().values(), live.run.start().values());
 }
@@ -189,7 +188,7 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
                   {}};
   };
   Live live;
-  live.run.advance(*live.integrator);
+  live.run.advance();
   Follower follower(InputCheck("odom", 3.0));
   double largest = 0.0, next_input = 0.0;
   while (live.run.time() < 8.0) {
@@ -202,8 +201,8 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
     const State& state = live.run.state();
     const auto target = follower.targetAt(now, {state.x()[5], state.y()[5]}, now - live.run.time());
     if (target) live.driver.on(Hold{5, *target});
-    live.driver.apply(live.run, live.integrator, now, false);
-    live.run.advancePart(*live.integrator);
+    live.driver.apply(live.run, now, false);
+    live.run.advancePart();
     if (live.run.time() < 4.0) continue;
     const Target holder = holderAt(live.run.time());
     largest = std::max(largest, std::hypot(live.run.state().x()[5] - holder.position.x,

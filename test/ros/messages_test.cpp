@@ -114,8 +114,7 @@ TEST(Markers, RowsOfTextAreOverEachOtherInTheFrameOfTheCamera) {
 
 TEST(Markers, HeldParticlesHaveTheColourOfTheAnchor) {
   spring_pendulum::Run run(Scenario{}, horizontal(3), {false, 0.0});
-  auto integrator = run.makeIntegrator();
-  run.change(Scenario{}, Drive{{{2, {}}}, {}}, run.state(), integrator);
+  run.change(Scenario{}, Drive{{{2, {}}}, {}}, run.state());
   const auto particles = markersOf(run, NodeOptions{}).markers[1];
   EXPECT_NE(rgba(particles.colors[1]), rgba(anchorColor()));
   EXPECT_EQ(rgba(particles.colors[2]), rgba(anchorColor()));
@@ -226,8 +225,7 @@ TEST(Bag, IsReadBackByTheLibrary) {
   BagOptions options;
   options.path = folder.path() + "/one.bag";
   spring_pendulum::Run run(scenario, readParticleFile(scenario.particles), {true, 1.0 / 30.0});
-  auto integrator = run.makeIntegrator();
-  const std::string output = recordBag(run, integrator, nullptr, NodeOptions{}, options);
+  const std::string output = recordBag(run, nullptr, NodeOptions{}, options);
   rosbag::Bag bag(options.path);
   std::map<std::string, int> counts;
   ros::Time last;

@@ -42,8 +42,7 @@ Outcome outcomeOf(const Scene& scene, const Method& method, double tolerance, st
   scenario.tolerance = tolerance;
   scenario.frame_interval = kInterval;
   Run run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}});
-  const auto integrator = run.makeIntegrator();
-  while (run.advance(*integrator)) {
+  while (run.advance()) {
   }
   EXPECT_FALSE(isBad(run.verdict().kind)) << method.name << ": " << run.verdict().text;
   return {precise.errorOf(run.state()), std::abs(run.energyEntry().relative_residual.value())};

@@ -50,26 +50,23 @@ Scenario scenarioOf(const std::string& method, const Scene& scene) {
 /// A run and the precise motion, both driven in the same way.
 struct DrivenPair {
   DrivenPair(const Scenario& scenario, const Scene& scene)
-      : run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}}),
-        integrator(run.makeIntegrator()),
-        precise(scene) {
-    run.advance(*integrator);
+      : run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}}), precise(scene) {
+    run.advance();
   }
 
   void drive(const Drive& drive) {
-    run.change(run.scenario(), drive, run.state(), integrator);
+    run.change(run.scenario(), drive, run.state());
     precise.drive(run.chain());
   }
 
   void advance() {
-    run.advance(*integrator);
+    run.advance();
     precise.advance(kInterval);
   }
 
   double error() const { return precise.errorOf(run.state()); }
 
   Run run;
-  std::unique_ptr<Integrator> integrator;
   PreciseMotion precise;
 };
 
@@ -223,7 +220,7 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   const Scene scene = test::horizontalChain("horizontal", 6, 1.0);
   DrivenPair pair(scenarioOf("Auto", scene), scene);
   const auto go_on = [&] {
-    for (int k = 0; k < 30; ++k) pair.run.advance(*pair.integrator);
+    for (int k = 0; k < 30; ++k) pair.run.advance();
     EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6);
     EXPECT_FALSE(isBad(pair.run.verdict().kind)) << pair.run.verdict().text;
   };
@@ -234,7 +231,7 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
     scenario.damping = factor;
     scenario.gravity = -9.81 * factor;
     scenario.stiffness = 200.0;
-    pair.run.change(scenario, {}, pair.run.state(), pair.integrator);
+    pair.run.change(scenario, {}, pair.run.state());
   }
   go_on();
   state = pair.run.state();
@@ -242,9 +239,9 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   scenario.method = findMethod("Runge-Kutta-4");
   scenario.rest_length = 0.5;
   const double time = pair.run.time();
-  pair.run.change(scenario, {}, state, pair.integrator);
+  pair.run.change(scenario, {}, state);
   EXPECT_EQ(pair.run.time(), time);
-  pair.run.advance(*pair.integrator);
+  pair.run.advance();
   EXPECT_NEAR(pair.run.time(), time + kInterval, 1e-12);
 }
 
@@ -254,10 +251,10 @@ TEST(DrivenRun, ReturnsToAMeasuredStart) {
   pair.drive({{{3, {1.0, 1.0}}}, {}});
   pair.advance();
   EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kNotChecked);
-  pair.run.change(pair.run.scenario(), {}, pair.run.start(), pair.integrator);
-  pair.run.reset(*pair.integrator);
+  pair.run.change(pair.run.scenario(), {}, pair.run.start());
+  pair.run.reset();
   EXPECT_EQ(pair.run.time(), 0.0);
-  for (int k = 0; k < 10; ++k) pair.run.advance(*pair.integrator);
+  for (int k = 0; k < 10; ++k) pair.run.advance();
   EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kOk) << pair.run.verdict().text;
   EXPECT_EQ(pair.run.energyEntry().supplied, 0.0);
 }
@@ -275,11 +272,11 @@ TEST(DrivenRun, RefusesWhatAChainCannotDo) {
   DrivenPair pair(scenarioOf("Auto", scene), scene);
   State state = scene.start;
   state.x()[2] = nan;
-  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, state, pair.integrator), InputError);
-  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, State(3), pair.integrator), InputError);
+  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, state), InputError);
+  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, State(3)), InputError);
   Scenario scenario = pair.run.scenario();
   scenario.stiffness = -1.0;
-  EXPECT_THROW(pair.run.change(scenario, {}, scene.start, pair.integrator), InputError);
+  EXPECT_THROW(pair.run.change(scenario, {}, scene.start), InputError);
   EXPECT_EQ(pair.run.chain().spring().stiffness, scene.chain.spring().stiffness);
 }
 

@@ -1,9 +1,7 @@
-// A run with its integrator, at frame 0.
+// A run at frame 0, with the chain of a scene.
 #pragma once
 
 #include <spring_pendulum/simulation/run.hpp>
-
-#include <memory>
 
 #include "support/scenes.hpp"
 
@@ -21,28 +19,22 @@ inline Scenario scenarioFor(const Scene& scene, Scenario scenario = {}) {
 class ProgramRun : public Run {
  public:
   ProgramRun(const Scenario& scenario, const Particles& particles, const RunOptions& options = {})
-      : Run(scenario, particles, options), integrator_(makeIntegrator()) {
+      : Run(scenario, particles, options) {
     advance();
   }
   /// A run of the scene, with its springs and its gravity.
   ProgramRun(const Scenario& scenario, const Scene& scene, const RunOptions& options = {})
       : ProgramRun(scenarioFor(scene, scenario), {scene.chain.masses(), scene.start}, options) {}
 
-  bool advance() { return Run::advance(*integrator_); }
-  bool advancePart() { return Run::advancePart(*integrator_); }
   /// Advances to the first frame at or after `seconds`, or to the end of the run.
   void advanceTo(double seconds) {
     while (time() < seconds - 1e-9 && advance()) {
     }
   }
   void reset() {
-    Run::reset(*integrator_);
+    Run::reset();
     advance();
   }
-  Integrator& integrator() { return *integrator_; }
-
- private:
-  std::unique_ptr<Integrator> integrator_;
 };
 
 }  // namespace spring_pendulum::test

@@ -1,11 +1,10 @@
 // One run of a scenario: the simulation loop of every program.
 //
 //     Run run(scenario, particles);
-//     const auto integrator = run.makeIntegrator();
-//     while (run.advance(*integrator)) show(run.state());
-//     print(run.closingLine(*integrator));
+//     while (run.advance()) show(run.state());
+//     print(run.closingLine());
 //
-// A run owns the chain, its state, the judge and the reference run, and keeps the time. It knows no
+// A run owns the chain, its state, the integrator, the judge and the reference run, and keeps the time. It knows no
 // file and no ROS. Judging happens at frames only, so what a run says about itself depends neither on
 // the display rate nor on the number of threads.
 #pragma once
@@ -55,37 +54,31 @@ class Run {
   /// \throws std::runtime_error if the run is expected to need more memory than there is
   Run(const Scenario& scenario, const Particles& particles, const RunOptions& options = {});
 
-  /// Makes the integrator of the scenario's method for this run.
-  std::unique_ptr<Integrator> makeIntegrator() const;
-
   /// Advances to the next frame and judges it. The first call stays at the start.
-  /// \param integrator the same in every call
   /// \returns whether this frame may be shown and written. If not, the run is over: the last frame
   ///   was reached before, the motion has diverged, or `RunOptions::stop` has stopped the run.
-  bool advance(Integrator& integrator);
+  bool advance();
 
   /// Like `advance`, but stops at the end of the next part of the frame; see
   /// `RunOptions::display_interval`.
-  bool advancePart(Integrator& integrator);
+  bool advancePart();
 
   /// Returns to the start, as before the first call of `advance`, and discards the verdict. The closing
   /// line counts the work of all rounds. Changed constants and the drive stay.
-  void reset(Integrator& integrator);
+  void reset();
 
   /// Goes to a frame and a state at it, as if the run had started there: energies, errors and verdict
   /// are relative to it until a reset. Changed constants and the drive stay.
   /// \throws InputError if the scenario has no such frame or the chain cannot have the state
-  void goTo(std::int64_t frame, const State& state, Integrator& integrator);
+  void goTo(std::int64_t frame, const State& state);
 
   /// Continues from another state, with other constants and another drive. The energy balance counts
   /// the difference of the energies before and after as supplied. The reference run ends.
   /// \param scenario   its method, tolerance and constants of the chain replace those of the run
   /// \param state      the current one, or one that differs from it
-  /// \param integrator replaced by that of the changed run
   /// \throws InputError for a value out of its range, a drive or a state that the chain cannot have,
   ///   and a change between fixed steps and error control inside a frame; nothing has changed then
-  void change(const Scenario& scenario, const Drive& drive, const State& state,
-              std::unique_ptr<Integrator>& integrator);
+  void change(const Scenario& scenario, const Drive& drive, const State& state);
 
   /// Whether no frame follows.
   bool isOver() const;
@@ -101,6 +94,8 @@ class Run {
 
   const Scenario& scenario() const { return scenario_; }
   const Chain& chain() const { return chain_; }
+  /// That of the scenario's method; `change` replaces it.
+  const Integrator& integrator() const { return *integrator_; }
   const State& start() const { return start_; }
   /// The frame of the start: 0, or that of the saved state from which the run goes on. Energies,
   /// errors and verdicts are relative to the start.
@@ -136,7 +131,7 @@ class Run {
 
   /// One line: work, times, what was measured, verdict.
   /// \param output put after the time of integrating: ", 3.07 ms writing to /home/me/frames"
-  std::string closingLine(const Integrator& integrator, const std::string& output = "") const;
+  std::string closingLine(const std::string& output = "") const;
   /// What was measured: "largest position error 0.00024 m at t = 9.8 s, energy balance not checked".
   std::string measurements() const { return judge_.measurements(); }
   /// A line if the position error of an error-controlled method exceeds ten tolerances or cannot be
@@ -155,13 +150,14 @@ class Run {
 
   JudgeOptions judgeOptions(std::int64_t first_frame) const;
   void startReference(const State& start);
-  void begin(std::int64_t frame, const State& state, Integrator& integrator);
+  void begin(std::int64_t frame, const State& state);
   void checkState(const State& state) const;
   void setFrameSteps();
-  bool advanceTo(std::int64_t part, Integrator& integrator);
-  bool integrate(std::int64_t steps, Integrator& integrator);
+  void makeIntegrator();
+  bool advanceTo(std::int64_t part);
+  bool integrate(std::int64_t steps);
   bool advanceReference(std::int64_t steps);
-  bool sleeps(Integrator& integrator);
+  bool sleeps();
   void judgeFrame();
   std::int64_t stepOfPart(std::int64_t part) const;
   double timeOfPart(std::int64_t part) const;
@@ -172,6 +168,7 @@ class Run {
   State start_;
   std::int64_t first_frame_;
   State state_;
+  std::unique_ptr<Integrator> integrator_;
   FrameSteps frame_steps_;  ///< with shorter steps for an error-controlled method
   std::int64_t parts_ = 1;  ///< per frame
   bool track_dissipation_;

@@ -25,8 +25,8 @@ std::string memoryLine(const Run& run) {
 
 /// Returns a line "skipped: ..." for each kind of work that a run skips because its scenario does not
 /// need it.
-std::string skippedWork(const Run& run, const Integrator& integrator) {
-  const Skips skips = integrator.skips();
+std::string skippedWork(const Run& run) {
+  const Skips skips = run.integrator().skips();
   std::string text;
   if (skips.damping) text += "skipped: velocity differences: damping is 0\n";
   if (skips.gravity) text += "skipped: gravity: it is 0\n";
@@ -53,8 +53,8 @@ void printClosingLine(const std::string& text) {
   flushOutput();
 }
 
-void printAnswers(const Run& run, const Integrator& integrator, const Switches& switches) {
-  if (switches.report_skips) printOutput(skippedWork(run, integrator));
+void printAnswers(const Run& run, const Switches& switches) {
+  if (switches.report_skips) printOutput(skippedWork(run));
   if (!switches.check) return;
   printError(memoryLine(run));
   printOutput(checkStability(run.chain(), run.start(), run.scenario()).text);

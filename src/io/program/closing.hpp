@@ -2,7 +2,6 @@
 #pragma once
 
 #include "io/program/command_line.hpp"
-#include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <string>
@@ -17,7 +16,7 @@ std::string warningLine(const std::string& warning);
 void printClosingLine(const std::string& text);
 
 /// Prints what --report-skips and --check ask for.
-void printAnswers(const Run& run, const Integrator& integrator, const Switches& switches);
+void printAnswers(const Run& run, const Switches& switches);
 
 /// Returns lines for standard error: a remark if the run needs much memory, a warning if its step size
 /// is too large.

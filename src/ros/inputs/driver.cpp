@@ -180,8 +180,7 @@ Scenario Driver::possible() const {
   return scenario;
 }
 
-void Driver::apply(Run& run, std::unique_ptr<Integrator>& integrator, double next_time,
-                   bool paused) {
+void Driver::apply(Run& run, double next_time, bool paused) {
   if (run.isOver()) return;
   // Most runs are left alone: for them, no state is copied.
   if (targets_.empty() && forces_.empty() && !jump_ && !run.chain().isDriven() &&
@@ -211,7 +210,7 @@ void Driver::apply(Run& run, std::unique_ptr<Integrator>& integrator, double nex
   if (same) return;
   try {
     const State before = run.state();
-    run.change(scenario, drive, state, integrator);
+    run.change(scenario, drive, state);
     if (log_ != nullptr) log_->changed(run, before);
   } catch (...) {
     wanted_ = run.scenario();
@@ -220,7 +219,7 @@ void Driver::apply(Run& run, std::unique_ptr<Integrator>& integrator, double nex
   }
 }
 
-void Driver::reset(Run& run, std::unique_ptr<Integrator>& integrator, const Particles* to) {
+void Driver::reset(Run& run, const Particles* to) {
   const double time = run.time();
   const State& state = to != nullptr ? to->state : run.start();
   targets_.clear();
@@ -228,16 +227,16 @@ void Driver::reset(Run& run, std::unique_ptr<Integrator>& integrator, const Part
   jump_.reset();
   if (run.isChanged()) {
     try {
-      run.change(possible(), {}, state, integrator);
+      run.change(possible(), {}, state);
     } catch (const InputError&) {  // what was wanted for another state is impossible at the start
       wanted_ = run.scenario();
-      run.change(wanted_, {}, state, integrator);
+      run.change(wanted_, {}, state);
     }
   }
   if (to != nullptr) {
-    run.goTo(to->frame, to->state, *integrator);
+    run.goTo(to->frame, to->state);
   } else {
-    run.reset(*integrator);
+    run.reset();
   }
   if (log_ != nullptr) log_->started(run, time);
 }

@@ -46,10 +46,10 @@ class Driver {
   /// Changes the run for the interval until `next_time` s, if anything has changed.
   /// \param paused places held particles at their targets instead, at rest
   /// \throws InputError as Run::change; forgets what the run cannot do
-  void apply(Run& run, std::unique_ptr<Integrator>& integrator, double next_time, bool paused);
+  void apply(Run& run, double next_time, bool paused);
 
   /// Lets go of everything and returns the run to its start, or to a frame and the state at it.
-  void reset(Run& run, std::unique_ptr<Integrator>& integrator, const Particles* to = nullptr);
+  void reset(Run& run, const Particles* to = nullptr);
 
  private:
   Drive driveUntil(double next_time, State& state);

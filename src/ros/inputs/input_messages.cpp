@@ -208,7 +208,7 @@ Particles Replay::begin(Scenario& scenario) const {
   }
 }
 
-bool Replay::apply(Run& run, std::unique_ptr<Integrator>& integrator) {
+bool Replay::apply(Run& run) {
   for (; next_ < inputs_.size() && inputs_[next_].time <= run.time(); ++next_) {
     const PendulumInput& input = inputs_[next_];
     if (input.end != 0) return false;
@@ -221,8 +221,8 @@ bool Replay::apply(Run& run, std::unique_ptr<Integrator>& integrator) {
       setScenario(scenario, input);
       State state = run.state();
       setStates(state, input);
-      run.change(scenario, driveOf(input), state, integrator);
-      if (input.start != 0) run.goTo(input.frame, state, *integrator);
+      run.change(scenario, driveOf(input), state);
+      if (input.start != 0) run.goTo(input.frame, state);
     } catch (const InputError& error) {
       refuse(input, error.what());
     }

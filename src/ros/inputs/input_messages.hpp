@@ -57,7 +57,7 @@ class Replay {
   /// Changes the run as the inputs did at its current time. Must be called after every state.
   /// \returns whether the run has gone to another frame
   /// \throws InputError if the inputs are not those of this run
-  bool apply(Run& run, std::unique_ptr<Integrator>& integrator);
+  bool apply(Run& run);
 
   /// Whether the node had ended at the current time of the run.
   bool isOver(const Run& run) const;

@@ -46,7 +46,6 @@ Node::Node(ros::NodeHandle& node, ros::NodeHandle& private_node,
       run_(configuration.scenario, particles,
            {options_.track_dissipation || !configuration.scenario.energy.empty(),
             options_.displayInterval(), interruption}),
-      integrator_(run_.makeIntegrator()),
       publisher_(node, run_, options_),
       pacer_(options_.real_time_factor, options_.display_rate),
       inputs_(node.advertise<PendulumInput>("inputs", kMostInputs,
@@ -62,7 +61,7 @@ Node::Node(ros::NodeHandle& node, ros::NodeHandle& private_node,
       robots_(node, run_, options_, driver_, frames_),
       services_(private_node, frames_, [this](const Request& request) { return take(request); }),
       files_(run_),
-      log_(run_, integrator_, files_, publisher_, options_.at_end == AtEnd::kHold),
+      log_(run_, files_, publisher_, options_.at_end == AtEnd::kHold),
       values_(configuration.values) {
   if (!options_.follow.empty()) {
     leader_ = node.subscribe(options_.follow, 100, &Node::onLeaderState, this);
@@ -80,7 +79,7 @@ void Node::record(PendulumInput input) {
 void Node::spin() {
   logStart(run_, options_, files_);
   ROS_INFO_STREAM("parameters: " << values_);
-  run_.advance(*integrator_);
+  run_.advance();
   input_log_.started(run_, run_.time());
   publisher_.waitForSubscribers(options_);
   catchInterruptions();  // from now on ROS continues after a signal until the files are closed
@@ -149,12 +148,12 @@ void Node::advance() {
       options_.follow.empty() && pacer_.isLate(run_.nextTime(), ros::SteadyTime::now());
   if (paused_ || is_late || !publisher_.isWatched()) {
     change(run_.nextFrameTime(), false);
-    run_.advance(*integrator_);
+    run_.advance();
   } else {
     change(run_.nextTime(), false);
-    run_.advancePart(*integrator_);
+    run_.advancePart();
     // Inside a frame nobody would call this a divergence.
-    if (!run_.isFinite()) run_.advance(*integrator_);
+    if (!run_.isFinite()) run_.advance();
   }
   finishState();
 }
@@ -163,7 +162,7 @@ void Node::change(double next_time, bool paused) {
   handles_.releaseSilent();
   robots_.follow(options_.real_time_factor);
   try {
-    driver_.apply(run_, integrator_, next_time, paused);
+    driver_.apply(run_, next_time, paused);
   } catch (const InputError& error) {
     if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }
@@ -171,11 +170,11 @@ void Node::change(double next_time, bool paused) {
 
 void Node::goTo(const Particles* to) {
   handles_.reset();
-  driver_.reset(run_, integrator_, to);
+  driver_.reset(run_, to);
   robots_.reset();
   steps_wanted_ = 0;
   pacer_ = Pacer(options_.real_time_factor, options_.display_rate);
-  run_.advance(*integrator_);
+  run_.advance();
   pacer_.start(run_.time(), ros::SteadyTime::now());
   finishState();
 }

@@ -61,7 +61,6 @@ class Node {
 
   NodeOptions options_;
   Run run_;
-  std::unique_ptr<Integrator> integrator_;
   Publisher publisher_;
   Pacer pacer_;
   std::vector<PendulumInput> sent_;  ///< inputs, for subscribers that come late

@@ -79,9 +79,9 @@ void logStart(const Run& run, const NodeOptions& options, const RunFiles& files)
 }
 
 std::string RunLog::closingLine() const {
-  return run_.closingLine(
-      *integrator_, fmt::format("{}, {} marker and {} state messages built", files_.closingText(),
-                                publisher_.markersBuilt(), publisher_.statesBuilt()));
+  return run_.closingLine(fmt::format("{}, {} marker and {} state messages built",
+                                      files_.closingText(), publisher_.markersBuilt(),
+                                      publisher_.statesBuilt()));
 }
 
 void RunLog::update() {
@@ -125,7 +125,7 @@ void RunLog::finish() const {
 
 void RunLog::sayChoice() {
   if (choices_said_ == kMostChoices || run_.frame() == 0) return;
-  const std::string report = integrator_->report();
+  const std::string report = run_.integrator().report();
   const std::string choice = switchesOf(report);
   if (choice.empty() || choice == said_choice_) return;
   said_choice_ = choice;

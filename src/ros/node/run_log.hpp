@@ -23,13 +23,8 @@ class RunLog {
  public:
   /// All but `continues` must outlive the log.
   /// \param continues whether the node continues after the end of the run
-  RunLog(const Run& run, const std::unique_ptr<Integrator>& integrator, const RunFiles& files,
-         const Publisher& publisher, bool continues)
-      : run_(run),
-        integrator_(integrator),
-        files_(files),
-        publisher_(publisher),
-        continues_(continues) {}
+  RunLog(const Run& run, const RunFiles& files, const Publisher& publisher, bool continues)
+      : run_(run), files_(files), publisher_(publisher), continues_(continues) {}
 
   /// Must be called after every action. Logs once each: a bad verdict, a divergence with its
   /// remedy, the choices of Auto, the end of the run.
@@ -43,7 +38,6 @@ class RunLog {
   void sayChoice();
 
   const Run& run_;
-  const std::unique_ptr<Integrator>& integrator_;
   const RunFiles& files_;
   const Publisher& publisher_;
   bool continues_;

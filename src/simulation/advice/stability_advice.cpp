@@ -105,9 +105,8 @@ class Trials {
     // The negated comparison also ends a method whose work is not a number.
     Run run(tried, particles_,
             {false, 0.0, [&] { return !(work() < most_work) || (stop_ && stop_()); }});
-    const auto integrator = run.makeIntegrator();
-    counted = integrator.get();
-    while (run.advance(*integrator) && run.verdict().kind < enough) ++frames;
+    counted = &run.integrator();
+    while (run.advance() && run.verdict().kind < enough) ++frames;
     total_work_ += work() + run.referenceWork();
     const bool is_known =
         run.referenceState() != nullptr || run.verdict().kind == VerdictKind::kSensitive;
