@@ -51,7 +51,6 @@ int check(const std::string& folder, const Scenario& scenario, const Particles& 
 
 /// \returns 1 if any folder is unreadable, else 4 if any is different, else 5 if any is undecided
 int checkAll(const Scenario& scenario, const OptionSet& options, const Switches& switches) {
-  if (scenario.air_drag > 0.0) throw InputError("air_drag: not with check_frames");
   if (scenario.start != Start::kFile) throw InputError("start: not with check_frames");
   const Particles particles = readParticles(scenario);
   catchInterruptions();
@@ -79,7 +78,7 @@ int runCommandLine(int argc, const char* const* argv) {
       "0 equal, 1 could not read, 2 wrong use or bad input, 4 different,\n"
       "5 undecided: frames are missing or too sensitive to compare, 128 + n stopped by signal n.",
       {"method", "particles", "resume", "frames", "steps_per_frame", "time_step", "tolerance",
-       "frame_interval", "stiffness", "damping", "rest_length", "gravity"}};
+       "frame_interval", "stiffness", "damping", "rest_length", "gravity", "air_drag"}};
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);

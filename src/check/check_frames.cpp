@@ -1,6 +1,7 @@
 #include "check/check_frames.hpp"
 
 #include "base/numbers.hpp"
+#include "base/spelling.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/frame_steps.hpp>
@@ -12,24 +13,12 @@
 #include <cmath>
 #include <utility>
 
+#include "check/mistakes.hpp"
+
 namespace spring_pendulum {
 namespace {
 
-using Methods = std::vector<const Method*>;
-
-/// Whether students write this method.
-bool isExercise(const Method& method) {
-  return method.hasFixedStep() && method.tableau != nullptr;
-}
-
-std::string listOf(const std::vector<std::string>& words, const char* last) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? fmt::format(" {} ", last) : ", ";
-    text += words[i];
-  }
-  return text;
-}
+constexpr const char* kExercise[] = {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"};
 
 /// "particle 2, by 6.9e-06 m along its spring"
 std::string textOf(const Departure& departure) {
@@ -38,37 +27,43 @@ std::string textOf(const Departure& departure) {
   const std::string particle = fmt::format("particle {}, ", departure.particle);
   if (!std::isfinite(departure.distance))
     return particle + "where the frame has a number that is not finite";
-  const bool has_spring = departure.along_spring >= 0.0;
-  const bool is_across = has_spring && departure.along_spring < 1.0 - kMostly;
+  const double along = departure.along_spring;
   return fmt::format("{}by {} m{}", particle, roundedText(departure.distance, 2),
-                     departure.along_spring > kMostly ? " along its spring"
-                     : is_across                      ? " across its spring"
-                                                      : "");
+                     along > kMostly                       ? " along its spring"
+                     : along >= 0 && along < 1.0 - kMostly ? " across its spring"
+                                                           : "");
 }
 
 class Checker {
  public:
-  Checker(const Scenario& scenario, const Particles& particles, const AllFrames& frames,
+  Checker(const Scenario& scenario, const Particles& particles, AllFrames frames,
           const CheckOptions& options)
-      : scenario_(scenario), particles_(particles), frames_(frames), options_(options) {
+      : scenario_(scenario), particles_(particles), frames_(std::move(frames)), options_(options) {
     for (const Method& method : methodTable()) {
       const bool is_wanted = !options.method_is_given || &method == &scenario.method.get();
       (is_wanted ? wanted_ : others_).push_back(&method);
-      if (isExercise(method))
-        exercise_.insert(is_wanted ? exercise_.begin() : exercise_.end(), &method);
-      if (isExercise(method) && is_wanted) wanted_exercise_.push_back(&method);
+      if (is_wanted && StudentProgram::isWritten(method))
+        wanted_written_.insert(wanted_written_.begin(), &method);
     }
-    result_.remarks = frames.remarks;
-    result_.frames = static_cast<std::int64_t>(frames.frames.size());
-    result_.digits = frames.digits;
+    written_ = wanted_written_;
+    for (const char* const name : kExercise) {
+      const Method& method = findMethod(name);
+      if (options.method_is_given && &method != &scenario.method.get()) written_.push_back(&method);
+    }
+    result_.frames = static_cast<std::int64_t>(frames_.frames.size());
+    result_.digits = frames_.digits;
   }
 
   FrameCheck check() {
     compareWith(wanted_);
+    if (result_.methods.empty() && frames_.renumber(particles_.state.positions())) {
+      result_.departure.reset();
+      compareWith(wanted_);
+    }
     if (options_.stop && options_.stop())
       throw FileError("stopped before the frames were compared");
+    result_.remarks = frames_.remarks;
     if (result_.methods.empty() && result_.departure) {
-      result_.verdict = FrameVerdict::kDifferent;
       if (result_.departure->impossible.empty()) explain();
       describeDifferent();
       return result_;
@@ -76,8 +71,8 @@ class Checker {
     result_.departure.reset();
     // Programs differ by a frame or so in how they count.
     const std::int64_t wanted = scenario_.frames - 1;
-    const bool has_end = result_.last_frame >= std::min(wanted - 2, wanted * 49 / 50);
-    if (has_end) result_.verdict = FrameVerdict::kEqual;
+    if (result_.last_frame >= std::min(wanted - 2, wanted * 49 / 50))
+      result_.verdict = FrameVerdict::kEqual;
     if (result_.last_frame > frames_.start) nameHiddenMistakes();
     describeEqual();
     return result_;
@@ -108,33 +103,36 @@ class Checker {
         result_.methods.insert(is_best ? result_.methods.begin() : result_.methods.end(),
                                method->name);
       } else if (agreement.departure && &methods == &wanted_ &&
-                 (isExercise(*method) || methods.size() == 1) &&
-                 (!result_.departure || agreement.frames > known_frames_ ||
-                  (agreement.frames == known_frames_ &&
-                   agreement.departure->distance < result_.departure->distance))) {
-        known_frames_ = agreement.frames;
-        result_.nearest = method->name;
-        result_.departure = agreement.departure;
-        Scenario with_method = scenario_;
-        with_method.method = *method;
-        result_.time = frameSteps(with_method).timeOfFrame(agreement.departure->frame);
+                 (StudentProgram::isWritten(*method) || methods.size() == 1)) {
+        noteDeparture(*method, agreement);
       }
     }
+  }
+
+  void noteDeparture(const Method& method, const Agreement& agreement) {
+    const bool is_nearer = !result_.departure || agreement.frames > known_frames_ ||
+                           (agreement.frames == known_frames_ &&
+                            agreement.departure->distance < result_.departure->distance);
+    if (!is_nearer) return;
+    known_frames_ = agreement.frames;
+    result_.nearest = method.name;
+    result_.departure = agreement.departure;
+    Scenario with_method = scenario_;
+    with_method.method = method;
+    result_.time = frameSteps(with_method).timeOfFrame(agreement.departure->frame);
   }
 
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
   void explain() {
     Search search{scenario_, particles_, frames_, known_frames_, limit()};
-    const auto found = [&](std::vector<Explanation> explanations) {
-      result_.explanations = std::move(explanations);
-      return !result_.explanations.empty();
-    };
-    if (found(singleMistakes(search, wanted_exercise_))) return;
+    result_.explanations = singleMistakes(search, wanted_written_);
+    if (!result_.explanations.empty()) return;
     compareWith(others_);
     if (result_.last_frame > frames_.start) return;
     result_.methods.clear();
-    if (found(simplestMistakes(search, exercise_)) || !search.gave_up) return;
-    result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
+    result_.explanations = simplestMistakes(search, written_);
+    if (search.gave_up && result_.explanations.empty())
+      result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
   }
 
   /// Names mistakes that right frames would not show.
@@ -142,7 +140,7 @@ class Checker {
     constexpr double kMostWork = 4e8;
     constexpr std::size_t kMostNamed = 12;
     const Method& best = findMethod(result_.methods.front());
-    if (!isExercise(best)) return;
+    if (!StudentProgram::isWritten(best)) return;
     Search search{scenario_, particles_, frames_, 0, {kMostWork, options_.stop}};
     std::vector<std::string> hidden;
     for (const Explanation& one : singleMistakes(search, {&best})) {
@@ -158,12 +156,11 @@ class Checker {
                           fmt::join(hidden, ", ")));
   }
 
-  bool isAllCompared() const { return result_.last_frame == frames_.frames.back().index; }
-
   std::string comparedText() const {
+    const bool has_all = result_.last_frame == frames_.frames.back().index;
     return fmt::format("{} in the {} printed",
-                       isAllCompared() ? "all " + counted(result_.frames, "frame")
-                                       : fmt::format("frames up to {}", result_.last_frame),
+                       has_all ? "all " + counted(result_.frames, "frame")
+                               : fmt::format("frames up to {}", result_.last_frame),
                        counted(result_.digits, "digit"));
   }
 
@@ -176,24 +173,26 @@ class Checker {
       return;
     }
     result_.text += fmt::format("equal to {}: {}", result_.methods.front(), comparedText());
-    if (!isAllCompared()) {
+    if (result_.last_frame != frames_.frames.back().index) {
       result_.text += fmt::format("; later frames are not compared: {}", kTooLate);
     } else if (result_.verdict == FrameVerdict::kUndecided) {
       result_.text += fmt::format("; the frames up to {} are missing (--frames {})",
                                   scenario_.frames - 1, scenario_.frames);
     }
     if (result_.methods.size() == 1) return;
-    const std::vector<std::string> others(result_.methods.begin() + 1, result_.methods.end());
-    result_.remarks.push_back(listOf(others, "and") + " would look the same in these digits");
+    result_.remarks.push_back(
+        fmt::format("{} would look the same in these digits",
+                    fmt::join(result_.methods.begin() + 1, result_.methods.end(), " and ")));
   }
 
   void describeDifferent() {
+    result_.verdict = FrameVerdict::kDifferent;
     result_.text = fmt::format("different: depart from {} at frame {}, t = {} s, {}\n",
                                result_.nearest, result_.departure->frame,
                                roundedText(result_.time, 6), textOf(*result_.departure));
     if (!result_.methods.empty()) {
-      result_.text +=
-          fmt::format("They are frames of {}: {}.", listOf(result_.methods, "or"), comparedText());
+      result_.text += fmt::format("They are frames of {}: {}.", fmt::join(result_.methods, " or "),
+                                  comparedText());
       return;
     }
     if (result_.explanations.empty()) {
@@ -207,31 +206,116 @@ class Checker {
       if (texts.size() == kMostShown) break;
       if (std::find(shown.begin(), shown.end(), one.mistakes) != shown.end()) continue;
       shown.push_back(one.mistakes);
-      texts.push_back(fmt::format("{}: the program {}", one.method, listOf(one.sentences, "and")));
+      texts.push_back(
+          fmt::format("{}: the program {}", one.method, fmt::join(one.sentences, " and ")));
     }
     const std::int64_t last = result_.explanations.front().last_frame;
-    result_.text +=
-        fmt::format("{} (reproduces the frames{})", listOf(texts, "or, in these frames the same,"),
-                    last == frames_.frames.back().index ? "" : fmt::format(" up to {}", last));
+    result_.text += fmt::format(
+        "{} (reproduces the frames{})", fmt::join(texts, " or, in these frames the same, "),
+        last == frames_.frames.back().index ? "" : fmt::format(" up to {}", last));
   }
 
   const Scenario& scenario_;
   const Particles& particles_;
-  const AllFrames& frames_;
+  AllFrames frames_;
   const CheckOptions& options_;
   Methods wanted_, others_;
-  Methods exercise_, wanted_exercise_;  ///< of all and of these, the ones that students write
-  std::size_t known_frames_ = 0;        ///< number of frames before the departure
+  Methods written_, wanted_written_;  ///< methods that students write
+  std::size_t known_frames_ = 0;      ///< number of frames before the departure
   FrameCheck result_;
 };
+
+/// \param text without control characters except the end of a line
+std::string inJson(std::string_view text) {
+  std::string quoted;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '\n' ? "\\n" : std::string(1, c);
+  }
+  return '"' + quoted + '"';
+}
+
+/// A list of what a function makes of each item.
+template <typename Items, typename Function>
+std::string listInJson(const Items& items, const Function& function) {
+  std::string list;
+  for (const auto& item : items) list += (list.empty() ? "" : ", ") + function(item);
+  return '[' + list + ']';
+}
+
+std::string departureInJson(const FrameCheck& check) {
+  if (!check.departure) return "null";
+  const Departure& departure = *check.departure;
+  return fmt::format(R"({{"from": {}, "frame": {}, "time": {}, "particle": {}, "distance": {}}})",
+                     inJson(check.nearest), departure.frame, numberText(check.time),
+                     departure.particle,
+                     std::isfinite(departure.distance) ? numberText(departure.distance) : "null");
+}
+
+std::string conclusionOf(const FrameCheck& check) {
+  const std::string method = check.methods.empty() ? "" : check.methods.front();
+  if (check.verdict == FrameVerdict::kEqual) return "equal to " + method;
+  if (check.verdict == FrameVerdict::kUndecided)
+    return fmt::format("undecided: equal to {} up to frame {}", method, check.last_frame);
+  if (!method.empty()) return "different: frames of " + method;
+  if (check.explanations.empty()) {
+    return fmt::format("different from frame {} on, no known mistake", check.departure->frame);
+  }
+  const Explanation& first = check.explanations.front();
+  return fmt::format("different: {} with {}", first.method, fmt::join(first.mistakes, " + "));
+}
 
 }  // namespace
 
 FrameCheck checkFrames(const Scenario& scenario, const Particles& particles,
                        const std::vector<FrameText>& frames, const CheckOptions& options) {
   checkScenario(scenario);
-  const AllFrames numbers = readFrames(frames, particles);
-  return Checker(scenario, particles, numbers, options).check();
+  return Checker(scenario, particles, readFrames(frames, particles), options).check();
+}
+
+std::string reportOf(const FrameCheck& check) {
+  std::string report = check.text + "\n";
+  for (const std::string& remark : check.remarks) report += "note: " + remark + "\n";
+  return report;
+}
+
+std::string shortReportOf(const FrameCheck& check) {
+  std::string report = conclusionOf(check);
+  for (const std::string& remark : check.remarks) report += "; note: " + remark;
+  return report;
+}
+
+std::string jsonOf(const FrameCheck& check, const std::string& folder) {
+  const auto explanation = [](const Explanation& one) {
+    return fmt::format(R"({{"method": {}, "mistakes": {}, "sentences": {}, "last_frame": {}}})",
+                       inJson(one.method), listInJson(one.mistakes, inJson),
+                       listInJson(one.sentences, inJson), one.last_frame);
+  };
+  return fmt::format(
+      R"({{"folder": {}, "equal": {}, "undecided": {}, "methods": {}, "frames": {}, )"
+      R"("last_frame": {}, "digits": {}, "departure": {}, )"
+      R"("explanations": {}, "remarks": {}, "text": {}}})"
+      "\n",
+      inJson(onOneLine(folder)), check.verdict == FrameVerdict::kEqual,
+      check.verdict == FrameVerdict::kUndecided, listInJson(check.methods, inJson), check.frames,
+      check.last_frame, check.digits, departureInJson(check),
+      listInJson(check.explanations, explanation), listInJson(check.remarks, inJson),
+      inJson(check.text));
+}
+
+std::string jsonOfError(const std::string& message, const std::string& folder) {
+  return fmt::format("{{\"folder\": {}, \"error\": {}}}\n", inJson(onOneLine(folder)),
+                     inJson(message));
+}
+
+std::string listOfMistakes() {
+  std::string list = "The program ...\n";
+  for (const Mistake& mistake : knownMistakes())
+    list += fmt::format("  {:<22} {}\n", mistake.name, mistake.sentence);
+  list += "Fitted numbers: the program ...\n";
+  for (const Constant& constant : fittedConstants())
+    list += fmt::format("  {:<22} {}\n", constant.name, constant.sentence);
+  return list;
 }
 
 }  // namespace spring_pendulum

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "check/comparison.hpp"
+#include "check/motion.hpp"
 #include "check/search.hpp"
 
 namespace spring_pendulum {

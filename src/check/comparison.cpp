@@ -1,17 +1,13 @@
-#include "check/comparison.hpp"
-
 #include <spring_pendulum/model/energy.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <random>
 
+#include "check/motion.hpp"
+
 namespace spring_pendulum {
 namespace {
-
-double largestFinite(const Eigen::ArrayX2d& numbers) {
-  return numbers.isFinite().select(numbers.abs(), 0.0).maxCoeff();
-}
 
 /// NaN if one of the numbers is not finite.
 double largestDistance(const Eigen::ArrayX2d& a, const Eigen::ArrayX2d& b) {
@@ -38,35 +34,21 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
   return std::nullopt;
 }
 
-/// The potential energies of a motion, J.
-class EnergyRange {
- public:
-  explicit EnergyRange(const Chain& chain) : chain_(chain) {}
+/// Potential energy, J.
+double energyOf(const Chain& chain, const Eigen::ArrayX2d& positions) {
+  State state(chain.size());
+  state.positions() = positions.matrix();
+  return computeEnergy(chain, state).total();
+}
 
-  void add(const Eigen::ArrayX2d& positions) {
-    const double energy = of(positions);
-    least_ = std::min(least_, energy);
-    most_ = std::max(most_, energy);
-  }
-  /// What no frame of the motion can have; empty if nothing.
-  std::string impossibleIn(const Eigen::ArrayX2d& positions) const {
-    constexpr double kMargin = 1.1;
-    if (!positions.allFinite()) return "has a number that is not finite";
-    const bool is_possible = of(positions) <= least_ + kMargin * (most_ - least_);
-    return is_possible ? "" : "has more energy than any frame before";
-  }
-
- private:
-  double of(const Eigen::ArrayX2d& positions) const {
-    State state(chain_.size());
-    state.positions() = positions.matrix();
-    return computeEnergy(chain_, state).total();
-  }
-
-  const Chain& chain_;
-  double least_ = std::numeric_limits<double>::infinity();
-  double most_ = -std::numeric_limits<double>::infinity();
-};
+/// What no frame of a motion between these potential energies can have; empty if nothing.
+std::string impossibleIn(const Eigen::ArrayX2d& positions, const Chain& chain, double least,
+                         double most) {
+  constexpr double kMargin = 1.1;
+  if (!positions.allFinite()) return "has a number that is not finite";
+  const bool is_possible = energyOf(chain, positions) <= least + kMargin * (most - least);
+  return is_possible ? "" : "has more energy than any frame before";
+}
 
 }  // namespace
 
@@ -75,8 +57,8 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
   constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
   const std::unique_ptr<Motion> motion = make();
   const std::unique_ptr<Motion> companion = make();
-  std::optional<EnergyRange> energies;
-  if (chain != nullptr) energies.emplace(*chain);
+  double least_energy = std::numeric_limits<double>::infinity();  // J
+  double most_energy = -least_energy;
   std::mt19937 random(1);  // the same on every machine
   Agreement agreement;
   bool is_comparable = true;
@@ -87,16 +69,19 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver() || !motion->advanceTo(index, limit)) break;
     const Eigen::ArrayX2d positions = motion->positions();
-    if (energies && positions.allFinite()) energies->add(positions);
+    if (chain != nullptr && positions.allFinite()) {
+      least_energy = std::min(least_energy, energyOf(*chain, positions));
+      most_energy = std::max(most_energy, energyOf(*chain, positions));
+    }
     if (is_comparable) {
       if (!companion->advanceTo(index, limit)) break;
       const double spread = largestDistance(positions, companion->positions());
       rounding = spread <= rounding ? rounding : spread;  // NaN replaces it
-      scale = std::max(scale, largestFinite(positions));
+      scale = std::max(scale, positions.isFinite().select(positions.abs(), 0.0).maxCoeff());
       is_comparable = rounding <= kComparable * scale || scale == 0.0;
       if (motion->tolerance() == 0.0) companion->disturb(random);
     }
-    if (!is_comparable && !energies) break;
+    if (!is_comparable && chain == nullptr) break;
     if (index < frame->index) continue;  // missing
     if (is_comparable) {
       agreement.departure = departureOf(*frame, positions, rounding + motion->tolerance());
@@ -104,7 +89,8 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
       ++agreement.frames;
       agreement.last_frame = index;
     } else if (positions.allFinite()) {
-      const std::string impossible = energies->impossibleIn(frame->positions);
+      const std::string impossible =
+          impossibleIn(frame->positions, *chain, least_energy, most_energy);
       if (!impossible.empty()) {
         agreement.departure = Departure{index, 0, 0.0, -1.0, impossible};
         return agreement;

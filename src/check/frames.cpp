@@ -9,9 +9,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -19,12 +20,11 @@ namespace {
 /// Returns a number, also nan and infinity as C and Python print them.
 std::optional<double> valueOf(std::string_view word) {
   if (const std::optional<double> value = parseNumber(word)) return value;
-  std::string name;
-  for (const char c : word.substr(std::min(word.find_first_not_of("+-"), word.size())))
-    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (name == "inf" || name == "infinity") return std::numeric_limits<double>::infinity();
-  if (name.compare(0, 3, "nan") == 0) return std::numeric_limits<double>::quiet_NaN();
-  return std::nullopt;
+  const std::string text(word);
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 class FrameReader {
@@ -50,7 +50,6 @@ class FrameReader {
   }
 
   int digits() const { return digits_; }
-  bool hasCommas() const { return has_commas_; }
 
   /// One unit of the last digit. A format limits either the decimals ("%.6f", round(x, 6)) or the
   /// significant digits ("%g"): the larger of both units is right for each.
@@ -67,7 +66,6 @@ class FrameReader {
     std::int64_t columns = 0;
     for (;; ++columns) {
       const std::size_t begin = std::min(line.find_first_not_of(kSeparators), line.size());
-      has_commas_ |= line.substr(0, begin).find_first_of(",;") != std::string_view::npos;
       line.remove_prefix(begin);
       if (line.empty()) break;
       const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
@@ -104,7 +102,6 @@ class FrameReader {
 
   int digits_ = 0;
   int decimals_ = 0;
-  bool has_commas_ = false;
 };
 
 /// Whether a program in float wrote the frames: they begin with the start rounded to float, or have enough
@@ -118,10 +115,9 @@ bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
   if (all.digits > kDigitsOfFloat && (last != start).any() && (last == rounded(last)).all())
     return true;
   const FrameNumbers& first = all.frames.front();
-  const auto differs = [&](const Eigen::ArrayX2d& from) {
-    return ((first.positions - from).abs() > 0.51 * first.units).any();
-  };
-  return first.index == all.start && differs(start) && !differs(rounded(start));
+  constexpr double kRounded = 0.51;  // units of the last digit
+  return first.index == all.start && !first.equals(start, kRounded) &&
+         first.equals(rounded(start), kRounded);
 }
 
 /// \throws FileError for a large gap
@@ -129,17 +125,16 @@ std::string missingFrames(const AllFrames& all) {
   constexpr std::int64_t kMostMissing = 10'000;  // computing more takes minutes
   std::int64_t next = all.start;
   std::int64_t count = 0;
-  std::int64_t first = 0;
+  std::string first;
   for (const FrameNumbers& frame : all.frames) {
-    const std::int64_t gap = frame.index - next;
+    const std::int64_t gap = frame.index - std::exchange(next, frame.index + 1);
     if (gap < 0) throw FileError(fmt::format("frame {} is there twice", frame.index));
     if (gap > kMostMissing) {
       throw FileError(fmt::format("frame {}: {} frames before it are missing, at most {} may be",
                                   frame.index, gap, kMostMissing));
     }
-    if (count == 0) first = next;
+    if (gap > 0 && count == 0) first = std::to_string(frame.index - gap);
     count += gap;
-    next = frame.index + 1;
   }
   if (count == 0) return "";
   return fmt::format("{} missing, the first is frame {}",
@@ -147,6 +142,16 @@ std::string missingFrames(const AllFrames& all) {
 }
 
 }  // namespace
+
+bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
+  const std::int64_t shift = frames.front().index - start;
+  if (shift == 0 || !frames.front().equals(positions, 1.0)) return false;
+  for (FrameNumbers& frame : frames) frame.index -= shift;
+  // Instead of the missing frames.
+  remarks.front() =
+      fmt::format("the frames are numbered from {}; {} would be right", start + shift, start);
+  return true;
+}
 
 AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& particles) {
   constexpr int kFewDigits = 5;
@@ -172,10 +177,6 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& parti
         fmt::format("few digits: {} printed, too few to show small mistakes; "
                     "print 17, for example with std::setprecision(17)",
                     counted(all.digits, "digit")));
-  }
-  if (reader.hasCommas()) {
-    all.remarks.emplace_back(
-        "commas or semicolons separate the columns; the exercise wants blanks");
   }
   return all;
 }

@@ -16,6 +16,11 @@ struct FrameNumbers {
   std::int64_t index = 0;
   Eigen::ArrayX2d positions;  ///< N×2, m; nan and inf as printed
   Eigen::ArrayX2d units;      ///< N×2, one unit of the last digit printed, m
+
+  /// \param share of a unit by which numbers may differ
+  bool equals(const Eigen::ArrayX2d& numbers, double share) const {
+    return ((positions - numbers).abs() <= share * units).all();
+  }
 };
 
 struct AllFrames {
@@ -24,6 +29,9 @@ struct AllFrames {
   bool are_floats = false;           ///< whether a program in float has written them
   std::int64_t start = 0;            ///< index of the frame that should be the start
   std::vector<std::string> remarks;  ///< on missing frames and on the format
+
+  /// If the first frame is the start with another index, lets it have that of the start.
+  bool renumber(const Eigen::ArrayX2d& positions);
 };
 
 /// \throws FileError naming frame and line

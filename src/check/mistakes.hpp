@@ -1,8 +1,10 @@
 // A program that a student may have written, the known mistakes in it, and its numbers that may be wrong.
 #pragma once
 
-#include <spring_pendulum/integration/butcher_tableau.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cstddef>
@@ -12,20 +14,64 @@
 
 namespace spring_pendulum {
 
+/// The force of a spring on a particle, as a program computes it:
+///
+///     stiffness (length - rest_length) direction + damping damped
+struct StudentSpring {
+  Eigen::Array2d separation;         ///< from the particle to its neighbour, m
+  Eigen::Array2d relative_velocity;  ///< of the neighbour, m/s
+  Eigen::Array2d velocity;           ///< of the particle, m/s
+  bool to_previous;                  ///< whether the neighbour is the previous particle
+  double start_length, rest_length;  ///< m
+  double length;                     ///< m
+  Eigen::Array2d direction = {0.0, 0.0};
+  Eigen::Array2d damped = {0.0, 0.0};  ///< m/s
+
+  void pointTo(const Eigen::Array2d& r) {
+    direction = r;
+    damped = (relative_velocity * r).sum() * r;
+  }
+};
+
+/// A particle, as a program accelerates it:
+///
+///     (left × force from the left + right × force from the right - drag |v|^drag_power v) / divisor + gravity
+struct StudentParticle {
+  std::ptrdiff_t index, last;
+  double mass, previous_mass, next_mass;  ///< kg
+  double drag;                            ///< N·s/m
+  Eigen::Array2d gravity;                 ///< m/s²
+  double divisor = mass;                  ///< kg
+  double left = 1.0;
+  double right = 1.0;
+  double drag_power = 0.0;
+  bool moves = index > 0;
+};
+
+/// A particle's way to the next stage of a step, or to its end. Rows are x, y, vx, vy.
+struct StudentMove {
+  Eigen::Array4d start, first_slope, result;
+  double step;     ///< s
+  double time;     ///< from the start to the result, s
+  bool ends_step;  ///< whether this is the result of the step
+
+  void moveWith(const Eigen::Array2d& velocity) {
+    result.head<2>() = start.head<2>() + time * velocity;
+  }
+};
+
 /// The exercise with whatever is changed in it. The initialisers are the right program.
 struct StudentProgram {
-  enum class Damping { kProjected, kWhole, kOwn, kNotUnit, kAbsolute };
-  enum class Direction { kUnit, kSeparation, kDegrees, kDegreesOfSpring };
-  enum class Length { kRight, kInteger, kSquared, kSquaredEverywhere };
-  enum class Springs { kAll, kAllButLast, kEverySecond };
-  /// The velocity by which a position is moved.
-  enum class PositionUpdate {
-    kSlopes,
-    kNewVelocityInResult,
-    kNewVelocityInStages,
-    kNewVelocityEverywhere,
-    kNewVelocityInSlopes,  ///< each slope of a position is v + h a
-    kOldVelocity           ///< the one at the begin of the step
+  /// Kinds of programs, as bits: a mistake concerns some of them.
+  enum Kind : unsigned {
+    kEuler = 1,
+    kMidpoint = 2,
+    kHeun = 4,
+    kRungeKutta4 = 8,
+    kOtherTableau = 16,
+    kSymplectic = 32,
+    kImplicit = 64,
+    kInAir = 128
   };
   /// When the numbers of a particle are overwritten.
   enum class Order {
@@ -36,66 +82,45 @@ struct StudentProgram {
     kFrozenNeighbours,  ///< the same, but with neighbours at the begin of the step
     kForceAfterMove     ///< all positions take the step before the forces are computed
   };
-  enum class StageMoves { kBoth, kPositions, kVelocities };
+  enum class Implicit { kNone, kSolved, kOneIteration };
 
+  unsigned kinds = 0;
   ButcherTableau tableau;
+  Implicit implicit = Implicit::kNone;
+  Order order = Order::kTogether;
   double time_step;  ///< s; 0: nothing moves
   std::int64_t steps_per_frame;
-  std::int64_t first_step = 0;     ///< steps before frame 0; negative: the start is repeated
-  double stiffness;                ///< N/m
-  double damping;                  ///< N·s/m
-  double rest_length;              ///< m
-  double gravity;                  ///< m/s²
-  double gravity_x = 0.0;          ///< m/s²
-  double left = 1.0;               ///< factor of the force of the spring to the previous particle
-  double right = 1.0;              ///< factor of the force of the spring to the next particle
-  double force_mass_power = -1.0;  ///< the force is multiplied by this power of the mass
-  double gravity_mass_power = 0.0;
-  int mass_of = 0;  ///< -1, 1: the mass of the previous or the next particle divides the force
-  bool gravity_on_last_only = false;
-  bool rest_length_from_start = false;
-  bool first_moves = false;
-  bool last_moves = true;
-  bool swaps_columns = false;
-  bool reverses_particles = false;
+  std::int64_t first_step = 0;  ///< steps before frame 0; negative: the start is repeated
+  double stiffness;             ///< N/m
+  double damping;               ///< N·s/m
+  double rest_length;           ///< m
+  double gravity;               ///< m/s²
+  double air_drag;              ///< N·s/m
   bool single_precision = false;
-  bool velocity_by_euler = false;
-  Damping damping_kind = Damping::kProjected;
-  Direction direction = Direction::kUnit;
-  Length length = Length::kRight;
-  Springs springs = Springs::kAll;
-  PositionUpdate position_update = PositionUpdate::kSlopes;
-  Order order = Order::kTogether;
-  StageMoves stage_moves = StageMoves::kBoth;
+  /// Changes of a spring, of a particle, of a way, and of the numbers that are printed.
+  std::vector<void (*)(StudentSpring&)> springs = {};
+  std::vector<void (*)(StudentParticle&)> particles = {};
+  std::vector<void (*)(StudentMove&)> moves = {};
+  std::vector<void (*)(Eigen::Array4Xd&)> prints = {};
 
-  StudentProgram(const ButcherTableau& method, const Scenario& scenario)
-      : tableau(method),
-        time_step(scenario.time_step),
-        steps_per_frame(scenario.steps_per_frame),
-        stiffness(scenario.stiffness),
-        damping(scenario.damping),
-        rest_length(scenario.rest_length),
-        gravity(scenario.gravity) {}
+  /// The right program for a method that `isWritten` by students.
+  StudentProgram(const Method& method, const Scenario& scenario);
+
+  static bool isWritten(const Method& method);
 
   std::int64_t stepOfFrame(std::int64_t frame) const {
     return std::max<std::int64_t>(0, first_step + frame * steps_per_frame);
   }
 };
 
-/// For methods with any number of stages, or with more than one.
-inline constexpr std::size_t kAnyStages = 0;
-inline constexpr std::size_t kSeveralStages = 100;
+/// Whether a method solves equations, which students do to fewer digits than a number has.
+bool isImplicit(const Method& method);
 
 struct Mistake {
   std::string_view name;      ///< several rows may share a name
-  std::size_t stages;         ///< of the methods in which it can be made
+  unsigned kinds;             ///< of the programs in which it can be made
   std::string_view sentence;  ///< follows "the program "
   void (*make)(StudentProgram&);
-
-  bool concerns(const StudentProgram& program) const {
-    return stages == kAnyStages || stages == program.tableau.stages ||
-           (stages == kSeveralStages && program.tableau.stages > 1);
-  }
 };
 
 /// A number that is fitted.

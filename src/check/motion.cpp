@@ -2,7 +2,9 @@
 
 #include <spring_pendulum/simulation/frame_steps.hpp>
 
-#include <array>
+#include <Eigen/LU>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,17 +13,19 @@
 namespace spring_pendulum {
 namespace {
 
-/// Adds rounding errors to a column of the state, except to the first particle; nothing if all are
-/// equal, like x in a vertical chain: their differences are exact.
-/// \param epsilon of the numbers of the program
+constexpr double kPrecision = std::numeric_limits<double>::epsilon();
+constexpr double kPrecisionOfSolvers = 1e-9;  ///< at which students end an iteration
+
+/// Adds rounding errors to one column of the state, except to the first particle; nothing if all
+/// numbers are equal, like x in a vertical chain: their differences are exact.
+/// \param precision relative precision of the numbers of the program
 template <typename Numbers>
-void disturbColumn(Numbers&& numbers, double epsilon, std::int64_t steps, std::mt19937& random) {
-  // Errors of a step in units of the last digit. Measured: at most 3 for Runge-Kutta-4 in other orders
-  // of summation.
+void disturbNumbers(Numbers&& numbers, double precision, std::int64_t steps, std::mt19937& random) {
+  // Errors of a step in units of the last digit; measured: at most 3 in other orders of summation.
   constexpr double kRoundingErrors = 16.0;
   if (numbers.minCoeff() == numbers.maxCoeff()) return;
-  const double size =
-      kRoundingErrors * std::sqrt(static_cast<double>(steps)) * epsilon * numbers.abs().maxCoeff();
+  const double size = kRoundingErrors * std::sqrt(static_cast<double>(steps)) * precision *
+                      numbers.abs().maxCoeff();
   for (Eigen::Index i = 1; i < numbers.size(); ++i) {
     const double share = static_cast<double>(random()) / std::mt19937::max();
     numbers[i] += (2.0 * share - 1.0) * size;
@@ -32,7 +36,8 @@ class MethodMotion : public Motion {
  public:
   MethodMotion(const Method& method, const Scenario& scenario, const Particles& particles)
       : tolerance_(method.hasFixedStep() ? 0.0 : scenario.tolerance),
-        chain_(particles.masses, scenario.spring(), scenario.gravity),
+        precision_(isImplicit(method) ? kPrecisionOfSolvers : kPrecision),
+        chain_(scenario.chainOf(particles.masses)),
         state_(particles.state),
         integrator_(makeIntegrator(method, chain_, {scenario.tolerance, false, 0})),
         frame_(particles.frame) {
@@ -55,8 +60,7 @@ class MethodMotion : public Motion {
 
   void disturb(std::mt19937& random) override {
     for (int column = 0; column < 4; ++column) {
-      disturbColumn(state_.values().col(column).array(), std::numeric_limits<double>::epsilon(),
-                    steps_.steps, random);
+      disturbNumbers(state_.values().col(column).array(), precision_, steps_.steps, random);
     }
     integrator_->restart();
   }
@@ -65,6 +69,7 @@ class MethodMotion : public Motion {
 
  private:
   double tolerance_;  ///< m
+  double precision_;
   Chain chain_;
   State state_;
   std::unique_ptr<Integrator> integrator_;
@@ -74,190 +79,187 @@ class MethodMotion : public Motion {
 
 class ProgramMotion : public Motion {
   using Vector = Eigen::Array2d;
-  using Row = Eigen::Array4d;  ///< x, y, vx, vy
-  using Rows = std::vector<Row>;
-  using Program = StudentProgram;
+  using Vectors = Eigen::Array2Xd;  ///< by particle
+  using Row = Eigen::Array4d;       ///< x, y, vx, vy
+  using Rows = Eigen::Array4Xd;     ///< by particle
+  using Order = StudentProgram::Order;
+  using Implicit = StudentProgram::Implicit;
 
  public:
   ProgramMotion(const StudentProgram& program, const Particles& particles)
-      : program_(program), first_frame_(particles.frame) {
-    const std::ptrdiff_t size = particles.state.size();
-    for (std::ptrdiff_t i = 0; i < size; ++i) {
-      Row row = particles.state.values().row(i).transpose().array();
-      if (program.single_precision) row = row.cast<float>().cast<double>();
-      const Row separation = row - (i > 0 ? state_.back() : row);
-      rest_lengths_.push_back(program.rest_length_from_start ? separation.head<2>().matrix().norm()
-                                                             : program.rest_length);
-      state_.push_back(row);
-      const std::ptrdiff_t other = std::clamp<std::ptrdiff_t>(i + program.mass_of, 0, size - 1);
-      force_factor_.push_back(std::pow(particles.masses[other], program.force_mass_power));
-      const bool falls = !program.gravity_on_last_only || i + 1 == size;
-      const double factor = std::pow(particles.masses[i], program.gravity_mass_power);
-      gravity_.emplace_back((falls ? factor : 0.0) * Vector(program.gravity_x, program.gravity));
+      : program_(program),
+        first_frame_(particles.frame),
+        state_(particles.state.values().transpose().array()) {
+    if (program.single_precision) state_ = state_.cast<float>().cast<double>().eval();
+    const AlignedNumbers& masses = particles.masses;
+    const Eigen::Index last = masses.size() - 1;
+    for (Eigen::Index i = 0; i <= last; ++i) {
+      particles_.push_back({i, last, masses[i], masses[std::max<Eigen::Index>(i - 1, 0)],
+                            masses[std::min(i + 1, last)], program.air_drag,
+                            Vector(0.0, -program.gravity)});
+      for (const auto change : program.particles) change(particles_.back());
+      const Row separation = state_.col(i) - state_.col(std::max<Eigen::Index>(i - 1, 0));
+      start_lengths_.push_back(separation.head<2>().matrix().norm());
     }
-    slopes_.assign(program.tableau.stages, Rows(state_.size(), Row::Zero()));
+    slopes_.assign(program.tableau.stages, Rows::Zero(4, state_.cols()));
   }
 
   bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
-    constexpr double kWorkOfSpring = 10.0;  // relative to a kernel of the library
     const std::int64_t target = program_.stepOfFrame(frame - first_frame_);
-    limit.done += static_cast<double>(target - step_) * kWorkOfSpring *
-                  static_cast<double>(program_.tableau.stages * state_.size());
+    const bool is_implicit = program_.implicit != Implicit::kNone;
+    const auto size = static_cast<double>(state_.cols());
+    // Relative to a kernel of the library.
+    const double work_of_spring = is_implicit ? 100.0 + 50.0 * size : 10.0;
+    limit.done += static_cast<double>(target - step_) * work_of_spring * size *
+                  static_cast<double>(slopes_.size());
     for (; step_ < target; ++step_) {
       if (limit.isStopped()) return false;
-      const bool by_particle = program_.order == Program::Order::kParticlesInPlace ||
-                               program_.order == Program::Order::kFrozenNeighbours;
-      by_particle ? stepParticleByParticle() : stepStageByStage();
+      is_implicit ? stepImplicitly() : step();
     }
     return true;
   }
 
   Eigen::ArrayX2d positions() const override {
-    Eigen::ArrayX2d result(static_cast<Eigen::Index>(state_.size()), 2);
-    for (Eigen::Index i = 0; i < result.rows(); ++i)
-      result.row(i) = state_[static_cast<std::size_t>(i)].head<2>().transpose();
-    if (program_.reverses_particles) result = result.colwise().reverse().eval();
-    if (program_.swaps_columns) result = result.rowwise().reverse().eval();
-    return result;
+    Rows numbers = state_;
+    for (const auto change : program_.prints) change(numbers);
+    return numbers.topRows<2>().transpose();
   }
 
   void disturb(std::mt19937& random) override {
-    const double epsilon = program_.single_precision ? std::numeric_limits<float>::epsilon()
-                                                     : std::numeric_limits<double>::epsilon();
-    Eigen::Map<Eigen::Array<double, 4, Eigen::Dynamic>> numbers(
-        state_.front().data(), 4, static_cast<Eigen::Index>(state_.size()));
-    for (Eigen::Index column = 0; column < 4; ++column)
-      disturbColumn(numbers.row(column), epsilon, program_.steps_per_frame, random);
+    const double precision = program_.single_precision ? std::numeric_limits<float>::epsilon()
+                             : program_.implicit != Implicit::kNone ? kPrecisionOfSolvers
+                                                                    : kPrecision;
+    for (Eigen::Index row = 0; row < 4; ++row)
+      disturbNumbers(state_.row(row), precision, program_.steps_per_frame, random);
   }
 
  private:
-  /// The force on a particle at row `here` of the spring to its neighbour at row `there`.
-  /// \param sign -1 if this is the previous particle, else 1
-  Vector springForce(const Row& here, const Row& there, double rest_length, double sign) const {
-    using Damping = Program::Damping;
-    using Direction = Program::Direction;
-    using Length = Program::Length;
-    const Vector d = there.head<2>() - here.head<2>();
-    const Vector w = there.tail<2>() - here.tail<2>();
-    const double square = d.square().sum();
-    double length = program_.length == Length::kSquaredEverywhere ? square : std::sqrt(square);
-    Vector r = d / length;
-    if (program_.direction >= Direction::kDegrees) {
-      constexpr double kDegrees = 57.295779513082320877;
-      if (program_.direction == Direction::kDegrees) sign = 1.0;
-      const double angle = kDegrees * std::atan2(sign * d.y(), sign * d.x());
-      r = sign * Vector(std::cos(angle), std::sin(angle));
-    }
-    if (program_.length == Length::kInteger) length = std::trunc(length);
-    if (program_.length == Length::kSquared) length = square;
-    const Vector direction = program_.direction == Direction::kSeparation ? d : r;
-    const Vector tension = program_.stiffness * (length - rest_length) * direction;
-    const double rate = (w * (program_.damping_kind == Damping::kNotUnit ? d : r)).sum();
-    switch (program_.damping_kind) {
-      case Damping::kWhole:
-        return tension + program_.damping * w;
-      case Damping::kOwn:
-        return tension - program_.damping * here.tail<2>();
-      case Damping::kAbsolute:
-        return tension + program_.damping * std::abs(rate) * direction;
-      default:
-        return tension + program_.damping * rate * direction;
-    }
+  /// The force on particle i of the spring to its neighbour j.
+  Vector springForce(const Rows& z, Eigen::Index i, Eigen::Index j) const {
+    const Row difference = z.col(j) - z.col(i);
+    const Vector separation = difference.head<2>();
+    StudentSpring spring{separation,
+                         difference.tail<2>(),
+                         z.col(i).tail<2>(),
+                         j < i,
+                         start_lengths_[static_cast<std::size_t>(std::max(i, j))],
+                         program_.rest_length,
+                         separation.matrix().norm()};
+    spring.pointTo(separation / spring.length);
+    for (const auto change : program_.springs) change(spring);
+    return program_.stiffness * (spring.length - spring.rest_length) * spring.direction +
+           program_.damping * spring.damped;
   }
 
-  /// Whether the program has the spring between particle i and the one before.
-  bool hasSpring(std::size_t i) const {
-    if (program_.springs == Program::Springs::kAllButLast) return i + 1 < state_.size();
-    return program_.springs == Program::Springs::kAll || i % 2 == 1;
-  }
-
-  Row slope(const Rows& z, std::size_t i) const {
+  Row slope(const Rows& z, Eigen::Index i) const {
+    const StudentParticle& particle = particles_[static_cast<std::size_t>(i)];
     Row result = Row::Zero();
-    const bool is_last = i + 1 == z.size();
-    if ((i == 0 && !program_.first_moves) || (is_last && !program_.last_moves)) return result;
+    if (!particle.moves) return result;
+    const Vector velocity = z.col(i).tail<2>();
     Vector force = Vector::Zero();
-    if (i > 0 && program_.left != 0.0 && hasSpring(i))
-      force += program_.left * springForce(z[i], z[i - 1], rest_lengths_[i], -1.0);
-    if (!is_last && program_.right != 0.0 && hasSpring(i + 1))
-      force += program_.right * springForce(z[i], z[i + 1], rest_lengths_[i + 1], 1.0);
-    const Vector acceleration = force * force_factor_[i] - gravity_[i];
-    result << z[i].tail<2>(), acceleration;
-    if (program_.position_update == Program::PositionUpdate::kNewVelocityInSlopes)
-      result.head<2>() += program_.time_step * acceleration;
+    if (i > 0 && particle.left != 0.0) force += particle.left * springForce(z, i, i - 1);
+    if (i < particle.last && particle.right != 0.0)
+      force += particle.right * springForce(z, i, i + 1);
+    if (particle.drag != 0.0)
+      force -= particle.drag * std::pow(velocity.matrix().norm(), particle.drag_power) * velocity;
+    result << velocity, force / particle.divisor + particle.gravity;
     return result;
   }
 
   /// Row i of the next stage, or of the result.
-  Row moved(std::size_t i, std::size_t stages) const {
-    using Update = Program::PositionUpdate;
-    const Row& start = state_[i];
-    if (i == 0 && !program_.first_moves) return start;
-    const bool is_result = stages == program_.tableau.stages;
-    const auto& weights = is_result ? program_.tableau.b : program_.tableau.a[stages];
-    const Update update = program_.position_update;
-    const double step = program_.time_step;
+  Row moved(Eigen::Index i, std::size_t stages) const {
+    const bool ends_step = stages == slopes_.size();
+    const auto& weights = ends_step ? program_.tableau.b : program_.tableau.a[stages];
     Row change = Row::Zero();
     double sum = 0.0;
     for (std::size_t j = 0; j < stages; ++j) {
       if (weights[j] == 0.0) continue;
-      change += weights[j] * slopes_[j][i];
+      change += weights[j] * slopes_[j].col(i);
       sum += weights[j];
     }
-    if (is_result && program_.velocity_by_euler) change.tail<2>() = slopes_[0][i].tail<2>();
-    if (is_result && update == Update::kOldVelocity) change.head<2>() = start.tail<2>();
-    if (!is_result && program_.stage_moves == Program::StageMoves::kPositions)
-      change.tail<2>().setZero();
-    if (!is_result && program_.stage_moves == Program::StageMoves::kVelocities)
-      change.head<2>().setZero();
-    Row result = start + step * change;
-    if (update == Update::kNewVelocityEverywhere ||
-        update == (is_result ? Update::kNewVelocityInResult : Update::kNewVelocityInStages)) {
-      result.head<2>() = start.head<2>() + step * sum * result.tail<2>();
+    const double step = program_.time_step;
+    StudentMove move{state_.col(i), slopes_[0].col(i), state_.col(i) + step * change,
+                     step,          sum * step,        ends_step};
+    if (particles_[static_cast<std::size_t>(i)].moves) {
+      for (const auto change_move : program_.moves) change_move(move);
     }
+    return move.result;
+  }
+
+  void step() {
+    const Order order = program_.order;
+    const bool by_particle = order == Order::kParticlesInPlace || order == Order::kFrozenNeighbours;
+    const auto size = static_cast<std::size_t>(state_.cols());
+    const std::size_t stages = slopes_.size();
+    seen_ = state_;
+    next_ = state_;
+    if (order == Order::kForceAfterMove)
+      seen_.topRows<2>() += program_.time_step * state_.bottomRows<2>();
+    for (std::size_t n = 0; n < stages * size; ++n) {
+      const std::size_t s = by_particle ? n % stages : n / size;
+      const auto i = static_cast<Eigen::Index>(by_particle ? n / stages : n % size);
+      slopes_[s].col(i) = slope(seen_, i);
+      next_.col(i) = moved(i, s + 1);
+      if (by_particle || order == Order::kStagesInPlace) seen_.col(i) = next_.col(i);
+      if (order == Order::kPositionsInPlace) seen_.col(i).head<2>() = next_.col(i).head<2>();
+      if (order == Order::kFrozenNeighbours && s + 1 == stages) seen_.col(i) = state_.col(i);
+      if (!by_particle && i + 1 == state_.cols()) std::swap(seen_, next_);
+    }
+    std::swap(state_, by_particle ? next_ : seen_);
+  }
+
+  Vectors accelerations(const Rows& z) const {
+    Vectors result(2, z.cols());
+    for (Eigen::Index i = 0; i < z.cols(); ++i) result.col(i) = slope(z, i).tail<2>();
     return result;
   }
 
-  void stepStageByStage() {
-    scratch_ = state_;
-    next_.resize(state_.size());
-    if (program_.order == Program::Order::kForceAfterMove) {
-      for (std::size_t i = program_.first_moves ? 0 : 1; i < state_.size(); ++i)
-        scratch_[i].head<2>() += program_.time_step * state_[i].tail<2>();
-    }
-    for (std::size_t s = 0; s < slopes_.size(); ++s) {
-      for (std::size_t i = 0; i < state_.size(); ++i) {
-        slopes_[s][i] = slope(scratch_, i);
-        next_[i] = moved(i, s + 1);
-        if (program_.order == Program::Order::kStagesInPlace) scratch_[i] = next_[i];
-        if (program_.order == Program::Order::kPositionsInPlace)
-          scratch_[i].head<2>() = next_[i].head<2>();
-      }
-      std::swap(scratch_, next_);
-    }
-    std::swap(state_, scratch_);
+  /// The change of the accelerations with a change of the state.
+  Vectors changeOf(const Rows& z, const Rows& change) const {
+    constexpr double kPart = 1e-4;
+    return (accelerations(z + kPart * change) - accelerations(z - kPart * change)) / (2.0 * kPart);
   }
 
-  void stepParticleByParticle() {
-    scratch_ = state_;
-    next_ = state_;
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-      for (std::size_t s = 0; s < slopes_.size(); ++s) {
-        slopes_[s][i] = slope(scratch_, i);
-        scratch_[i] = moved(i, s + 1);
-      }
-      next_[i] = scratch_[i];
-      if (program_.order == Program::Order::kFrozenNeighbours) scratch_[i] = state_[i];
+  static Eigen::VectorXd flat(const Vectors& vectors) {
+    return Eigen::Map<const Eigen::VectorXd>(vectors.data(), vectors.size());
+  }
+
+  /// Newton's method for v' = v + h a(p + h v', v'), with the matrix 1 - h da/dv - h² da/dp at its begin.
+  void stepImplicitly() {
+    constexpr int kMostIterations = 30;
+    constexpr double kConverged = 1e-13;
+    const double h = program_.time_step;
+    const Vectors positions = state_.topRows<2>();
+    const Vectors velocities = state_.bottomRows<2>();
+    Rows way = Rows::Zero(4, state_.cols());
+    way.topRows<2>() = h * velocities;
+    // The first iteration takes the forces at the begin, and at once their change on the way.
+    Vectors missing = h * (accelerations(state_) + changeOf(state_, way));
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(missing.size(), missing.size());
+    for (Eigen::Index k = 0; k < missing.size(); ++k) {
+      way.setZero();
+      way(k % 2, k / 2) = h;
+      way(k % 2 + 2, k / 2) = 1.0;
+      matrix.col(k) -= flat(h * changeOf(state_, way));
     }
-    std::swap(state_, next_);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(matrix);
+    for (int n = 0; n < kMostIterations; ++n) {
+      const Eigen::VectorXd change = solver.solve(flat(missing));
+      state_.bottomRows<2>() += Eigen::Map<const Vectors>(change.data(), 2, state_.cols());
+      state_.topRows<2>() = positions + h * state_.bottomRows<2>();
+      const bool has_converged =
+          !(change.cwiseAbs().maxCoeff() > kConverged * (1.0 + velocities.abs().maxCoeff()));
+      if (has_converged || program_.implicit == Implicit::kOneIteration) break;
+      missing = velocities + h * accelerations(state_) - state_.bottomRows<2>();
+    }
   }
 
   StudentProgram program_;
   std::int64_t first_frame_;
-  Rows state_, scratch_, next_;
-  std::vector<Rows> slopes_;          ///< by stage and particle
-  std::vector<double> force_factor_;  ///< 1/kg for the right program
-  std::vector<Vector> gravity_;       ///< m/s²
-  std::vector<double> rest_lengths_;  ///< of the spring before each particle, m
+  Rows state_, seen_, next_;  ///< seen: what the forces are computed from
+  std::vector<Rows> slopes_;  ///< by stage
+  std::vector<StudentParticle> particles_;
+  std::vector<double> start_lengths_;  ///< of the spring before each particle, m
   std::int64_t step_ = 0;
 };
 

@@ -14,11 +14,6 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr int kMostDigits = 15;  ///< significant digits of fitted constants
-/// Smaller relative changes of a constant are rounding errors.
-constexpr double kSmallestMistake = 1e-5;
-constexpr std::string_view kSinglePrecision = "single_precision";
-
 struct Candidate {
   StudentProgram program;
   Explanation explanation;
@@ -30,7 +25,7 @@ struct Candidate {
     return other;
   }
   bool canMake(const Mistake& mistake) const {
-    return mistake.concerns(program) && mistake.name != kSinglePrecision &&
+    return (mistake.kinds & program.kinds) != 0 &&
            (explanation.mistakes.empty() || explanation.mistakes.back() != mistake.name);
   }
   void add(std::string_view name, std::string sentence) {
@@ -44,10 +39,10 @@ class Trials {
  public:
   explicit Trials(Search& search) : search_(search) {}
 
-  std::vector<Explanation> take() { return std::exchange(found_, {}); }
+  std::vector<Explanation> found;
 
   Candidate rightProgram(const Method& method) const {
-    Candidate right{StudentProgram(*method.tableau, search_.scenario), {method.name, {}, {}, 0}};
+    const Candidate right{StudentProgram(method, search_.scenario), {method.name, {}, {}, 0}};
     return search_.frames.are_floats ? inSinglePrecision(right) : right;
   }
 
@@ -89,16 +84,10 @@ class Trials {
 
  private:
   static Candidate inSinglePrecision(const Candidate& base) {
-    const std::vector<Mistake>& table = knownMistakes();
-    return base.with(*std::find_if(table.begin(), table.end(), [](const Mistake& mistake) {
-      return mistake.name == kSinglePrecision;
-    }));
+    return base.with(knownMistakes().back());
   }
 
-  bool isOver() {
-    search_.gave_up |= search_.limit.isOver();
-    return search_.gave_up;
-  }
+  bool isOver() { return search_.gave_up |= search_.limit.isOver(); }
 
   void tryMistakesFrom(std::size_t first, const Candidate& base) {
     const std::vector<Mistake>& table = knownMistakes();
@@ -114,58 +103,43 @@ class Trials {
   bool isExplanation(const Agreement& agreement) {
     return agreement.complete && agreement.frames > search_.known_frames && !isOver();
   }
-  void keep(const Candidate& candidate, const Agreement& agreement) {
-    found_.push_back(candidate.explanation);
-    found_.back().last_frame = agreement.last_frame;
-  }
-  bool explains(const Candidate& candidate) {
+  bool explains(Candidate candidate) {
     const Agreement agreement = agreementOf(candidate.program);
     if (!isExplanation(agreement)) return false;
-    keep(candidate, agreement);
+    candidate.explanation.last_frame = agreement.last_frame;
+    found.push_back(std::move(candidate.explanation));
     return true;
   }
 
-  /// The differences between leading frames and motion, in units of the last digit printed.
-  Eigen::ArrayXd differencesOf(const StudentProgram& program, std::size_t window) {
-    constexpr double kRounding = 1e-12;  // relative; weighs tiny numbers with many digits less
-    constexpr double kDiverged = 1e12;
-    const auto motion = motionOf(program, search_.particles);
-    const Eigen::Index size = search_.particles.state.size();
-    Eigen::ArrayXd result = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(window) * 2 * size);
-    for (std::size_t n = 0; n < window; ++n) {
-      const FrameNumbers& frame = search_.frames.frames[n];
-      if (!motion->advanceTo(frame.index, search_.limit)) break;
-      const Eigen::ArrayX2d difference =
-          (motion->positions() - frame.positions) /
-          (frame.units + kRounding * frame.positions.abs().maxCoeff());
-      Eigen::Map<Eigen::ArrayX2d>(result.data() + static_cast<Eigen::Index>(n) * 2 * size, size,
-                                  2) = difference.isFinite().select(difference, kDiverged);
-    }
-    return result;
-  }
-
-  /// Fits a constant to the leading frames of a window: the secant method for least squares.
-  void improve(StudentProgram& program, const Constant& constant, std::size_t window) {
+  /// Fits a constant to a frame: the secant method for least squares.
+  void improve(StudentProgram& program, const Constant& constant, const FrameNumbers& frame) {
     constexpr int kMostSteps = 12;
     constexpr double kFirstChange = 1e-4;
+    constexpr double kRounding = 1e-12;  // relative; weighs tiny numbers with many digits less
+    const auto differences = [&]() -> Eigen::ArrayX2d {
+      const auto motion = motionOf(program, search_.particles);
+      motion->advanceTo(frame.index, search_.limit);
+      return (motion->positions() - frame.positions) /
+             (frame.units + kRounding * frame.positions.abs().maxCoeff());
+    };
     double& value = program.*constant.member;
-    double before = value;
-    Eigen::ArrayXd old = differencesOf(program, window);
-    value += value == 0.0 ? kFirstChange : kFirstChange * value;
+    double change = value == 0.0 ? kFirstChange : kFirstChange * value;
+    Eigen::ArrayX2d old = differences();
     for (int i = 0; i < kMostSteps && !isOver(); ++i) {
-      const Eigen::ArrayXd now = differencesOf(program, window);
-      const Eigen::ArrayXd slope = (now - old) / (value - before);
-      const double change = -(now * slope).sum() / slope.square().sum();
-      if (!std::isfinite(change)) return;
-      before = value;
-      old = now;
       value += change;
-      if (std::abs(change) <= 1e-15 * std::abs(value)) return;
+      const Eigen::ArrayX2d now = differences();
+      const Eigen::ArrayX2d slope = (now - old) / change;
+      change = -(now * slope).sum() / slope.square().sum();
+      if (!std::isfinite(change) || std::abs(change) <= 1e-15 * std::abs(value)) return;
+      old = now;
     }
   }
 
   /// Fits a constant, starting from its value times `factor`, to more and more frames, and rounds it.
   bool fit(Candidate candidate, const Constant& constant, double factor = 1.0) {
+    constexpr double kSmallestMistake = 1e-5;  // relative; smaller ones are rounding errors
+    constexpr int kMostDigits = 15;
+    const std::vector<FrameNumbers>& frames = search_.frames.frames;
     double& value = candidate.program.*constant.member;
     const double right = value;
     value *= factor;
@@ -173,7 +147,7 @@ class Trials {
     while (!agreement.complete && !isOver()) {
       const std::size_t before = agreement.frames;
       improve(candidate.program, constant,
-              std::min(search_.frames.frames.size(), before + before / 2 + 2));
+              frames[std::min(frames.size() - 1, before + before / 2)]);
       agreement = agreementOf(candidate.program);
       if (!agreement.complete && agreement.frames <= before) return false;
     }
@@ -181,19 +155,17 @@ class Trials {
     const double fitted = value;
     for (int digits = 1; digits <= kMostDigits; ++digits) {
       value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
-      agreement = agreementOf(candidate.program);
-      if (isExplanation(agreement)) break;
+      if (isExplanation(agreementOf(candidate.program))) break;
     }
-    if (std::abs(value - right) <= kSmallestMistake * std::abs(right)) return false;
+    const double scale = right == 0.0 ? 1.0 : std::abs(right);
+    if (std::abs(value - right) <= kSmallestMistake * scale) return false;
     std::string sentence(constant.sentence);
     sentence.replace(sentence.find("{}"), 2, roundedText(value, kMostDigits));
     candidate.add(constant.name, fmt::format("{} instead of {}", sentence, roundedText(right, 6)));
-    keep(candidate, agreement);
-    return true;
+    return explains(std::move(candidate));
   }
 
   Search& search_;
-  std::vector<Explanation> found_;
 };
 
 /// Whether an explanation reproduces all frames, or many that show the mistake.
@@ -206,18 +178,16 @@ bool isStrong(const Search& search, const Explanation& explanation) {
 
 }  // namespace
 
-std::vector<Explanation> singleMistakes(Search& search, const std::vector<const Method*>& methods) {
+std::vector<Explanation> singleMistakes(Search& search, const Methods& methods) {
   Trials trials(search);
   for (const Method* method : methods) trials.tryMistakes(trials.rightProgram(*method));
-  std::vector<Explanation> found = trials.take();
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [&](const Explanation& one) { return !isStrong(search, one); }),
-              found.end());
+  const auto is_weak = [&](const Explanation& one) { return !isStrong(search, one); };
+  std::vector<Explanation>& found = trials.found;
+  found.erase(std::remove_if(found.begin(), found.end(), is_weak), found.end());
   return found;
 }
 
-std::vector<Explanation> simplestMistakes(Search& search,
-                                          const std::vector<const Method*>& methods) {
+std::vector<Explanation> simplestMistakes(Search& search, const Methods& methods) {
   constexpr void (Trials::*kLevels[])(const Candidate&) = {
       &Trials::tryMistakes, &Trials::tryConstants, &Trials::trySinglePrecision,
       &Trials::tryTwoMistakes, &Trials::tryMistakeAndConstant};
@@ -225,7 +195,7 @@ std::vector<Explanation> simplestMistakes(Search& search,
   std::vector<Explanation> best;
   for (const auto level : kLevels) {
     for (const Method* method : methods) (trials.*level)(trials.rightProgram(*method));
-    std::vector<Explanation> found = trials.take();
+    std::vector<Explanation> found = std::exchange(trials.found, {});
     // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
     std::stable_sort(found.begin(), found.end(), [](const Explanation& a, const Explanation& b) {
       return a.last_frame > b.last_frame;

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "check/comparison.hpp"
+#include "check/motion.hpp"
 
 namespace spring_pendulum {
+
+using Methods = std::vector<const Method*>;
 
 /// Mistakes that together reproduce the frames.
 struct Explanation {
@@ -28,11 +30,10 @@ struct Search {
 };
 
 /// Returns the single mistakes that each explain the frames, without fits: the fast part.
-std::vector<Explanation> singleMistakes(Search& search, const std::vector<const Method*>& methods);
+std::vector<Explanation> singleMistakes(Search& search, const Methods& methods);
 
 /// Returns the simplest explanations: a mistake, a wrong number, float, two mistakes, or a mistake and a
 /// wrong number.
-std::vector<Explanation> simplestMistakes(Search& search,
-                                          const std::vector<const Method*>& methods);
+std::vector<Explanation> simplestMistakes(Search& search, const Methods& methods);
 
 }  // namespace spring_pendulum
