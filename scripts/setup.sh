@@ -43,7 +43,7 @@ packages_of() {
     film) echo xvfb xauth libgl1-mesa-dri imagemagick ffmpeg ;;
     lab)
       echo emscripten cmake ninja-build libeigen3-dev libfmt-dev esbuild libjs-chart.js libjs-katex \
-           python3-selenium chromium chromium-driver ;;
+           python3-selenium python3-numpy chromium chromium-driver ;;
     cache) echo ccache ;;
     lint) echo git clang-format clang-tidy catkin-lint ;;
     sanitize) echo clang libclang-rt-dev valgrind gcovr ;;

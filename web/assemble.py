@@ -14,15 +14,8 @@ WEB = Path(__file__).resolve().parent
 LIBRARIES = Path('/usr/share/javascript')
 
 
-def bundle():
-    """The modules of the page in one script."""
-    command = ['esbuild', str(WEB / 'app.js'), '--bundle', '--minify', '--charset=utf8', '--target=es2022',
-               '--log-level=warning']
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
-
-
-def minified(path):
-    command = ['esbuild', str(path), '--minify', '--charset=utf8', '--log-level=error']
+def minified(path, *options):
+    command = ['esbuild', str(path), '--minify', '--charset=utf8', '--log-level=error', *options]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
@@ -36,7 +29,7 @@ def main(build, page):
         'library-js': minified(build / 'lab.js'),
         'library-worker': minified(WEB / 'worker.js'),
         'library-wasm': base64.b64encode((build / 'lab.wasm').read_bytes()).decode(),
-        'app': bundle(),
+        'app': minified(WEB / 'app.js', '--bundle', '--target=es2022'),
     }
     text = (WEB / 'page.html').read_text()
     for name, part in parts.items():

@@ -52,13 +52,11 @@ val describeMethod(const Method& method) {
   val row = val::object();
   row.set("name", method.name);
   row.set("order", method.order);
-  row.set("stages", method.stages);
   row.set("fixed", method.hasFixedStep());
   row.set("symplectic", method.symplectic);
   row.set("realLimit", method.real_stability_limit);
   row.set("imaginaryLimit", method.imaginary_stability_limit);
   row.set("use", method.use);
-  row.set("reference", method.reference);
   if (method.tableau == nullptr) return row;
   const ButcherTableau& tableau = *method.tableau;
   val a = val::array();
@@ -83,7 +81,6 @@ val optionRows() {
     val row = val::object();
     row.set("key", option.key);
     row.set("unit", option.unit);
-    row.set("range", option.range);
     row.set("meaning", option.meaning);
     row.set("value", option.value);
     rows.call<void>("push", row);
@@ -192,8 +189,7 @@ class LabRun {
     times_.insert(times_.end(),
                   {run_.time(), run_.isAtFrame() ? static_cast<double>(run_.frame()) : -1.0,
                    error.now, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
-                   entry.dissipated.value_or(kNone), entry.relative_residual.value_or(kNone),
-                   entry.relative_gain});
+                   entry.dissipated.value_or(kNone), entry.relative_residual.value_or(kNone)});
     if (entry.relative_residual) {
       largest_energy_error_ = std::fmax(largest_energy_error_, std::abs(*entry.relative_residual));
     }
@@ -277,8 +273,8 @@ val eigenvaluesAt(const val& settings, const val& masses, const val& values) {
   return numbers({parts, parts + 2 * found.size()});
 }
 
-/// Returns the states of all stages of one step of a tableau or of Velocity-Verlet, their slopes, and the
-/// state after the step, each N×4 by columns. Other methods have one stage, the start.
+/// Returns the states of all stages of one step of a tableau, of Velocity-Verlet or of Backward-Euler, their
+/// slopes, and the state after the step, each N×4 by columns. Other methods have one stage, the start.
 val explainStep(const val& settings, const val& masses, const val& values, double time_step) {
   const Scenario scenario = scenarioOf(settings);
   const Method& method = scenario.method;
@@ -290,10 +286,14 @@ val explainStep(const val& settings, const val& masses, const val& values, doubl
   val stages = val::array();
   val slopes = val::array();
   const bool verlet = method.name == "Velocity-Verlet";
-  std::vector<State> k(method.tableau != nullptr ? method.tableau->stages : verlet ? 2 : 1);
+  const bool implicit = method.name == "Backward-Euler";
+  State end = start;
+  makeIntegrator(method, chain, {scenario.tolerance})->advance(end, time_step, 1);
+  std::vector<State> k(method.tableau != nullptr ? method.tableau->stages
+                                                 : 1 + (verlet || implicit));
   for (std::size_t i = 0; i < k.size(); ++i) {
-    State stage = start;
-    for (std::size_t j = 0; j < i; ++j) {
+    State stage = implicit && i == 1 ? end : start;
+    for (std::size_t j = 0; j < i && !implicit; ++j) {
       stage.values() += time_step * (verlet ? 1.0 : method.tableau->a[i][j]) * k[j].values();
     }
     if (verlet && i == 1) {  // new positions
@@ -303,8 +303,6 @@ val explainStep(const val& settings, const val& masses, const val& values, doubl
     stages.call<void>("push", flat(stage));
     slopes.call<void>("push", flat(k[i]));
   }
-  State end = start;
-  makeIntegrator(method, chain, {scenario.tolerance})->advance(end, time_step, 1);
   val step = val::object();
   step.set("stages", stages);
   step.set("slopes", slopes);

@@ -106,8 +106,7 @@ function drawChain(positions, style) {
     const [x, y] = toScreen(positions[i], positions[size + i]);
     const px = Math.max(-1e5, Math.min(1e5, x));
     const py = Math.max(-1e5, Math.min(1e5, y));
-    if (i === 0) context.moveTo(px, py);
-    else context.lineTo(px, py);
+    context.lineTo(px, py);
   }
   context.stroke();
   context.setLineDash([]);
@@ -285,15 +284,12 @@ canvas.addEventListener('wheel', (event) => {
 }, {passive: false});
 canvas.addEventListener('dblclick', () => { fit(); redraw(); });
 
-function moveSelected(dx, dy) {
-  const i = play.selected;
-  if (i >= 0) tell('moved', {particle: i, x: scene.x[i] + dx, y: scene.y[i] + dy});
-}
 const moves = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 canvas.addEventListener('keydown', (event) => {
   const size = scene.x.length;
-  const move = moves[event.key];
-  if (move && play.selected >= 0) moveSelected(0.05 * move[0], 0.05 * move[1]);
+  const [dx, dy] = moves[event.key] ?? [];
+  const i = play.selected;
+  if (dx !== undefined && i >= 0) tell('moved', {particle: i, x: scene.x[i] + 0.05 * dx, y: scene.y[i] + 0.05 * dy});
   else if (event.key === '[') select((play.selected - 1 + size) % size);
   else if (event.key === ']') select((play.selected + 1) % size);
   else if (event.key === 'Delete' && play.selected >= 0) tell('remove');

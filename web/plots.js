@@ -11,14 +11,14 @@ function axis(title, type) {
   return {
     type, title: {display: true, text: title, color: css('--text')},
     ticks: {color: css('--faint'), maxTicksLimit: 8, includeBounds: type === 'logarithmic',
-            callback: (value) => (type === 'logarithmic' && Math.abs(Math.log10(value) % 1) > 1e-9 ?
-              '' : Number(value.toPrecision(3)).toString())},
+            callback: (value) => (type !== 'logarithmic' ? String(Number(value.toPrecision(3))) :
+              Math.abs(Math.log10(value) % 1) > 1e-9 ? '' : value < 1e-2 ? value.toExponential(0) : String(value))},
     grid: {color: css('--grid')},
   };
 }
 
 /** Makes a chart whose points are {x, y}. */
-export function makeChart(id, {title, x, y, xType = 'linear', yType = 'linear', extra = [], options = {}}) {
+export function makeChart(id, {title, x, y, xType = 'linear', yType = 'linear', extra = []}) {
   const chart = new Chart(document.getElementById(id), {
     type: 'scatter',
     data: {datasets: []},
@@ -32,7 +32,6 @@ export function makeChart(id, {title, x, y, xType = 'linear', yType = 'linear', 
         legend: {position: 'bottom', labels: {
           boxWidth: 24, boxHeight: 0, color: css('--text'), filter: ({datasetIndex}, {datasets}) => !datasets[datasetIndex].unlabelled}},
       },
-      ...options,
     },
     plugins: extra,
   });

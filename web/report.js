@@ -1,5 +1,6 @@
 // The table of runs, and what happened in three sentences.
 import {cancelRuns, running, scene, tracks} from './runs.js';
+import {paragraph} from './step.js';
 import {MOST_RUNS, colorOf, described, keyOf, methodOf, nameOf, newRun, on, settings, tell} from './state.js';
 
 const body = document.querySelector('#runs tbody');
@@ -64,7 +65,7 @@ export function showRuns() {
     cell(row, swatch(index));
     cell(row, choiceOf(run));
     cell(row, sizeOf(run));
-    for (let i = 0; i < 4; ++i) row.insertCell();
+    for (let i = 3; i < 7; ++i) row.insertCell().title = document.querySelectorAll('#runs th')[i].textContent;
     const remove = document.createElement('button');
     remove.textContent = '×';
     remove.title = `Remove ${nameOf(run)}`;
@@ -98,14 +99,12 @@ export function showResults() {
     row.cells[3].className = track?.failure || track?.end?.bad ? 'problem' : '';
   });
   cancel.hidden = !running();
-  list.replaceChildren(...sentences().map((text) => {
-    const item = document.createElement('li');
-    item.textContent = text;
-    return item;
-  }));
+  list.replaceChildren(...sentences().map((text) => paragraph(text, 'li')));
 }
 
 const meanings = {
+  sensitive: ': from some time on, small errors grow so much that nobody knows the true motion',
+  inaccurate: ': a particle is wrong by over 1 % of the length of the chain',
   drift: ': energy and what the dampers took no longer add up to the energy at the start, by over 1 % of the energy scale',
   'gained energy': ': the energy is above that at the start by over 1 % of the energy scale, which no force can do',
 };
@@ -119,15 +118,15 @@ export function sentences() {
   const others = ended.filter(({track}) => !track.diverged);
   const what = [
     ...diverged.map(({run, track}) => `${nameOf(run)} diverges at t = ${short(track.end.time, 3)} s`),
-    ...others.map(({run, track}) => (track.end.bad ? `${nameOf(run)} ends with the verdict "${track.end.kind}"${meanings[track.end.kind] ?? ''}` :
-      track.end.bound >= 0 ? `${nameOf(run)} stays within ${short(track.end.bound)} m of the true motion` :
-        `${nameOf(run)} ends with the verdict "${track.end.kind}"`)),
+    ...others.map(({run, track: {end}}) => (end.bad || meanings[end.kind] || !(end.bound >= 0) ?
+      `${nameOf(run)} ends with the verdict "${end.kind}"${meanings[end.kind] ?? ''}` :
+      `${nameOf(run)} stays within ${short(end.bound)} m of the true motion`)),
   ].join('; ');
   return [`${what}.`, why(ended, diverged), remedy(ended)];
 }
 
 function why(ended, diverged) {
-  const grown = ended.filter(({track}) => (track.columns.relativeGain.at(-1) ?? 0) > 0.01);
+  const grown = ended.filter(({track}) => track.end.kind === 'gained energy');
   const blamed = diverged[0] ?? grown[0];
   if (blamed && blamed.method.imaginaryLimit === 0) {
     return `${blamed.method.name} multiplies every undamped swing by slightly more than 1 in each step, ` +
@@ -144,10 +143,11 @@ function why(ended, diverged) {
     return `The largest error of ${nameOf(worst.run)} is ${short(worst.track.end.largest / best.track.end.largest)} ` +
       `times that of ${nameOf(best.run)}: their orders are ${worst.method.order} and ${best.method.order}.`;
   }
-  return ended.every(({method}) => !method.fixed) ?
-    'Error-controlled methods choose their steps so that the error stays near the tolerance.' :
-    'No run gains energy; errors come from the truncated Taylor series' +
-      (ended.some(({track}) => track.end.bad) ? ' and are too large with this step.' : '.');
+  const {method, track: {end}} = ended.find(({track}) => track.end.bad || track.end.kind === 'sensitive') ?? ended[0];
+  if (end.kind === 'sensitive') return 'Every error grows with this motion, those of rounding, too: no method can follow it further.';
+  if (end.bad) return `The errors of ${method.name} are too large with this ${method.fixed ? 'step' : 'tolerance'}.`;
+  return method.fixed ? 'No run gains energy; errors come from the truncated Taylor series.' :
+    'Error-controlled methods choose their steps so that the error stays near the tolerance.';
 }
 
 function remedy(ended) {

@@ -2,7 +2,7 @@
 import {Cancelled, Library, setOwnMethods} from './library.js';
 import {MOST_RUNS, described, methodOf, on, optionsOf, settings, tell} from './state.js';
 
-const COLUMNS = ['time', 'frame', 'error', 'kinetic', 'gravity', 'spring', 'dissipated', 'relativeResidual', 'relativeGain'];
+const COLUMNS = ['time', 'frame', 'error', 'kinetic', 'gravity', 'spring', 'dissipated', 'relativeResidual'];
 const MOST_BYTES = 3e8;  // of all runs
 const LONG_CHAIN = 300;  // particles, from here on fewer pictures between the frames
 const VERY_LONG_CHAIN = 2000;

@@ -88,8 +88,7 @@ function showFile() {
     area.value = text.length > MOST_TEXT ? `# ${name}: too long to be shown\n` : text;
     area.readOnly = text.length > MOST_TEXT;
   }
-  const preset = presets[name] === text ? name : '';
-  choice.value = preset;
+  choice.value = presets[name] === text ? name : '';
 }
 
 function fieldFor(key, title, unit) {

@@ -43,7 +43,7 @@ function pictureOf(growth) {
 export function makeRegionChart(id) {
   return makeChart(id, {
     title: 'Stability region (shaded) and hλ', x: 'real part of hλ', y: 'imaginary part of hλ',
-    extra: [painter], options: {showLine: false},
+    extra: [painter],
   });
 }
 
@@ -54,11 +54,14 @@ const growthAt = (method, points) =>
 /**
  * Draws the region of a method and points hλ; both axes have the same scale.
  * @param method a row of the method table, or a tableau {a, b}
+ * @param near whether to show the points alone
  */
-export async function drawRegion(chart, method, points, color) {
-  const bounded = (limit, least) => Math.max(least, Math.min(Number.isFinite(limit) ? limit : 6, 40));
-  let left = Math.min(-1.25 * bounded(method.realLimit, 2.6), ...points.map(({x}) => Math.max(1.1 * x, -60)));
-  const up = Math.max(1.35 * bounded(method.imaginaryLimit, 2.6), ...points.map(({y}) => Math.min(1.1 * y, 60)));
+export async function drawRegion(chart, method, points, color, near = false) {
+  const least = near ? 1e-3 : 2.6;
+  const bounded = (limit, most) => (near ? least :
+    Math.max(least, Math.min(Number.isFinite(limit) ? limit : method.b?.length ?? 6, most)));
+  let left = Math.min(-1.25 * bounded(method.realLimit, 40), ...points.map(({x}) => Math.max(1.1 * x, -60)));
+  const up = 1.3 * Math.max(bounded(method.imaginaryLimit, 40), bounded(method.realLimit, 8), ...points.map(({y}) => Math.min(0.8 * y, 50)));
   chart.resize();  // it may just have appeared
   const {width, height} = chart.chartArea ?? {width: 1, height: 1};
   const unit = Math.max(-1.25 * left / width, 2 * up / height);  // per pixel
@@ -77,6 +80,7 @@ export async function drawRegion(chart, method, points, color) {
 const choice = document.getElementById('stability-run');
 const note = document.getElementById('stability-note');
 const text = document.getElementById('stability-text');
+const near = document.getElementById('stability-near');
 let chart;
 
 /** Fills a list of the runs, and keeps the chosen one. */
@@ -103,13 +107,12 @@ async function show() {
   if (!method || !state) return;
   const step = method.fixed ? Number(run.time_step) : Number(settings.interval);
   const small = scene.x.length <= MOST_PARTICLES;
-  const finite = state.every(Number.isFinite);
-  const parts = small && finite ? await tools.call('eigenvalues', {
+  const parts = small && state.every(Number.isFinite) ? await tools.call('eigenvalues', {
     settings: optionsOf(run), masses: Array.from(scene.m), state: Array.from(state),
   }) : [];
   const points = [];
   for (let i = 0; i < parts.length; i += 2) points.push({x: step * parts[i], y: step * parts[i + 1]});
-  await drawRegion(chart, method, points, colorOf(index));
+  await drawRegion(chart, method, points, colorOf(index), near.checked);
   note.textContent = method.fixed ? `h = ${run.time_step} s, t = ${play.time.toFixed(2)} s` :
     `h = ${short(step, 3)} s, the time between frames; this method chooses shorter steps itself`;
   text.textContent = describe(method, points, points.length > 0 ? await growthAt(method, points) : [], small);
@@ -132,7 +135,7 @@ function describe(method, points, growth, small) {
 
 export function start() {
   chart = makeRegionChart('plot-stability');
-  choice.addEventListener('change', update);
+  for (const element of [choice, near]) element.addEventListener('change', update);
   on('runs', () => fillRuns(choice));
   for (const event of ['time', 'run', 'tab', 'theme']) on(event, update);
 }

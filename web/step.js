@@ -56,11 +56,13 @@ function sum(weights, open) {
 /** The states of a particle and its neighbours at a stage: what its slope follows from. */
 function neighbours(flat, i) {
   const table = document.createElement('table');
-  table.innerHTML = '<tr><th>particle</th><th>x</th><th>y</th><th>v_x</th><th>v_y</th></tr>';
-  for (let j = Math.max(0, i - 1); j <= Math.min(i + 1, flat.length / 4 - 1); ++j) {
+  const near = [i - 1, i, i + 1].filter((j) => j >= 0 && j < flat.length / 4);
+  table.innerHTML = `<tr><th>i</th>${near.map((j) => `<th>${j + 1}</th>`).join('')}</tr>`;
+  ['x', 'y', 'v_x', 'v_y'].forEach((name, column) => {
     const row = table.insertRow();
-    for (const text of [j + 1, ...pick(flat, j).map((value) => value.toPrecision(7))]) row.insertCell().textContent = text;
-  }
+    row.innerHTML = `<th>${name}</th>`;
+    for (const j of near) row.insertCell().textContent = pick(flat, j)[column].toPrecision(7);
+  });
   return table;
 }
 
@@ -83,18 +85,24 @@ function tableauText(method, step, i) {
   ]), formula(`z_{\\text{new}} = ${sum(method.b, 'h')}`)];
 }
 
+const atStart = 'a_{1} = a(p,\\; v)';
 const formulas = {
-  'Semi-Implicit-Euler': ['v_{\\text{new}} = v + h\\,a_1', 'p_{\\text{new}} = p + h\\,v_{\\text{new}}'],
-  'Velocity-Verlet': ['p_{\\text{new}} = p + h\\,(v + \\tfrac h2\\,a_1)', 'a_2 = a(p_{\\text{new}},\\; v + h\\,a_1)',
-                      'v_{\\text{new}} = v + \\tfrac h2\\,(a_1 + a_2)'],
-  'Backward-Euler': ['v_{\\text{new}} = v + h\\,a(p_{\\text{new}},\\; v_{\\text{new}})',
+  'Semi-Implicit-Euler': [atStart, 'v_{\\text{new}} = v + h\\,a_{1}', 'p_{\\text{new}} = p + h\\,v_{\\text{new}}'],
+  'Velocity-Verlet': [atStart, 'p_{\\text{new}} = p + h\\,(v + \\tfrac{h}{2}\\,a_{1})', 'a_{2} = a(p_{\\text{new}},\\; v + h\\,a_{1})',
+                      'v_{\\text{new}} = v + \\tfrac{h}{2}\\,(a_{1} + a_{2})'],
+  'Backward-Euler': ['a_{2} = a(p_{\\text{new}},\\; v_{\\text{new}})', 'v_{\\text{new}} = v + h\\,a_{2}',
                      'p_{\\text{new}} = p + h\\,v_{\\text{new}}'],
 };
 
 function otherText(method, step, i) {
   const parts = [neighbours(step.stages[0], i)];
-  step.slopes.forEach((slope, stage) => parts.push(formula(`a_{${stage + 1}} = ${vector(pick(slope, i).slice(2))}`)));
-  if (formulas[method.name]) return [...parts, ...formulas[method.name].map(formula)];
+  for (const text of formulas[method.name] ?? [atStart]) {
+    parts.push(formula(text));
+    const stage = Number(/^a_\{(\d)/.exec(text)?.[1]);  // the acceleration of a stage
+    if (stage > 1) parts.push(neighbours(step.stages[stage - 1], i));
+    if (stage) parts.push(formula(`a_{${stage}} = ${vector(pick(step.slopes[stage - 1], i).slice(2))}`));
+  }
+  if (formulas[method.name]) return parts;
   return [...parts, paragraph(`${method.name} (${method.use}) chooses its steps itself. Its steps have no stages to show; this ` +
     'is the acceleration at the state, and the state after the time between frames:')];
 }
@@ -120,13 +128,12 @@ async function show() {
   }
   const size = scene.x.length;
   const i = Math.min(Math.max(Math.round(Number(particle.value)) || 1, 1), size) - 1;
-  const track = tracks[index];
   shown = await tools.call('step', {
     settings: optionsOf(run), masses: Array.from(scene.m), state: Array.from(state), h,
   });
   const text = method.a ? tableauText(method, shown, i) : otherText(method, shown, i);
   output.replaceChildren(
-    paragraph(`${method.name}, from t = ${Number(track.times[track.indexAt(from)].toPrecision(6))} s with h = ${h} s, for ` +
+    paragraph(`${method.name}, from t = ${Number(tracks[index].times[tracks[index].indexAt(from)].toPrecision(6))} s with h = ${h} s, for ` +
       `particle i = ${i + 1}; p = (x, y) in m, v = (v_x, v_y) in m/s, z = (p, v).`), ...lawText(i), ...text,
     formula(`z_{\\text{new}} = ${vector(pick(shown.end, i))}`));
 }

@@ -12,6 +12,7 @@ import time
 import unittest
 from pathlib import Path
 
+import numpy
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
@@ -46,6 +47,29 @@ def random_scene(seed):
         x += dice.uniform(0.3, 1.3)
         y += dice.uniform(-0.8, 0.8)
     return '\n'.join(lines) + '\n'
+
+
+def python_of(tex):
+    """A formula of One step in Python."""
+    for pattern, text in (
+            (r'\\left|\\right|\\;', ''), (r'\\text\{(\w+)\}', r'\1'), (r'\s*\\cdot\s*', '@'), (r'\|d\|', 'norm(d)'),
+            (r'_\{(i[+-]1)\}', r'[\1]'), (r'_i\b', '[i]'), (r'_\{(\w+)\}', r'_\1'), (r'\(0, g\)', 'array((0, g))'),
+            (r'\\tfrac\{([^{}]*)\}\{([^{}]*)\}', r'((\1)/(\2))'), (r'\\,', '*'), (r'(\bh|\))(?=[(k])', r'\1*')):
+        tex = re.sub(pattern, text, tex)
+    return tex
+
+
+def accelerations(law, p, v, masses, k_d):
+    """Accelerations by the law of motion as One step shows it."""
+    lines = [python_of(line) for tex in law for line in tex.split(r',\quad ')]
+    names = {'norm': numpy.linalg.norm, 'array': numpy.array, 'k_s': 50, 'k_d': k_d, 'L_0': 1, 'g': 9.81,
+             'a': {1: numpy.zeros(2)}, 'f': {len(p): 0}}
+    names.update({key: dict(enumerate(rows, 1)) for key, rows in (('p', p), ('v', v), ('m', masses))})
+    for i in range(1, len(p)):
+        exec('\n'.join([f'i = {i}', *lines[:3]]), names)
+    for i in range(2, len(p) + 1):
+        exec(f'i = {i}\n{lines[3]}', names)
+    return numpy.array([names['a'][i] for i in range(1, len(p) + 1)])
 
 
 class LabTest(unittest.TestCase):
@@ -101,6 +125,12 @@ class LabTest(unittest.TestCase):
             energy = Path(folder) / 'energy.csv'
             return {'frames': frames, 'energy': energy.read_text() if energy.exists() else '',
                     'status': done.returncode, 'messages': done.stderr.splitlines()}
+
+    def energies(self, method, scene, step, *options):
+        """The rows of the energy file, with frames 0.1 s apart."""
+        steps = max(1, round(0.1 / step))
+        text = self.exercise3(method, scene, f'--time-step={step}', f'--steps-per-frame={steps}', '--reference=always', *options)
+        return [[float(word) for word in row.split(',')] for row in text['energy'].splitlines()[1:]]
 
     def assert_same_run(self, method, scene, options=None):
         options = options or {}
@@ -166,9 +196,7 @@ class LabTest(unittest.TestCase):
         scene = (DATA / 'horizontal_11.txt').read_text()
 
         def error_at_10_s(method, step):
-            options = [f'--time-step={step}', f'--steps-per-frame={round(0.1 / step)}', '--reference=always', '--frames=101']
-            rows = self.exercise3(method, scene, *options)['energy'].splitlines()
-            return float(rows[-1].split(',')[9])
+            return self.energies(method, scene, step, '--frames=101')[-1][9]
 
         told = re.findall(r'([\d.]+) m with ([\d.]+) s', lesson)
         self.assertEqual(len(told), 4)
@@ -186,8 +214,21 @@ class LabTest(unittest.TestCase):
         stable = re.search(r'a step below ([\d.]+) s is stable', lesson)[1]
         advice = self.exercise3('Euler', (DATA / 'one_spring.txt').read_text(), '--time-step=0.1')['messages'][-1]
         self.assertIn(f'largest stable step for Euler: {stable} s', advice)
+        self.assertGreater(self.energies('Euler', scene, 0.01, '--frames=31')[-1][9], 0.3)  # m, measured: 0.39
+        self.assertAlmostEqual(float(re.search(r'imaginary axis, up to ([\d.]+)\.', lesson)[1]), 8 ** 0.5, delta=0.005)
+        still = int(re.search(r'after (\d+) s the spring hangs still', lesson)[1])
+        rows = self.energies('Backward-Euler', (DATA / 'one_spring.txt').read_text(), 1, '--frames=50', '--damping=0')
+        self.assertLess(max(row[2] for row in rows[still:]), 1e-8)  # J of kinetic energy, measured: 5e-10
+        time, height, stone = map(float, re.search(r't = ([\d.]+) s it is at y = (-[\d.]+) m .*? = (-[\d.]+) m', lesson).groups())
+        fall = self.exercise3('Auto', (DATA / 'folded_20.txt').read_text(), '--stiffness=5000')
+        self.assertAlmostEqual(float(fall['frames'][round(10 * time)].split()[-1]), height, delta=0.05)
+        self.assertAlmostEqual(-9.81 / 2 * time ** 2, stone, delta=0.05)
+        self.assertIn(f"sensitive from t = {re.search('from ([0-9.]+) s on nobody', lesson)[1]} s on", ''.join(fall['messages']))
 
-    def test_one_step_is_that_of_the_library(self):
+    def test_formulas_of_one_step_give_the_step_of_the_library(self):
+        def numbers(flat):
+            return numpy.array(flat).reshape(4, -1).T
+
         for method in ('Euler', 'Runge-Kutta-4', 'Semi-Implicit-Euler', 'Velocity-Verlet', 'Backward-Euler'):
             self.call('await pendulumLab.set(given[0])', {
                 'particles': '0 0 1\n1 0.1 2\n1.8 -0.4 1\n', 'frames': 20, 'damping': 1.3, 'tab': 'step',
@@ -195,26 +236,42 @@ class LabTest(unittest.TestCase):
             self.call('pendulumLab.seek(0.05)')
             self.element('step').click()  # shows the step that was done
             self.wait('return document.getElementById("step-text").textContent.includes("from t = 0.05 s")')
-            phone = {'width': 390, 'height': 844, 'deviceScaleFactor': 1, 'mobile': True}
-            self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', phone)
-            self.wait('return document.documentElement.scrollWidth === 390')
-            self.browser.execute_cdp_cmd('Emulation.clearDeviceMetricsOverride', {})
             step = self.state()['step']
-            z, k = step['stages'][0], step['slopes']
-            (p, v), a, h, half = (z[:6], z[6:]), [slope[6:] for slope in k], 0.01, 6
-            if method == 'Semi-Implicit-Euler':
-                new_v = [v[j] + h * a[0][j] for j in range(half)]
-                new = [p[j] + h * new_v[j] for j in range(half)] + new_v
-            elif method == 'Velocity-Verlet':
-                new = [p[j] + h * (v[j] + h / 2 * a[0][j]) for j in range(half)]
-                new += [v[j] + h / 2 * (a[0][j] + a[1][j]) for j in range(half)]
-            elif method == 'Backward-Euler':
-                new = [p[j] + h * step['end'][half + j] for j in range(half)]  # its velocities are implicit
-            else:
-                weights = {'Euler': [1], 'Runge-Kutta-4': [1 / 6, 1 / 3, 1 / 3, 1 / 6]}[method]
-                new = [z[j] + h * sum(b * slope[j] for b, slope in zip(weights, k)) for j in range(len(z))]
-            for mine, library in zip(new, step['end']):
-                self.assertAlmostEqual(mine, library, delta=1e-13, msg=method)  # measured: 4e-16
+            tables, texts = self.browser.execute_script("""
+                const all = (name, parent = document) => [...parent.querySelectorAll(name)];
+                return [all('#step-text table').map((table) => all('td', table).map((cell) => Number(cell.textContent))),
+                        all('#step-text annotation').map((formula) => formula.textContent)]""")
+            shown = [numpy.reshape(table, (4, 3)).T for table in tables]
+            numpy.testing.assert_allclose(shown, [numbers(stage) for stage in step['stages']], rtol=1e-6)
+            end, z = numbers(step['end']), numbers(step['stages'][0])
+            names = {'z': z, 'p': z[:, :2], 'v': z[:, 2:], 'h': 0.01}
+            names['a'] = lambda p, v, law=texts[:3]: accelerations(law, p, v, [1, 2, 1], k_d=1.3)
+            names['F'] = lambda z, a=names['a']: numpy.hstack((z[:, 2:], a(z[:, :2], z[:, 2:])))
+            if method == 'Backward-Euler':
+                names.update(p_new=end[:, :2], v_new=end[:, 2:])  # what it solves for
+            for tex in texts[3:]:
+                name, right = python_of(tex).split(' = ')
+                if right.startswith('(') and name in names:  # its numbers, for the second particle
+                    values = [float(word.replace('@10^{', 'e').rstrip('}')) for word in right[1:-1].split(',')]
+                    numpy.testing.assert_allclose(values, names[name][1][-len(values):], rtol=1e-4, err_msg=method)
+                else:
+                    exec(f'{name} = {right}', names)
+                if 'p_new' in names and 'v_new' in names:
+                    names['z_new'] = numpy.hstack((names['p_new'], names['v_new']))
+            self.assertLess(abs(names['z_new'] - end).max(), 1e-13, method)  # measured: 9e-16
+
+    def test_nothing_is_cut_off(self):
+        self.call('await pendulumLab.set({frames: 20})')
+        for width, height in ((1366, 768), (390, 844)):
+            self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+                'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': width < 600})
+            for tab in ('plots', 'scene', 'studies', 'stability', 'step', 'own', 'share', 'check'):
+                self.tab(tab)
+                if tab == 'step':
+                    self.wait('return document.querySelector("#step-text table") !== null')
+                self.wait('return [...document.querySelectorAll("#runs *, #panels *")].every((element) => '  # charts shrink late
+                          f'element.closest(".scroll") || element.getBoundingClientRect().right <= {width})')
+        self.browser.execute_cdp_cmd('Emulation.clearDeviceMetricsOverride', {})
 
     def element(self, name):
         return self.browser.find_element(By.ID, name)
