@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds and installs the package in a separate catkin workspace, and runs the installed programs.
-# The workspace is outside the package, as roslaunch searches all folders of a package.
+# Installs what was built, and runs the installed programs. A catkin workspace, which would compile all
+# of it again, is only configured.
+# Usage: install_test.sh CMAKE BUILD
 set -euo pipefail
 
 workspace=$(mktemp -d)
@@ -8,9 +9,8 @@ trap 'rm -rf "$workspace"' EXIT
 project=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$workspace/src" "$workspace/run"
 ln -sfn "$project" "$workspace/src/spring_pendulum"
-launcher=()
-command -v ccache > /dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-catkin_make -C "$workspace" -j2 -DSPRING_PENDULUM_TESTS=OFF "${launcher[@]}" install \
+{ catkin_make -C "$workspace" -DSPRING_PENDULUM_TESTS=OFF cmake_check_build_system &&
+  "$1" -DCMAKE_INSTALL_PREFIX="$workspace/install" -P "$2/cmake_install.cmake"; } \
   > "$workspace/build.log" 2>&1 || { tail -n 50 "$workspace/build.log"; exit 1; }
 
 # Without the environment of the build.
