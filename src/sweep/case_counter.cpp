@@ -42,8 +42,9 @@ CaseCounter::CaseCounter() {
   if (startedRanks().count == 1) return;  // starting MPI takes 0.3 s
   mpi_ = std::make_unique<Mpi>();
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-  MPI_Comm_size(MPI_COMM_WORLD, &size_);
-  if (size_ == 1) refuseSeveralRanks("start them with mpirun or srun --mpi=pmix, or use --shard");
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (size == 1) refuseSeveralRanks("start them with mpirun or srun --mpi=pmix, or use --shard");
 }
 
 std::int64_t CaseCounter::next() {

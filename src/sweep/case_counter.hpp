@@ -20,7 +20,6 @@ class CaseCounter {
   CaseCounter& operator=(const CaseCounter&) = delete;
 
   int rank() const { return rank_; }
-  int size() const { return size_; }
 
   /// Returns 0, 1, 2, ...: each number once.
   std::int64_t next();
@@ -36,7 +35,6 @@ class CaseCounter {
 
   std::unique_ptr<Mpi> mpi_;  ///< null: one process
   int rank_ = 0;
-  int size_ = 1;
   std::mutex mutex_;  ///< MPI is called by one thread at a time
   std::atomic<std::int64_t> next_{0};
 };

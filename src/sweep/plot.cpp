@@ -1,5 +1,3 @@
-#include "sweep/plot.hpp"
-
 #include <spring_pendulum/base/errors.hpp>
 
 #include <cerrno>
@@ -10,6 +8,8 @@
 #include <system_error>
 #include <unistd.h>
 #include <vector>
+
+#include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {

@@ -25,7 +25,6 @@
 #include <vector>
 
 #include "sweep/journal.hpp"
-#include "sweep/plot.hpp"
 #include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
@@ -34,26 +33,22 @@ namespace {
 constexpr std::chrono::milliseconds kLook{1};  // for requests of other ranks
 constexpr std::size_t kFlushedText = 1 << 16;
 
-/// A loop over cases on several threads.
-struct Loop {
-  std::function<std::int64_t()> next;  ///< the next case, or one beyond the last
-  /// Works on a case; `stop` tells whether to break off.
-  std::function<void(std::int64_t index, const Case& a_case, const std::function<bool()>& stop)>
-      work;
-  std::function<void()> meanwhile;  ///< called all the time by the thread that has started the loop
-};
-
-/// Runs a loop on as many threads as the system grants.
+/// Runs a loop over cases on as many threads as the system grants.
+/// \param next      returns the next case, or one beyond the last
+/// \param work      works on a case; its argument `stop` tells whether to break off
+/// \param meanwhile called all the time by this thread
 /// \throws InputError or std::runtime_error for the first case that fails
-void run(const Loop& loop, const Study& study, std::int64_t threads) {
+template <typename Next, typename Work, typename Meanwhile>
+void forEachCase(const Study& study, std::int64_t threads, const Next& next, const Work& work,
+                 const Meanwhile& meanwhile) {
   std::mutex mutex;
   std::map<std::int64_t, Failure> failures;
   std::atomic<bool> failed{false};
   const auto stop = [&] { return failed || interruption() != 0; };
-  const auto work = [&] {
-    for (std::int64_t i = 0; !stop() && (i = loop.next()) < study.cases();) {
+  const auto run = [&] {
+    for (std::int64_t i = 0; !stop() && (i = next()) < study.cases();) {
       try {
-        loop.work(i, caseOf(study, i), stop);
+        work(i, caseOf(study, i), stop);
       } catch (const std::exception& error) {
         const std::lock_guard<std::mutex> lock(mutex);
         failures.emplace(i, failureOf(error));
@@ -64,13 +59,13 @@ void run(const Loop& loop, const Study& study, std::int64_t threads) {
   std::vector<std::future<void>> workers;
   try {
     while (workers.size() < static_cast<std::size_t>(threads)) {
-      workers.push_back(std::async(std::launch::async, work));
+      workers.push_back(std::async(std::launch::async, run));
     }
   } catch (const std::system_error&) {  // the system refuses more threads
-    if (workers.empty()) work();
+    if (workers.empty()) run();
   }
   for (const std::future<void>& worker : workers) {
-    while (worker.wait_for(kLook) != std::future_status::ready) loop.meanwhile();
+    while (worker.wait_for(kLook) != std::future_status::ready) meanwhile();
   }
   if (failures.empty()) return;
   const auto& [index, failure] = *failures.begin();
@@ -110,8 +105,7 @@ class Sweep {
   void work() {
     Progress progress(study_.cases(), "cases");
     std::atomic<std::int64_t> reached{0};
-    Loop loop;
-    loop.next = [&] {
+    const auto next = [&] {
       std::int64_t index = 0;
       do {  // a shard takes every n-th case
         index = counter_.next() * options_.shards + options_.shard - 1;
@@ -119,18 +113,18 @@ class Sweep {
       reached = index;
       return index;
     };
-    loop.work = [&](std::int64_t index, const Case& a_case, const std::function<bool()>& stop) {
+    const auto run = [&](std::int64_t index, const Case& a_case, const auto& stop) {
       std::optional<std::string> text = runCase(study_, a_case, stop);
       if (!text) return;
       const std::lock_guard<std::mutex> lock(mutex_);
       journal_->append(index, *text);
       rows_[static_cast<std::size_t>(index)] = std::move(*text);
     };
-    loop.meanwhile = [&] {
+    const auto meanwhile = [&] {
       counter_.poll();
       if (counter_.rank() == 0) progress.show(std::min<std::int64_t>(reached, study_.cases()));
     };
-    run(loop, study_, threads_);
+    forEachCase(study_, threads_, next, run, meanwhile);
   }
 
   /// Writes the table, or says why it is not complete.
@@ -226,15 +220,13 @@ std::string picturePath(const std::string& output) {
 
 void checkCases(const Study& study, std::int64_t threads) {
   std::atomic<std::int64_t> next{0};
-  Loop loop;
-  loop.next = [&] { return next++; };
-  loop.work = [](std::int64_t, const Case& a_case, const std::function<bool()>&) {
+  const auto check = [](std::int64_t, const Case& a_case, const auto&) {
     Scenario scenario = a_case.settings.scenario;
     scenario.reference = ReferenceUse::kNever;
     const Run checked(scenario, a_case.particles);
   };
-  loop.meanwhile = [] {};
-  run(loop, study, threads);
+  forEachCase(
+      study, threads, [&] { return next++; }, check, [] {});
 }
 
 int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter) {

@@ -1,4 +1,4 @@
-// The table of a study: its columns and its rows.
+// The table of a study: its columns, its rows and its picture.
 #pragma once
 
 #include <spring_pendulum/simulation/run.hpp>
@@ -36,5 +36,13 @@ std::string rowStart(const Study& study, std::int64_t index);
 /// \returns the columns as comma-separated text; nothing if `stop` has stopped the run
 std::optional<std::string> runCase(const Study& study, const Case& a_case,
                                    const std::function<bool()>& stop);
+
+/// Draws a table with the script plot_table.py, which lies beside the program. It gets the plot entries as
+/// arguments: no text of a study is ever a command.
+/// \param only_try find out whether the table, which may lack columns, can be drawn
+/// \returns the exit status of the script, which prints what is wrong
+/// \throws FileError if there is no Python
+int drawPlot(const Study& study, const std::string& table, const std::string& picture,
+             bool only_try);
 
 }  // namespace spring_pendulum::sweep

@@ -274,12 +274,10 @@ class StudyReader {
   }
 
   void readColumns() {
-    std::vector<YamlTree> names;
-    for (const char* const name : {"verdict", "position_error", "energy_error"}) {
-      names.push_back({Kind::kScalar, tree_.place, name, false, {}});
-    }
-    if (const YamlTree* columns = tree_.find("columns")) names = listOf(*columns, "columns");
-    for (const YamlTree& name : names) {
+    static const YamlTree kDefault =
+        parseYamlTree("[verdict, position_error, energy_error]", "columns");
+    const YamlTree* const given = tree_.find("columns");
+    for (const YamlTree& name : listOf(given != nullptr ? *given : kDefault, "columns")) {
       const Column* const column = &findColumn(textOf(name, "columns"), name.place);
       auto& known = study_.columns;
       if (std::find(known.begin(), known.end(), column) != known.end()) {
