@@ -209,7 +209,10 @@ void Node::show() {
 }
 
 Showing Node::showing() {
-  const bool is_paced = options_.follow.empty() && !paused_ && !run_.isOver();
+  // A follower shows what its leader has shown last, also if several states are due at once.
+  const bool shown =
+      paused_ || run_.isOver() ||
+      (options_.follow.empty() ? pacer_.isShown(run_.time()) : run_.nextTime() > leader_time_);
   std::string speed;
   if (run_.isOver()) {
     speed = run_.isShown() ? "finished" : "stopped";
@@ -218,7 +221,7 @@ Showing Node::showing() {
   } else if (pacer_.speed() > 0.0) {
     speed = fmt::format("{:.2f} x real time", pacer_.speed());
   }
-  return {paused_, speed, !is_paced || pacer_.isShown(run_.time())};
+  return {paused_, speed, shown};
 }
 
 std::string Node::take(const Request& request) {
