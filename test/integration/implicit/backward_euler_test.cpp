@@ -28,7 +28,7 @@ TEST(BackwardEuler, HasOrderOneAgainstRadau) {
     const auto error = [&](int steps) {
       return (after("Backward-Euler", scene, steps).values() - exact.values()).norm();
     };
-    EXPECT_NEAR(std::log2(error(20000) / error(40000)), 1.0, 0.05) << air_drag;
+    EXPECT_NEAR(std::log2(error(20000) / error(40000)), 1.0, 0.05) << air_drag;  // 0.9997, 0.9997
   }
 }
 
@@ -48,17 +48,20 @@ TEST(BackwardEuler, SolvesTheEquationsOfALinearStep) {
   EXPECT_NEAR(state.y()[1], -1.3 + kStep * expected, 1e-13);
 }
 
-TEST(BackwardEuler, OnlyLosesEnergyOfStretchedSprings) {
-  for (const double step : {1e-3, 0.1, 10.0, 1e4}) {
-    test::Scene scene = test::horizontalChain("chain", 11, 1.0);
-    const Chain chain(scene.chain.masses(), {50.0, 0.0, 0.0}, 9.81);  // L_0 = 0: a convex potential
-    BackwardEuler integrator(chain, false);
-    double before = computeEnergy(chain, scene.start).total();
-    for (int n = 0; n < 200; ++n) {
-      integrator.advance(scene.start, step, 1);
-      const double energy = computeEnergy(chain, scene.start).total();
-      ASSERT_LE(energy, before + 1e-9 * std::abs(before)) << step << " s, step " << n;
-      before = energy;
+// With L_0 = 0 the potential is convex.
+TEST(BackwardEuler, OnlyLosesEnergy) {
+  for (const double rest_length : {0.0, 1.0}) {
+    for (const double step : {1e-3, 0.1, 1.0, 10.0, 1e4}) {
+      State state = test::horizontalChain("chain", 11, 1.0).start;
+      const Chain chain(Eigen::VectorXd::Ones(11), {50.0, 0.0, rest_length}, 9.81);
+      BackwardEuler integrator(chain, false);
+      double before = computeEnergy(chain, state).total();
+      for (int n = 0; n < 200; ++n) {
+        integrator.advance(state, step, 1);
+        const double energy = computeEnergy(chain, state).total();
+        ASSERT_LE(energy, before + 1e-9 * std::abs(before)) << step << " s, step " << n;
+        before = energy;
+      }
     }
   }
 }
