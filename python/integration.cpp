@@ -144,16 +144,8 @@ void defineChain(py::module_& module) {
       .def_property_readonly("gravity", &Chain::gravity)
       .def_property_readonly("air_drag", &Chain::airDrag)
       .def("__len__", &Chain::size)
-      .def("__copy__", [](const Chain& chain) { return chain; })
       .def("__repr__",
-           [](const Chain& chain) {
-             const SpringLaw& law = chain.spring();
-             return fmt::format(
-                 "<Chain of {} particles: stiffness={}, damping={}, rest_length={}, gravity={}, "
-                 "air_drag={}>",
-                 chain.size(), law.stiffness, law.damping, law.rest_length, chain.gravity(),
-                 chain.airDrag());
-           })
+           [](const Chain& c) { return fmt::format("<Chain of {} particles>", c.size()); })
       .def(py::pickle(
           [](const Chain& c) {
             return py::make_tuple(py::array_t<double>(c.size(), c.masses().data()),
@@ -184,7 +176,6 @@ void defineState(py::module_& module) {
       .def_property_readonly("positions", &stateView<0, 2>)
       .def_property_readonly("velocities", &stateView<2, 2>)
       .def("__len__", &State::size)
-      .def("__copy__", [](const State& state) { return state; })
       .def("__repr__",
            [](const State& s) { return fmt::format("<State of {} particles>", s.size()); })
       .def(py::pickle(
@@ -219,8 +210,6 @@ void defineIntegrator(py::module_& module) {
       .def_property_readonly(
           "dissipated_energy",
           [](const PythonIntegrator& i) { return i.integrator().dissipatedEnergy(); })
-      .def_property_readonly("report",
-                             [](const PythonIntegrator& i) { return i.integrator().report(); })
       .def("__repr__", [](const PythonIntegrator& i) {
         return fmt::format("<Integrator {}, {} particles>", i.method().name, i.chain().size());
       });

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -B
 """Draws the table of a sweep as a PNG: plot_table.py TABLE.csv PICTURE.png --type lines --x KEY --y KEY ...
 
 sweep --plot calls it with the options of the study's entry `plot`; docs/sweep.md explains them. It can also
@@ -12,6 +12,8 @@ import os
 import statistics
 import sys
 
+from method_styles import METHODS
+
 try:
     import matplotlib
     matplotlib.use('Agg')
@@ -20,14 +22,6 @@ try:
 except ImportError:
     sys.exit('--plot: needs matplotlib for /usr/bin/python3 (Debian: python3-matplotlib)')
 
-# The look of a method in all pictures of the package, each with a colour and a line style of its own.
-METHODS = {
-    'Euler': ('#c1440e', '-'), 'Semi-Implicit-Euler': ('#c1440e', '--'), 'Backward-Euler': ('#c1440e', ':'),
-    'Runge-Kutta-2': ('#b8860b', '-'), 'Velocity-Verlet': ('#b8860b', '--'),
-    'Runge-Kutta-4': ('#1f5fa8', '-'), 'Dormand-Prince-5': ('#1f5fa8', '--'),
-    'Taylor-8': ('#0f8f8f', '-'), 'Taylor-12': ('#0f8f8f', '--'),
-    'Stabilized-Taylor-4': ('#8f5fc4', '--'), 'Stabilized-Taylor-8': ('#8f5fc4', '-'),
-    'Radau-9': ('#8a8a8a', '-'), 'Auto': ('#111111', '-')}
 # Colours that people with any colour vision can tell apart (M. Okabe, K. Ito, 2008), for everything else.
 COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9']
 STYLES = [(color, style) for style, color in itertools.product(['-', '--', ':'], COLORS)]
@@ -37,16 +31,16 @@ VERDICTS = {'ok': '#c6dbef', 'not checked': '#d9d9d9', 'sensitive': '#74c476', '
             'drift': '#fee391', 'gained energy': '#f98e1b', 'diverged': '#662506'}
 
 
+def refuse(what):
+    print('plot: ' + what, file=sys.stderr)
+    sys.exit(2)
+
+
 def number(text):
     try:
         return float(text)
     except ValueError:
-        return math.nan
-
-
-def refuse(what):
-    print('plot: ' + what, file=sys.stderr)
-    sys.exit(2)
+        refuse("only numbers can be drawn, got '%s'" % text)
 
 
 class Table:
@@ -99,6 +93,8 @@ def borders(values, logarithmic):
 def draw_map(axes, rows, table, options):
     x = sorted({row[options.x] for row in rows}, key=number)
     y = sorted({row[options.y] for row in rows}, key=number)
+    if not all(math.isfinite(number(value)) for value in x + y):
+        refuse('x and y of a map must be axes of numbers')
     verdicts = list(VERDICTS)
     cells = [[math.nan] * len(x) for _ in y]
     drawn = set()
@@ -168,17 +164,19 @@ def draw(table, options):
         height = 0.28 * -(-len(legend) // 4) / size[1]
         figure.legend(legend.values(), legend.keys(), loc='lower center', ncol=4, fontsize=8)
     figure.tight_layout(rect=(0, height, 1, 1))
-    if options.only_try:
-        return
+    return figure
+
+
+def save(figure, picture):
     # Whole or absent, as all outputs.
-    unfinished = options.picture + '.unfinished'
+    unfinished = picture + '.unfinished'
     try:
         figure.savefig(unfinished, format='png', dpi=100)
-        os.replace(unfinished, options.picture)
+        os.replace(unfinished, picture)
     except OSError as error:
         if os.path.exists(unfinished):
             os.remove(unfinished)
-        sys.exit('%s: could not be drawn: %s' % (options.picture, error.strerror))
+        sys.exit('%s: could not be drawn: %s' % (picture, error.strerror))
 
 
 class Parser(argparse.ArgumentParser):
@@ -204,7 +202,9 @@ def main():
         if getattr(options, key) not in ('', *table.titles):
             refuse("%s: unknown axis or column '%s'; known are %s"
                    % (key, getattr(options, key), ', '.join(list(table.titles)[1:])))
-    draw(table, options)
+    figure = draw(table, options)
+    if not options.only_try:
+        save(figure, options.picture)
 
 
 if __name__ == '__main__':

@@ -1,9 +1,13 @@
-"""Line plots through gnuplot, in the one style of all benchmark plots: this package in strong solid
-lines, peers in thin dashed ones, what failed as a cross at the top edge, the legend outside."""
+"""Line plots through gnuplot, in the one style of all benchmark plots: this package in strong lines, peers
+in thin dashed ones, what failed as a cross at the top edge, the legend outside."""
+import pathlib
 import subprocess
+import sys
 
-OWN_COLORS = ("#d00000", "#ff7b00", "#e0a000", "#2d7d2d", "#00a37a", "#0077b6", "#4b2ca0", "#b5179e",
-              "#6d3b1f", "#111111", "#7cb518", "#00b4d8", "#f15bb5", "#8d0801")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+from method_styles import METHODS  # noqa: E402
+
+DASHES = {"-": "1", "--": "(14,5)", ":": "(3,5)"}
 LIBRARY_COLORS = {
     "plain": ("#8a8a8a", "#333333"),
     "Boost.odeint": ("#9ecbf0", "#5aa2dc", "#1f6fb2", "#0b4a80", "#3b3fb0"),
@@ -15,11 +19,12 @@ LIBRARY_COLORS = {
 POINT_TYPES = (7, 5, 9, 11, 13, 4, 6, 8, 10, 12)
 
 
-def style_of(library, number):
+def style_of(library, number, method="Runge-Kutta-4"):
     """gnuplot's words for the line of a method: its number counts within its library."""
     point = f"pt {POINT_TYPES[number % len(POINT_TYPES)]}"
     if library == "own":
-        return f"dt 1 lw 2.6 ps 0.9 {point} lc rgb '{OWN_COLORS[number % len(OWN_COLORS)]}'"
+        color, line = METHODS[method]
+        return f"dt {DASHES[line]} lw 2.6 ps 0.9 {point} lc rgb '{color}'"
     colors = LIBRARY_COLORS[library]
     return f"dt (10,6) lw 1.5 ps 0.8 {point} lc rgb '{colors[number % len(colors)]}'"
 

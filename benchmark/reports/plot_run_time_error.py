@@ -8,11 +8,11 @@ a method that no other point of it beats are drawn.
 import subprocess
 import sys
 
+import gnuplot
 import result_csv
 
 TARGET = 1e-6  # m; "best" means cheapest to this error
-COLORS = {"Euler": "#c1440e", "Runge-Kutta-2": "#b8860b", "Runge-Kutta-4": "#1f5fa8",
-          "plain": "#8a8a8a", "package": "#56b4e9", "dop853": "#8f5fc4", "best": "#111111"}
+COLORS = {"plain": "#8a8a8a", "package": "#56b4e9", "dop853": "#8f5fc4", "best": "#111111"}
 
 
 def front(rows):
@@ -43,7 +43,7 @@ def chosen(rows):
     package = cheapest([r for r in rows if r["library"] not in ("own", "plain", "SciPy")])
     scipy = [r["method"] for r in rows if r["library"] == "SciPy"]
     for name in ("Euler", "Runge-Kutta-2", "Runge-Kutta-4"):
-        yield name, COLORS[name], of(name)
+        yield name, gnuplot.METHODS[name][0], of(name)
     yield "Runge-Kutta-4, plain loop", COLORS["plain"], of(plain)
     yield f"{package}", COLORS["package"], of(package)
     if scipy:

@@ -44,7 +44,7 @@ def main(path, folder):
     styles = {}
     for library in result_csv.names(rows, "library"):
         methods = result_csv.names([r for r in rows if r["library"] == library], "method")
-        styles.update((m, gnuplot.style_of(library, i)) for i, m in enumerate(methods))
+        styles.update((m, gnuplot.style_of(library, i, m)) for i, m in enumerate(methods))
     for scene in result_csv.names(rows, "scene"):
         draw(scene, [r for r in rows if r["scene"] == scene], styles, folder)
 

@@ -4,6 +4,7 @@
 Ten masses of 1 kg are let go below a fixed end with unstretched springs; docs/verification.md has the formula.
 """
 import pathlib
+import sys
 
 import matplotlib
 import numpy as np
@@ -12,6 +13,9 @@ import spring_pendulum as sp
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
+from method_styles import METHODS  # noqa: E402
 
 MASSES, STIFFNESS, DAMPING, GRAVITY, DURATION = 10, 1000.0, 1.0, 9.81, 20.0
 
@@ -45,9 +49,11 @@ for method, order, marker in [("Euler", 1, "o"), ("Semi-Implicit-Euler", 1, "v")
                               ("Velocity-Verlet", 2, "D"), ("Runge-Kutta-4", 4, "^")]:
     errors = np.array([error(method, step) for step in steps])
     stable = errors < 1
-    line, = axes.loglog(steps[stable], errors[stable], marker + "-", markersize=4, label=f"{method}, order {order}")
+    color, style = METHODS[method]
+    axes.loglog(steps[stable], errors[stable], marker + style, color=color, markersize=4,
+                label=f"{method}, order {order}")
     middle = np.flatnonzero(stable & (errors > 1e-11))[1]
-    axes.loglog(steps, errors[middle] * (steps / steps[middle]) ** order, ":", color=line.get_color(), linewidth=0.8)
+    axes.loglog(steps, errors[middle] * (steps / steps[middle]) ** order, ":", color=color, linewidth=0.8)
 axes.set(xlabel="step size in s", ylabel="largest position error after 20 s in m", ylim=(1e-14, 1))
 axes.legend(fontsize=8)
 figure.tight_layout()

@@ -18,7 +18,7 @@ warnings.simplefilter('ignore', RuntimeWarning)  # Euler diverges; that is the p
 figure, (chain, energy) = plt.subplots(1, 2, figsize=(11, 4.5), constrained_layout=True)
 true = sp.simulate(particles, method='Auto', tolerance=1e-9, damping=0, frame_interval=0.05, frames=161)
 chain.plot(*true.positions[:, -1].T, color='#d3d7dd', linewidth=5, label='true motion')
-for method, color in (('Euler', '#c1440e'), ('Runge-Kutta-2', '#b8860b'), ('Runge-Kutta-4', '#1f5fa8')):
+for method, color in {'Euler': '#c1440e', 'Runge-Kutta-2': '#b8860b', 'Runge-Kutta-4': '#1f5fa8'}.items():
     run = sp.simulate(particles, method=method, **options)
     print('%s: %s' % (method, run.verdict))
     chain.plot(*run.positions[:, -1].T, color=color, label=method)

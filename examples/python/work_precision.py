@@ -44,14 +44,15 @@ def scipy_point(tolerance, true):
 
 
 figure, axes = plt.subplots(figsize=(8, 5), constrained_layout=True)
-methods = ['Runge-Kutta-2', 'Runge-Kutta-4', 'Dormand-Prince-5', 'Taylor-12', 'Auto']
-table = sp.work_precision(particles, methods, duration=duration)
-for method, color in zip(methods, ('#b8860b', '#1f5fa8', '#4b2ca0', '#c1440e', '#2d7d2d')):
+styles = {'Runge-Kutta-2': ('#b8860b', '-'), 'Runge-Kutta-4': ('#1f5fa8', '-'), 'Dormand-Prince-5': ('#1f5fa8', '--'),
+          'Taylor-12': ('#0f8f8f', '--'), 'Auto': ('#111111', '-')}
+table = sp.work_precision(particles, list(styles), duration=duration)
+for method, (color, style) in styles.items():
     points = [(point.seconds, point.error) for point in table if point.method == method]
-    axes.loglog(*np.transpose(points), 'o-', color=color, label=method)
+    axes.loglog(*np.transpose(points), 'o' + style, color=color, label=method)
 true = sp.simulate(particles, method='Auto', tolerance=1e-12, frame_interval=duration, frames=2).positions[-1]
 points = [scipy_point(tolerance, true) for tolerance in (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)]
-axes.loglog(*np.transpose(points), 's--', color='#0f8f8f', label="SciPy's DOP853, NumPy")
+axes.loglog(*np.transpose(points), 's--', color='#cc79a7', label="SciPy's DOP853, NumPy")
 axes.set(xlabel='run time in s', ylabel='position error in m', title='%g s of motion' % duration)
 axes.grid(color='#dddddd')
 axes.legend()

@@ -1,4 +1,5 @@
 """Run time against error, for one's own scene."""
+import copy
 import time
 import warnings
 from typing import NamedTuple
@@ -23,7 +24,7 @@ class Point(NamedTuple):
 def _least_time(integrator, start, time_step, steps):
     least, spent, count = float('inf'), 0.0, 0
     while count < 3 or (spent < 0.02 and count < 100):
-        state = start.__copy__()
+        state = copy.copy(start)
         integrator.restart()
         begin = time.perf_counter()
         integrator.advance(state, time_step, steps)

@@ -22,8 +22,8 @@ int drawPlot(const Study& study, const std::string& table, const std::string& pi
              bool only_try) {
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  std::vector<std::string> arguments{kPython, program.parent_path() / "plot_table.py", "/dev/stdin",
-                                     picture, "--title=" + study.name};
+  std::vector<std::string> arguments{kPython,      "-B",    program.parent_path() / "plot_table.py",
+                                     "/dev/stdin", picture, "--title=" + study.name};
   arguments.insert(arguments.end(), study.plot.begin(), study.plot.end());
   if (only_try) arguments.emplace_back("--try");
   std::vector<char*> argv;

@@ -76,10 +76,6 @@ class WorkPrecision(unittest.TestCase):
             self.assertTrue(12 < coarse / fine < 20, errors)  # measured: 15.5 and 15.8
         self.assertLess(errors[3], 1e-5)
         self.assertTrue(all(point.seconds > 0 for point in table))
-        rows = np.loadtxt(SCENE)
-        error = abs(dop853(rows, np.array([0, 2.0]))[-1] - sp.simulate(
-            SCENE, time_step=0.02, steps_per_frame=100, frames=2).positions[-1])
-        self.assertAlmostEqual(np.hypot(*error.T).max() / errors[0], 1, places=5)
 
     def test_divergence_is_an_infinite_error(self):
         point, = sp.work_precision(SCENE, ['Euler'], time_steps=[0.2], stiffness=500.0)

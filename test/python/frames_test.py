@@ -73,19 +73,6 @@ class Frames(Folder):
         sp.simulate(SCENE, frames=3)
         self.assertEqual(sorted(pathlib.Path('.').iterdir()), before)
 
-    def test_no_copy_of_the_frames_is_made(self):
-        import resource
-        rows = np.column_stack([np.arange(10**6), np.zeros(10**6), np.ones(10**6)])
-        sp.simulate(rows, frames=1, reference='never')
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        run = sp.simulate(rows, frames=10, steps_per_frame=1, time_step=1e-3, reference='never')
-        more = 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
-        frames = run.positions.base.nbytes if run.positions.base is not None else 0
-        self.assertEqual(run.positions.shape, (10, 10**6, 2))
-        self.assertIs(run.positions.base, run.velocities.base)
-        self.assertEqual(frames, 320e6)
-        self.assertLess(more, 1.5 * frames)  # measured: 0.93
-
 
 class Measurements(Folder):
     def test_are_those_of_the_energy_file(self):

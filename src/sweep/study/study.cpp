@@ -112,8 +112,11 @@ void setParticles(const Study& study, Case& made) {
 double fittedTimeStep(const Settings& settings, double time_step) {
   const double duration = settings.duration;
   if (isSame(duration, std::round(duration / time_step) * time_step)) return time_step;
-  const double frames = partsOf(duration, std::max(settings.scenario.frame_interval, time_step));
-  return duration / (frames * partsOf(duration / frames, time_step));
+  // A power of 2 of steps per frame, so that there is no frame for each of a prime number of steps.
+  double per_frame = 1.0;
+  const double frame = std::min(settings.scenario.frame_interval, duration);
+  while (2.0 * per_frame * time_step <= frame) per_frame *= 2.0;
+  return duration / (per_frame * partsOf(duration, per_frame * time_step));
 }
 
 std::vector<Option> caseOptions(Settings& s) {

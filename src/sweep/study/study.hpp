@@ -29,8 +29,7 @@ struct Settings {
   double mass_factor = 1.0;  ///< for all masses
 };
 
-/// Returns a time step of at most `time_step` s with which whole steps end at the duration: this one if
-/// possible.
+/// Returns the time step, in s, or if its multiples do not end at the duration, a shorter one.
 double fittedTimeStep(const Settings& settings, double time_step);
 
 /// The options of a case, bound to `settings`.

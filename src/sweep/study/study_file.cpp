@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 
 #include "sweep/study/random_numbers.hpp"
 #include "sweep/study/study.hpp"
@@ -120,23 +119,20 @@ std::vector<YamlTree> methodsOf(const YamlTree& tree) {
     names.push_back({Kind::kScalar, tree.place, method.name, false, {}});
   }
   if (!names.empty()) return names;
-  refuse(tree, "method",
-         "must be a list, all, fixed-step or error-controlled, got " + inQuotes(tree.text));
+  refuse(tree, "method", "must be a list, all, fixed-step or error-controlled");
 }
 
 std::vector<YamlTree> valuesOf(const YamlTree& tree, const Option& option, const Settings& base) {
   if (tree.kind == Kind::kScalar && option.key == "method") return methodsOf(tree);
   if (tree.kind == Kind::kList) return listOf(tree, option.key);
   checkKeys(tree, option.key, {"list", "linear", "log", "with"});
-  const YamlTree* const list = tree.find("list");
-  const YamlTree* const linear = tree.find("linear");
-  const YamlTree* const log = tree.find("log");
-  const YamlTree* const forms[] = {list, linear, log};
-  if (std::count(std::begin(forms), std::end(forms), nullptr) != 2) {
+  const auto is_form = [](const auto& entry) { return entry.first != "with"; };
+  if (std::count_if(tree.entries.begin(), tree.entries.end(), is_form) != 1) {
     refuse(tree, option.key, "must be {list: ...}, {linear: ...} or {log: ...}");
   }
-  if (list != nullptr) return listOf(*list, option.key);
-  return scale(linear != nullptr ? *linear : *log, option, log != nullptr, base);
+  const auto& [form, values] = *std::find_if(tree.entries.begin(), tree.entries.end(), is_form);
+  if (form == "list") return listOf(values, option.key);
+  return scale(values, option, form == "log", base);
 }
 
 Distribution distributionOf(const YamlTree& tree, std::string_view key) {
@@ -268,8 +264,7 @@ class StudyReader {
         (study_.mass_factor.kind == Distribution::Kind::kUniform &&
          study_.mass_factor.first <= 0.0)) {
       refuse(*random, "mass_factor",
-             "must have positive values only: use log_normal, log_uniform "
-             "or uniform above 0");
+             "must have positive values only: use log_normal, log_uniform or uniform above 0");
     }
   }
 

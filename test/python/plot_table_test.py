@@ -1,0 +1,97 @@
+"""Pictures of tables show all of their rows, and every picture shows a method alike."""
+import argparse
+import itertools
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+from support import DATA
+
+import spring_pendulum as sp
+
+PROJECT = DATA.parent
+sys.path.insert(0, str(PROJECT / 'scripts'))
+import plot_table  # noqa: E402
+from method_styles import METHODS  # noqa: E402
+
+VERDICTS = ['ok', 'drift', 'diverged', 'sensitive']
+
+
+def draw(text, **options):
+    with tempfile.NamedTemporaryFile('w', suffix='.csv') as file:
+        file.write(text)
+        file.flush()
+        defaults = dict.fromkeys(('x', 'y', 'color', 'lines', 'panels', 'limit', 'title', 'log'), '')
+        figure = plot_table.draw(plot_table.Table(file.name), argparse.Namespace(**{**defaults, **options}))
+    figure.canvas.draw()
+    return figure
+
+
+def legend(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+class Maps(unittest.TestCase):
+    TABLE = 'case,method,mass [kg],time_step [s],verdict,tip_x [m]\n' + ''.join(
+        '%d,%s,%s,%s,%s,%s\n' % (k, method, mass, step, VERDICTS[k % 4 if method == 'Euler' else 0], k)
+        for k, (method, mass, step) in enumerate(itertools.product(('Auto', 'Euler'), (1, 2), (0.1, 0.2, 0.4))))
+
+    def test_have_a_complete_legend_and_panels_with_name_and_unit(self):
+        figure = draw(self.TABLE, type='map', x='mass', y='time_step', color='verdict', panels='method')
+        self.assertEqual([axes.get_title() for axes in figure.axes if axes.get_visible()], ['Auto', 'Euler'])
+        self.assertLessEqual(set(VERDICTS), set(legend(figure)))
+        figure = draw(self.TABLE, type='lines', x='time_step', y='tip_x', lines='method', panels='mass')
+        self.assertEqual([axes.get_title() for axes in figure.axes], ['mass = 1 kg', 'mass = 2 kg'])
+        self.assertEqual(legend(figure), ['Auto', 'Euler'])
+        self.assertRaises(SystemExit, draw, self.TABLE, type='map', x='method', y='time_step', color='verdict')
+
+    def test_show_a_number(self):
+        figure = draw(self.TABLE, type='map', x='mass', y='time_step', color='tip_x', panels='method', log='y')
+        shown = [axes.collections[0].get_array().ravel().tolist() for axes in figure.axes[:2]]
+        self.assertEqual(shown, [[0, 3, 1, 4, 2, 5], [6, 9, 7, 10, 8, 11]])
+        self.assertEqual({axes.get_ylabel() for axes in figure.axes[2:]}, {'tip_x [m]'})
+
+
+class Lines(unittest.TestCase):
+    def test_of_all_methods_look_different_and_diverged_rows_are_left_out(self):
+        names = [method.name for method in sp.methods() if method.name in METHODS]
+        self.assertEqual(names, [method.name for method in sp.methods()])
+        figure = draw('case,method,x [m],y [s],verdict\n' + ''.join(
+            '0,%s,%s,%s,%s\n' % (name, x, x * k, verdict) for k, name in enumerate(names)
+            for x, verdict in ((1, 'ok'), (2, 'ok'), (3, 'diverged'))), type='lines', x='x', y='y', lines='method')
+        lines = figure.axes[0].lines
+        self.assertEqual(legend(figure), names)
+        self.assertEqual(len({(line.get_color(), line.get_linestyle()) for line in lines}), len(names))
+        self.assertEqual({tuple(line.get_xdata()) for line in lines}, {(1.0, 2.0)})
+
+    def test_show_median_and_range_of_several_rows(self):
+        figure = draw('case,x,y\n0,1,5\n1,1,1\n2,1,2\n3,2,7\n', type='lines', x='x', y='y')
+        self.assertEqual(figure.axes[0].lines[0].get_ydata().tolist(), [2, 7])
+        low, high = figure.axes[0].collections[0].get_paths()[0].get_extents().intervaly
+        self.assertEqual((low, high), (1, 7))
+
+
+class Histograms(unittest.TestCase):
+    def test_count_what_did_not_diverge(self):
+        rows = ''.join('%d,%s,%s\n' % (k, value, 'ok') for k, value in enumerate((3, 1, 2, 10)))
+        figure = draw('case,error [m],verdict\n' + rows + '4,0,diverged\n', type='histogram', x='error')
+        self.assertEqual(legend(figure), ['4 cases, median 2.5, 95 % at most 10'])
+
+
+class Pictures(unittest.TestCase):
+    def test_use_one_palette(self):
+        pairs = []
+        for path in ('examples/python/compare_methods.py', 'examples/python/work_precision.py'):
+            pairs += re.findall(r"'([\w-]+)': \(?'(#\w+)'", (PROJECT / path).read_text())
+        names, colors = (re.search('%s = "(.*)"' % key, (PROJECT / 'docs/plots/compare.plt').read_text()).group(1).split()
+                         for key in ('methods', 'colors'))
+        pairs += zip(names, colors)
+        self.assertEqual(len(pairs), 11)
+        for method, color in pairs:
+            self.assertEqual(color, METHODS[method][0], method)
+
+
+if __name__ == '__main__':
+    unittest.main()
