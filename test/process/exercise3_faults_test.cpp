@@ -157,28 +157,6 @@ TEST(Exercise3Faults, NoFileDescriptorLeft) {
   }
 }
 
-// The stack of a thread has the size of the limit, and this size exceeds the address space.
-TEST(Exercise3Faults, NoThreadToBeHadGivesTheSameFrames) {
-  const TemporaryFolder folder;
-  folder.write("particle.txt", chainOf(20000));
-  for (const char* output : {"with", "without"}) {
-    Command command =
-        exercise3(folder, {"Runge-Kutta-4", "--frames", "3", "--threads", "3", "--output", output});
-    if (output == std::string("without")) {
-      command.prepare = [] {
-        const rlimit stack{rlim_t{1} << 47U, RLIM_INFINITY};
-        if (setrlimit(RLIMIT_STACK, &stack) != 0) _exit(1);
-      };
-    }
-    const Result result = run(command);
-    EXPECT_EQ(result.status, 0) << result.errors;
-    EXPECT_EQ(result.errors, "");
-  }
-  for (const std::string name : {"frame_0000.txt", "frame_0001.txt", "frame_0002.txt"}) {
-    EXPECT_EQ(readFile(folder.path("with/" + name)), readFile(folder.path("without/" + name)));
-  }
-}
-
 TEST(Exercise3Faults, MoreParticlesThanMemory) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need more address space than the limit leaves";

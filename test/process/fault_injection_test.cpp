@@ -150,5 +150,39 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FaultInjection,
                          testing::Values("fail", "broken", "kill", "short", "again"),
                          [](const auto& kind) { return kind.param; });
 
+/// Makes the files of a program that cannot create a thread; 0: it can create all.
+Files filesWithout(int thread, const std::string& kind, std::vector<std::string> program) {
+  const TemporaryFolder folder;
+  folder.write("particle.txt", chainOf(20000));
+  folder.write("study.yaml", "base: {frames: 2}\naxes: {stiffness: {linear: [20, 80, 6]}}\n");
+  const Result result = run({std::move(program),
+                             folder.path(),
+                             {{"LD_PRELOAD", FAULT_INJECTION},
+                              {"FAULT_THREAD", std::to_string(thread)},
+                              {"FAULT_KIND", kind}}});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  return filesIn(folder.path());
+}
+
+TEST(ThreadFaults, ChangeNoFile) {
+  const std::vector<std::string> programs[] = {
+      {EXERCISE3, "Runge-Kutta-4", "--frames", "3", "--threads", "3"},
+      {SWEEP, "study.yaml", "--threads", "3"},
+#ifdef RECORD_BAG
+      {RECORD_BAG, "Runge-Kutta-4", "--frames", "3", "--threads", "3", "--bag", "x.bag"},
+#endif
+  };
+  for (const auto& program : programs) {
+    const Files expected = filesWithout(0, "", program);
+    for (const char* const kind : {"fail", "broken"}) {
+      for (int thread = 1; thread <= 4; ++thread) {
+        SCOPED_TRACE(program.front() + " " + kind + " " + std::to_string(thread));
+        EXPECT_TRUE(filesWithout(thread, kind, program) == expected);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spring_pendulum

@@ -346,18 +346,6 @@ TEST_F(Sweep, TwoStudiesAreNotOneTable) {
   }
 }
 
-// 64 threads would need more address space.
-TEST_F(Sweep, NeedsNoMoreThreadsThanTheSystemGrants) {
-  folder_.write(
-      "study.yaml",
-      "base: {particles: chain.txt, frames: 2}\naxes: {stiffness: {linear: [20, 80, 99]}}\n");
-  Command command = sweep({"-o", "few.csv", "--threads", "64"});
-  command.arguments.insert(command.arguments.begin(), {"prlimit", "--as=300000000"});
-  const Result result = run(command);
-  EXPECT_EQ(result.status, 0) << result.errors;
-  EXPECT_EQ(readFile(folder_.path("few.csv")), table());
-}
-
 TEST_F(Sweep, RefusesBadArguments) {
   const std::pair<std::vector<std::string>, const char*> bad[] = {
       {{"other.yaml"}, "'other.yaml': give only one STUDY"},

@@ -117,13 +117,6 @@ class Measurements(Folder):
             self.assertEqual([str(warning.message) for warning in caught], lines)
             self.assertGreater(len(lines), 1 if method == 'Auto' else 0)
 
-    def test_a_divergence_ends_the_frames(self):
-        run = sp.simulate(SCENE, method='Euler', time_step=0.1)
-        self.assertEqual(run.verdict.kind, 'diverged')
-        self.assertEqual(run.positions.shape[0], len(run.time))
-        self.assertLess(len(run.time), 500)
-        self.assertTrue(np.isfinite(run.positions).all())
-
 
 class Keywords(unittest.TestCase):
     def test_are_the_options_of_exercise3_with_their_defaults(self):

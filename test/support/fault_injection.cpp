@@ -7,6 +7,8 @@
 //                 ends before the call; short: a read or write transfers half of its bytes; again:
 //                 a signal interrupts a read or write. The last two count only reads and writes.
 //   FAULT_REPORT  file outside the folder to which the name of the call is written
+//   FAULT_THREAD  number of the thread that can't be created, counted from 1; with the kind broken, no
+//                 later one either
 //   CLOCK_BACK    s by which the system clock steps back, one second after the start
 #include <atomic>
 #include <cerrno>
@@ -19,6 +21,7 @@
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <string>
 #include <string_view>
 #include <sys/stat.h>
@@ -254,6 +257,15 @@ int ftruncate(int file, off_t size) noexcept {
 
 int flock(int file, int operation) noexcept {
   return fails("flock", pathOf(file)) ? -1 : NEXT(flock)(file, operation);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
+                   void* argument) noexcept {
+  static std::atomic<long> threads{0};
+  const long wanted = numberIn("FAULT_THREAD"), number = ++threads;
+  const bool later = setting("FAULT_KIND") == "broken" && wanted > 0 && number > wanted;
+  if (number == wanted || later) return EAGAIN;
+  return NEXT(pthread_create)(thread, attributes, start, argument);
 }
 
 int fsync(int file) {

@@ -77,13 +77,6 @@ TEST(Study, OptionsThatSomeCaseUsesAreAccepted) {
   }
 }
 
-TEST(Study, LogarithmicValuesAreShort) {
-  const TemporaryFolder folder;
-  const Study study = studyOf(folder, "axes: {time_step: {log: [1e-4, 1, 5]}}\n");
-  EXPECT_EQ(study.axes[0].values,
-            (std::vector<std::string>{"0.0001", "0.001", "0.01", "0.1", "1"}));
-}
-
 TEST(Study, JoinedAxesVaryTogether) {
   const TemporaryFolder folder;
   const Study study = studyOf(folder,
