@@ -79,6 +79,7 @@ int runCommandLine(int argc, const char* const* argv) {
       "5 undecided: frames are missing or too sensitive to compare, 128 + n stopped by signal n.",
       {"method", "particles", "resume", "frames", "steps_per_frame", "time_step", "tolerance",
        "frame_interval", "stiffness", "damping", "rest_length", "gravity", "air_drag"}};
+  registerCourseMethods();
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);

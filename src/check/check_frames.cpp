@@ -20,6 +20,15 @@ namespace {
 
 constexpr const char* kExercise[] = {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"};
 
+/// Methods of other courses, which are right only if they are asked for.
+constexpr std::pair<const char*, ButcherTableau> kCourseMethods[] = {
+    {"Heun", {2, {{{}, {1.0}}}, {0.5, 0.5}}}, {"Ralston", {2, {{{}, {2.0 / 3.0}}}, {0.25, 0.75}}}};
+
+bool isOfCourse(const Method& method) {
+  return std::any_of(std::begin(kCourseMethods), std::end(kCourseMethods),
+                     [&](const auto& other) { return method.name == other.first; });
+}
+
 /// "particle 2, by 6.9e-06 m along its spring"
 std::string textOf(const Departure& departure) {
   constexpr double kMostly = 0.9;
@@ -40,15 +49,11 @@ class Checker {
           const CheckOptions& options)
       : scenario_(scenario), particles_(particles), frames_(std::move(frames)), options_(options) {
     for (const Method& method : methodTable()) {
-      const bool is_wanted = !options.method_is_given || &method == &scenario.method.get();
+      const bool is_wanted =
+          options.method_is_given ? &method == &scenario.method.get() : !isOfCourse(method);
       (is_wanted ? wanted_ : others_).push_back(&method);
       if (is_wanted && StudentProgram::isWritten(method))
         wanted_written_.insert(wanted_written_.begin(), &method);
-    }
-    written_ = wanted_written_;
-    for (const char* const name : kExercise) {
-      const Method& method = findMethod(name);
-      if (options.method_is_given && &method != &scenario.method.get()) written_.push_back(&method);
     }
     result_.frames = static_cast<std::int64_t>(frames_.frames.size());
     result_.digits = frames_.digits;
@@ -79,13 +84,9 @@ class Checker {
   }
 
  private:
-  /// Some 10 s. Missing frames make each comparison slower, and tell nothing.
   WorkLimit limit() const {
-    constexpr double kMostWork = 4e9;
-    constexpr double kMostMissing = 30.0;  // for each frame that is there
-    const auto needed = static_cast<double>(frames_.frames.back().index + 1);
-    const double share = kMostMissing * static_cast<double>(result_.frames) / needed;
-    return {kMostWork * std::min(1.0, share), options_.stop};
+    constexpr double kMostWork = 4e9;  // some 10 s
+    return {kMostWork, options_.stop};
   }
 
   /// Notes the methods that agree, and the departure from the nearest of those that students write, or
@@ -125,12 +126,18 @@ class Checker {
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
   void explain() {
     Search search{scenario_, particles_, frames_, known_frames_, limit()};
-    result_.explanations = singleMistakes(search, wanted_written_);
+    result_.explanations = findMistakes(search, wanted_written_, true);
     if (!result_.explanations.empty()) return;
     compareWith(others_);
     if (result_.last_frame > frames_.start) return;
     result_.methods.clear();
-    result_.explanations = simplestMistakes(search, written_);
+    Methods written = wanted_written_;
+    for (const char* const name : kExercise) {
+      const Method* const method = &findMethod(name);
+      if (std::find(wanted_.begin(), wanted_.end(), method) == wanted_.end())
+        written.push_back(method);
+    }
+    result_.explanations = findMistakes(search, written);
     if (search.gave_up && result_.explanations.empty())
       result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
   }
@@ -143,7 +150,7 @@ class Checker {
     if (!StudentProgram::isWritten(best)) return;
     Search search{scenario_, particles_, frames_, 0, {kMostWork, options_.stop}};
     std::vector<std::string> hidden;
-    for (const Explanation& one : singleMistakes(search, {&best})) {
+    for (const Explanation& one : findMistakes(search, {&best}, true)) {
       const std::string& name = one.mistakes.back();
       if (std::find(hidden.begin(), hidden.end(), name) == hidden.end()) hidden.push_back(name);
     }
@@ -220,8 +227,8 @@ class Checker {
   AllFrames frames_;
   const CheckOptions& options_;
   Methods wanted_, others_;
-  Methods written_, wanted_written_;  ///< methods that students write
-  std::size_t known_frames_ = 0;      ///< number of frames before the departure
+  Methods wanted_written_;        ///< those that students write
+  std::size_t known_frames_ = 0;  ///< number of frames before the departure
   FrameCheck result_;
 };
 
@@ -266,6 +273,14 @@ std::string conclusionOf(const FrameCheck& check) {
 }
 
 }  // namespace
+
+void registerCourseMethods() {
+  for (const auto& [name, tableau] : kCourseMethods) {
+    Method method = methodOfTableau(name, tableau);
+    method.use = "of other courses: right only if it is asked for";
+    registerMethod(method);
+  }
+}
 
 FrameCheck checkFrames(const Scenario& scenario, const Particles& particles,
                        const std::vector<FrameText>& frames, const CheckOptions& options) {

@@ -50,6 +50,9 @@ struct CheckOptions {
   std::function<bool()> stop = {};
 };
 
+/// Adds methods that other courses ask for to the method table: Heun, Ralston.
+void registerCourseMethods();
+
 /// Checks frames.
 /// \param scenario  the constants of the model, steps, tolerance and number of frames that the program
 ///   should have

@@ -133,12 +133,10 @@ std::string missingFrames(const AllFrames& all) {
       throw FileError(fmt::format("frame {}: {} frames before it are missing, at most {} may be",
                                   frame.index, gap, kMostMissing));
     }
-    if (gap > 0 && count == 0) first = std::to_string(frame.index - gap);
+    if (gap > 0 && count == 0) first = fmt::format(", the first is frame {}", frame.index - gap);
     count += gap;
   }
-  if (count == 0) return "";
-  return fmt::format("{} missing, the first is frame {}",
-                     counted(count, "frame") + (count == 1 ? " is" : " are"), first);
+  return count == 0 ? "" : counted(count, "missing frame") + first;
 }
 
 }  // namespace
@@ -170,13 +168,11 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& parti
     frame.units = frame.positions.unaryExpr([&](double value) { return reader.unitOf(value); });
   all.digits = reader.digits();
   all.are_floats = areFloats(all, particles.state.positions());
-  if (const std::string missing = missingFrames(all); !missing.empty())
-    all.remarks.push_back(missing);
+  if (const std::string gaps = missingFrames(all); !gaps.empty()) all.remarks.push_back(gaps);
   if (all.digits <= kFewDigits) {
-    all.remarks.push_back(
-        fmt::format("few digits: {} printed, too few to show small mistakes; "
-                    "print 17, for example with std::setprecision(17)",
-                    counted(all.digits, "digit")));
+    all.remarks.push_back("few digits: " + counted(all.digits, "digit") +
+                          " printed, too few to show small mistakes; print 17, for example with "
+                          "std::setprecision(17)");
   }
   return all;
 }

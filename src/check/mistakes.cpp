@@ -65,19 +65,13 @@ bool StudentProgram::isWritten(const Method& method) {
   return has_tableau || isImplicit(method) || method.name == "Semi-Implicit-Euler";
 }
 
-StudentProgram::StudentProgram(const Method& method, const Scenario& scenario)
-    : kinds(kindOf(method)),
-      tableau(method.tableau != nullptr ? *method.tableau : kEulerTableau),
-      time_step(scenario.time_step),
-      steps_per_frame(scenario.steps_per_frame),
-      stiffness(scenario.stiffness),
-      damping(scenario.damping),
-      rest_length(scenario.rest_length),
-      gravity(scenario.gravity),
-      air_drag(scenario.air_drag) {
+StudentProgram::StudentProgram(const Method& wanted, const Scenario& scenario)
+    : Scenario(scenario),
+      kinds(kindOf(wanted)),
+      tableau(wanted.tableau != nullptr ? *wanted.tableau : kEulerTableau) {
   if (air_drag != 0.0) kinds |= kInAir;
-  if (isImplicit(method)) implicit = Implicit::kSolved;
-  if (method.symplectic) moves.push_back([](Move& m) { m.moveWith(m.result.tail<2>()); });
+  if (isImplicit(wanted)) implicit = Implicit::kSolved;
+  if (wanted.symplectic) moves.push_back([](Move& m) { m.moveWith(m.result.tail<2>()); });
 }
 
 // clang-format off
@@ -102,7 +96,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"stage_position", kSeveral, "does not change the positions in the stages, only the velocities", [](P& p) { p.moves.push_back([](Move& m) { if (!m.ends_step) m.result.head<2>() = m.start.head<2>(); }); }},
       {"stage_fraction", P::kMidpoint, "goes a whole step to its second slope instead of half a step", [](P& p) { stage(p, 2, 1); }},
       {"stage_slope", P::kMidpoint, "starts the step with the second slope from the middle instead of the begin of the step", [](P& p) { weights(p, 0.5, 1); }},
-      {"weights", P::kMidpoint, "adds both slopes without halving the sum", [](P& p) { weights(p, 1, 1); }},
+      {"weights", kTwo, "adds both slopes without halving the sum", [](P& p) { weights(p, 1, 1); }},
       {"weights", P::kMidpoint, "takes the mean of the first slope and the one in the middle", [](P& p) { weights(p, 0.5, 0.5); }},
       {"weights", kFour, "weights the slopes 1, 1, 1, 1 (over 4) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 4, 1, 1, 1, 1); }},
       {"weights", kFour, "weights the slopes 1, 1, 1, 1 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 6, 1, 1, 1, 1); }},
@@ -121,6 +115,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"stage_slope", kFour, "starts the third stage from the second instead of the begin of the step", [](P& p) { stage(p, 3, 0.5, 0.5); }},
       {"stage_slope", kFour, "computes the second slope at the begin of the step", [](P& p) { stage(p, 2, 0); }},
       {"stage_slope", kFour, "computes the third slope at the begin of the step", [](P& p) { stage(p, 3, 0); }},
+      {"stage_slope", kFour, "computes the second and third slopes at the begin of the step (in integers 1 / 2 is 0)", [](P& p) { stage(p, 2, 0); stage(p, 3, 0); }},
       {"stage_fraction", kFour, "goes half a step to the fourth slope instead of a whole one", [](P& p) { stage(p, 4, 0, 0, 0.5); }},
       {"stage_fraction", kFour, "goes a whole step to the third slope instead of half a step", [](P& p) { stage(p, 3, 0, 1); }},
       {"stage_fraction", kFour, "goes a whole step to the second slope instead of half a step", [](P& p) { stage(p, 2, 1); }},
@@ -156,6 +151,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"reaction_sign", kAny, "has the wrong sign of the force of the spring to the next particle", [](P& p) { p.particles.push_back([](Particle& a) { a.right = -a.right; }); }},
       {"reaction_sign", kAny, "has the wrong sign of the force of the spring to the previous particle", [](P& p) { p.particles.push_back([](Particle& a) { a.left = -a.left; }); }},
       {"last_spring", kAny, "leaves out the spring to the last particle", [](P& p) { p.particles.push_back([](Particle& a) { if (a.index == a.last) a.left = 0; if (a.index + 1 == a.last) a.right = 0; }); }},
+      {"last_spring", kAny, "leaves out the force of the last particle on the one before", [](P& p) { p.particles.push_back([](Particle& a) { if (a.index + 1 == a.last) a.right = 0; }); }},
       {"every_second_spring", kAny, "uses only every second spring", [](P& p) { p.particles.push_back([](Particle& a) { (a.index % 2 == 0 ? a.left : a.right) = 0; }); }},
       {"first_spring", kAny, "leaves out the spring to the first particle", [](P& p) { p.particles.push_back([](Particle& a) { if (a.index == 1) a.left = 0; if (a.index == 0) a.right = 0; }); }},
       {"springs_twice", kAny, "adds the force of each spring twice", [](P& p) { p.particles.push_back([](Particle& a) { a.left *= 2; a.right *= 2; }); }},
@@ -190,6 +186,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"time_step", kAny, "uses a tenth of the time step", [](P& p) { p.time_step /= 10; }},
       {"time_step", kAny, "takes ten times as many steps, each a tenth as long", [](P& p) { p.time_step /= 10; p.steps_per_frame *= 10; }},
       {"swapped", kAny, "writes y before x", [](P& p) { p.prints.push_back([](Numbers& z) { z.row(0).swap(z.row(1)); }); }},
+      {"y_down", kAny, "writes -y instead of y", [](P& p) { p.prints.push_back([](Numbers& z) { z.row(1) *= -1; }); }},
       {"reversed", kAny, "writes the particles in reverse order", [](P& p) { p.prints.push_back([](Numbers& z) { z = z.rowwise().reverse().eval(); }); }},
       {"velocities", kAny, "writes the velocities instead of the positions", [](P& p) { p.prints.push_back([](Numbers& z) { z.topRows<2>() = z.bottomRows<2>().eval(); }); }},
       {"single_precision", kOnlyAsked, "computes with float instead of double", [](P& p) { p.single_precision = true; }},
@@ -199,12 +196,12 @@ const std::vector<Mistake>& knownMistakes() {
 
 const std::vector<Constant>& fittedConstants() {
   static const std::vector<Constant> kTable = {
-      {"k_s", "uses the spring constant k_s = {} N/m", &P::stiffness},
-      {"k_d", "uses the damping constant k_d = {} N·s/m", &P::damping},
-      {"L_0", "uses the rest length L_0 = {} m", &P::rest_length},
-      {"g", "uses g = {} m/s²", &P::gravity},
-      {"air_drag", "has an air drag of {} N·s/m", &P::air_drag},
-      {"time_step", "uses a time step of {} s", &P::time_step},
+      {"k_s", "uses the spring constant k_s = {} N/m", [](P& p) -> double& { return p.stiffness; }},
+      {"k_d", "uses the damping constant k_d = {} N·s/m", [](P& p) -> double& { return p.damping; }},
+      {"L_0", "uses the rest length L_0 = {} m", [](P& p) -> double& { return p.rest_length; }},
+      {"g", "uses g = {} m/s²", [](P& p) -> double& { return p.gravity; }},
+      {"air_drag", "has an air drag of {} N·s/m", [](P& p) -> double& { return p.air_drag; }},
+      {"time_step", "uses a time step of {} s", [](P& p) -> double& { return p.time_step; }},
   };
   return kTable;
 }

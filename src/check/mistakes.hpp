@@ -60,8 +60,8 @@ struct StudentMove {
   }
 };
 
-/// The exercise with whatever is changed in it. The initialisers are the right program.
-struct StudentProgram {
+/// The exercise with whatever is changed in it, also in the scenario: a time step of 0 moves nothing.
+struct StudentProgram : Scenario {
   /// Kinds of programs, as bits: a mistake concerns some of them.
   enum Kind : unsigned {
     kEuler = 1,
@@ -88,14 +88,7 @@ struct StudentProgram {
   ButcherTableau tableau;
   Implicit implicit = Implicit::kNone;
   Order order = Order::kTogether;
-  double time_step;  ///< s; 0: nothing moves
-  std::int64_t steps_per_frame;
   std::int64_t first_step = 0;  ///< steps before frame 0; negative: the start is repeated
-  double stiffness;             ///< N/m
-  double damping;               ///< N·s/m
-  double rest_length;           ///< m
-  double gravity;               ///< m/s²
-  double air_drag;              ///< N·s/m
   bool single_precision = false;
   /// Changes of a spring, of a particle, of a way, and of the numbers that are printed.
   std::vector<void (*)(StudentSpring&)> springs = {};
@@ -104,7 +97,7 @@ struct StudentProgram {
   std::vector<void (*)(Eigen::Array4Xd&)> prints = {};
 
   /// The right program for a method that `isWritten` by students.
-  StudentProgram(const Method& method, const Scenario& scenario);
+  StudentProgram(const Method& wanted, const Scenario& scenario);
 
   static bool isWritten(const Method& method);
 
@@ -127,7 +120,7 @@ struct Mistake {
 struct Constant {
   std::string_view name;
   std::string_view sentence;  ///< follows "the program "; {} is the number
-  double StudentProgram::*member;
+  double& (*in)(StudentProgram&);
 };
 
 const std::vector<Mistake>& knownMistakes();

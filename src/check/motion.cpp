@@ -109,7 +109,7 @@ class ProgramMotion : public Motion {
     const bool is_implicit = program_.implicit != Implicit::kNone;
     const auto size = static_cast<double>(state_.cols());
     // Relative to a kernel of the library.
-    const double work_of_spring = is_implicit ? 100.0 + 50.0 * size : 10.0;
+    const double work_of_spring = is_implicit ? 200.0 * size : 10.0;
     limit.done += static_cast<double>(target - step_) * work_of_spring * size *
                   static_cast<double>(slopes_.size());
     for (; step_ < target; ++step_) {
@@ -224,34 +224,39 @@ class ProgramMotion : public Motion {
     return Eigen::Map<const Eigen::VectorXd>(vectors.data(), vectors.size());
   }
 
-  /// Newton's method for v' = v + h a(p + h v', v'), with the matrix 1 - h da/dv - h² da/dp at its begin.
+  /// Newton's method for v' = v + h a(p + h v', v').
   void stepImplicitly() {
     constexpr int kMostIterations = 30;
-    constexpr double kConverged = 1e-13;
+    constexpr double kConverged = 1e-11;
     const double h = program_.time_step;
+    const bool once = program_.implicit == Implicit::kOneIteration;
     const Vectors positions = state_.topRows<2>();
     const Vectors velocities = state_.bottomRows<2>();
     Rows way = Rows::Zero(4, state_.cols());
     way.topRows<2>() = h * velocities;
-    // The first iteration takes the forces at the begin, and at once their change on the way.
-    Vectors missing = h * (accelerations(state_) + changeOf(state_, way));
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(missing.size(), missing.size());
-    for (Eigen::Index k = 0; k < missing.size(); ++k) {
-      way.setZero();
+    if (!once) state_ += way;
+    for (int n = 0; n < kMostIterations; ++n) {
+      Vectors missing = velocities + h * accelerations(state_) - state_.bottomRows<2>();
+      if (once) missing += h * changeOf(state_, way);
+      const Eigen::VectorXd change = matrixOf(h).partialPivLu().solve(flat(missing));
+      state_.bottomRows<2>() += Eigen::Map<const Vectors>(change.data(), 2, state_.cols());
+      state_.topRows<2>() = positions + h * state_.bottomRows<2>();
+      const double scale = 1.0 + velocities.abs().maxCoeff();
+      if (once || !(change.cwiseAbs().maxCoeff() > kConverged * scale)) break;
+    }
+  }
+
+  /// 1 - h da/dv - h² da/dp
+  Eigen::MatrixXd matrixOf(double h) const {
+    const Eigen::Index size = 2 * state_.cols();
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      Rows way = Rows::Zero(4, state_.cols());
       way(k % 2, k / 2) = h;
       way(k % 2 + 2, k / 2) = 1.0;
       matrix.col(k) -= flat(h * changeOf(state_, way));
     }
-    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(matrix);
-    for (int n = 0; n < kMostIterations; ++n) {
-      const Eigen::VectorXd change = solver.solve(flat(missing));
-      state_.bottomRows<2>() += Eigen::Map<const Vectors>(change.data(), 2, state_.cols());
-      state_.topRows<2>() = positions + h * state_.bottomRows<2>();
-      const bool has_converged =
-          !(change.cwiseAbs().maxCoeff() > kConverged * (1.0 + velocities.abs().maxCoeff()));
-      if (has_converged || program_.implicit == Implicit::kOneIteration) break;
-      missing = velocities + h * accelerations(state_) - state_.bottomRows<2>();
-    }
+    return matrix;
   }
 
   StudentProgram program_;

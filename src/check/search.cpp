@@ -72,12 +72,12 @@ class Trials {
   }
 
   void tryMistakeAndConstant(const Candidate& base) {
+    Candidate right = base;
     for (const Constant& constant : fittedConstants()) {
       for (const Mistake& mistake : knownMistakes()) {
         if (!base.canMake(mistake) || isOver()) continue;
-        const Candidate candidate = base.with(mistake);
-        if (candidate.program.*constant.member == base.program.*constant.member)
-          fit(candidate, constant);
+        Candidate wrong = base.with(mistake);
+        if (constant.in(wrong.program) == constant.in(right.program)) fit(wrong, constant);
       }
     }
   }
@@ -122,7 +122,7 @@ class Trials {
       return (motion->positions() - frame.positions) /
              (frame.units + kRounding * frame.positions.abs().maxCoeff());
     };
-    double& value = program.*constant.member;
+    double& value = constant.in(program);
     double change = value == 0.0 ? kFirstChange : kFirstChange * value;
     Eigen::ArrayX2d old = differences();
     for (int i = 0; i < kMostSteps && !isOver(); ++i) {
@@ -140,7 +140,7 @@ class Trials {
     constexpr double kSmallestMistake = 1e-5;  // relative; smaller ones are rounding errors
     constexpr int kMostDigits = 15;
     const std::vector<FrameNumbers>& frames = search_.frames.frames;
-    double& value = candidate.program.*constant.member;
+    double& value = constant.in(candidate.program);
     const double right = value;
     value *= factor;
     Agreement agreement = agreementOf(candidate.program);
@@ -178,16 +178,7 @@ bool isStrong(const Search& search, const Explanation& explanation) {
 
 }  // namespace
 
-std::vector<Explanation> singleMistakes(Search& search, const Methods& methods) {
-  Trials trials(search);
-  for (const Method* method : methods) trials.tryMistakes(trials.rightProgram(*method));
-  const auto is_weak = [&](const Explanation& one) { return !isStrong(search, one); };
-  std::vector<Explanation>& found = trials.found;
-  found.erase(std::remove_if(found.begin(), found.end(), is_weak), found.end());
-  return found;
-}
-
-std::vector<Explanation> simplestMistakes(Search& search, const Methods& methods) {
+std::vector<Explanation> findMistakes(Search& search, const Methods& methods, bool only_single) {
   constexpr void (Trials::*kLevels[])(const Candidate&) = {
       &Trials::tryMistakes, &Trials::tryConstants, &Trials::trySinglePrecision,
       &Trials::tryTwoMistakes, &Trials::tryMistakeAndConstant};
@@ -197,12 +188,11 @@ std::vector<Explanation> simplestMistakes(Search& search, const Methods& methods
     for (const Method* method : methods) (trials.*level)(trials.rightProgram(*method));
     std::vector<Explanation> found = std::exchange(trials.found, {});
     // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
-    std::stable_sort(found.begin(), found.end(), [](const Explanation& a, const Explanation& b) {
-      return a.last_frame > b.last_frame;
-    });
-    if (found.empty()) continue;
-    if (isStrong(search, found.front())) return found;
-    if (best.empty() && found.front().mistakes.size() == 1) best = found;
+    const auto weak = std::stable_partition(
+        found.begin(), found.end(), [&](const Explanation& one) { return isStrong(search, one); });
+    if (weak != found.begin()) return {found.begin(), weak};
+    if (only_single) break;
+    if (best.empty() && !found.empty() && found.front().mistakes.size() == 1) best = found;
   }
   return best;
 }

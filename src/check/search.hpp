@@ -29,11 +29,10 @@ struct Search {
   bool gave_up = false;  ///< whether a search ended before everything was tried
 };
 
-/// Returns the single mistakes that each explain the frames, without fits: the fast part.
-std::vector<Explanation> singleMistakes(Search& search, const Methods& methods);
-
 /// Returns the simplest explanations: a mistake, a wrong number, float, two mistakes, or a mistake and a
 /// wrong number.
-std::vector<Explanation> simplestMistakes(Search& search, const Methods& methods);
+/// \param only_single whether to try single mistakes only, without fits: the fast part
+std::vector<Explanation> findMistakes(Search& search, const Methods& methods,
+                                      bool only_single = false);
 
 }  // namespace spring_pendulum
