@@ -78,6 +78,9 @@ TEST(BackwardEuler, SaysWhereNewtonsMethodDoesNotConverge) {
     ++failures;
     EXPECT_NE(integrator.report().find("did not converge"), std::string::npos);
     EXPECT_TRUE(scene.start.values().row(0).allFinite()) << scene.name;
+    const std::int64_t evaluations = integrator.forceEvaluations();
+    integrator.advance(scene.start, 1.0, 100);  // counts as work, so that limits on work end it
+    EXPECT_GE(integrator.forceEvaluations(), evaluations + 100) << scene.name;
   }
   EXPECT_GT(failures, 0);
 }
