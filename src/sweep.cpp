@@ -176,7 +176,8 @@ void printCase(const Study& study, std::int64_t index, const std::string& folder
   printOutput(commandLine(scenario));
 }
 
-void checkFiles(const CommandLine& line, const Study& study) {
+Study readCheckedStudy(const CommandLine& line) {
+  Study study = readStudy(line.study);
   TouchedFiles files{{line.study}, {line.sweep.output}, ""};
   for (const auto& [path, particles] : study.particles) files.inputs.push_back(path);
   if (line.only_case >= 0) {
@@ -186,32 +187,22 @@ void checkFiles(const CommandLine& line, const Study& study) {
   }
   if (line.sweep.plot) files.outputs.push_back(picturePath(line.sweep.output));
   checkTouchedFiles(files);
-}
-
-int runCommandLine(const CommandLine& line, CaseCounter& counter) {
-  // Rank 0 checks everything first, so each error is reported once.
-  if (counter.rank() > 0) counter.largest(0);
-  const Study study = readStudy(line.study);
-  checkFiles(line, study);
-  if (line.sweep.plot && study.plot.empty()) {
-    throw InputError("--plot: the study has no entry plot");
-  }
-  return runSweep(study, line.sweep, counter);
+  if (!line.sweep.plot || !study.plot.empty()) return study;
+  throw InputError("--plot: the study has no entry plot");
 }
 
 int run(int argc, const char* const* argv) {
   const CommandLine line = parseCommandLine(argc, argv);
   printOutput(line.answer);
-  if (!line.answer.empty()) return kDone;
-  if (line.only_case >= 0) {
-    const Study study = readStudy(line.study);
-    checkFiles(line, study);
-    printCase(study, line.only_case, line.sweep.output);
-    return kDone;
+  if (line.answer.empty() && line.only_case >= 0) {
+    printCase(readCheckedStudy(line), line.only_case, line.sweep.output);
   }
+  if (!line.answer.empty() || line.only_case >= 0) return kDone;
   CaseCounter counter;
   try {
-    return runCommandLine(line, counter);
+    // Rank 0 checks everything first, so each error is reported once.
+    if (counter.rank() > 0) counter.largest(0);
+    return runSweep(readCheckedStudy(line), line.sweep, counter);
   } catch (const std::exception& error) {  // a failure of one rank ends all of them
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");

@@ -27,22 +27,12 @@ constexpr std::string_view kOfOneRun[] = {"resume", "output",     "no_frames",
                                           "energy", "save_state", "threads"};
 
 double draw(const Distribution& distribution, RandomNumbers& numbers) {
-  const double a = distribution.first, b = distribution.second;
-  switch (distribution.kind) {
-    case Distribution::Kind::kUniform:
-      return a + (b - a) * numbers.uniform();
-    case Distribution::Kind::kLogUniform: {
-      const double log_a = portableLog(a);
-      return portableExp(log_a + (portableLog(b) - log_a) * numbers.uniform());
-    }
-    case Distribution::Kind::kNormal:
-      return a + b * numbers.normal();
-    case Distribution::Kind::kLogNormal:
-      return portableExp(portableLog(a) + b * numbers.normal());
-    case Distribution::Kind::kNone:
-      break;
-  }
-  return a;
+  const auto [first, second, is_given, is_log, is_range] = distribution;
+  if (!is_given) return first;
+  const double a = is_log ? portableLog(first) : first;
+  const double b = is_log && is_range ? portableLog(second) : second;
+  const double number = is_range ? a + (b - a) * numbers.uniform() : a + b * numbers.normal();
+  return is_log ? portableExp(number) : number;
 }
 
 /// The least whole number of parts, so that none is longer than wanted.
@@ -153,9 +143,8 @@ Place Study::placeOf(std::int64_t index) const {
 }
 
 bool Study::changesParticles(const Settings& settings) const {
-  return settings.mass_factor != 1.0 || mass_factor.kind != Distribution::Kind::kNone ||
-         displacement.kind != Distribution::Kind::kNone ||
-         velocity.kind != Distribution::Kind::kNone;
+  return settings.mass_factor != 1.0 || mass_factor.is_given || displacement.is_given ||
+         velocity.is_given;
 }
 
 Case caseOf(const Study& study, std::int64_t index) {

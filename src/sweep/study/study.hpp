@@ -36,10 +36,11 @@ double fittedTimeStep(const Settings& settings, double time_step);
 std::vector<Option> caseOptions(Settings& settings);
 
 struct Distribution {
-  enum class Kind { kNone, kUniform, kLogUniform, kNormal, kLogNormal };
-  Kind kind = Kind::kNone;
-  double first = 0.0;   ///< least value, mean or median; without a distribution, the only value
+  double first = 0.0;   ///< the only value; least value, mean or median of a given distribution
   double second = 0.0;  ///< most value, or standard deviation (of the logarithm)
+  bool is_given = false;
+  bool is_log = false;    ///< of the logarithm
+  bool is_range = false;  ///< uniform instead of normal
 };
 
 struct Axis {
@@ -60,10 +61,10 @@ struct Study {
   Settings base;
   std::vector<Axis> axes;
   std::int64_t seed = 0;
-  std::int64_t samples = 0;                                  ///< 0: nothing is random
-  Distribution mass_factor{Distribution::Kind::kNone, 1.0};  ///< of each particle
-  Distribution displacement;                                 ///< of each particle in x and in y, m
-  Distribution velocity;  ///< added to that of each particle in x and in y, m/s
+  std::int64_t samples = 0;       ///< 0: nothing is random
+  Distribution mass_factor{1.0};  ///< of each particle
+  Distribution displacement;      ///< of each particle in x and in y, m
+  Distribution velocity;          ///< added to that of each particle in x and in y, m/s
   std::vector<const Column*> columns;
   std::vector<std::string> plot;               ///< arguments of the script that draws the table
   std::map<std::string, Particles> particles;  ///< content of each particle file

@@ -50,11 +50,13 @@ void assign(OptionSet& options, const Option& option, const YamlTree& tree) {
   options.set(option, tree.text, fmt::format("{}: {}", tree.place, option.key));
 }
 
+void requireMap(const YamlTree& tree, std::string_view key) {
+  if (tree.kind != Kind::kMap) refuse(tree, key, "must be lines 'key: value'");
+}
+
 /// Refuses keys other than those of `known`.
 void checkKeys(const YamlTree& map, std::string_view what, const std::vector<std::string>& known) {
-  if (map.kind != Kind::kMap) {
-    throw InputError(fmt::format("{}: {}: must be lines 'key: value'", map.place, what));
-  }
+  requireMap(map, what);
   for (const auto& [key, value] : map.entries) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     throw InputError(fmt::format("{}: {}", value.place, unknownName("key", key, known)));
@@ -141,7 +143,6 @@ Distribution distributionOf(const YamlTree& tree, std::string_view key) {
   if (tree.entries.size() != 1) refuse(tree, key, "must be one distribution");
   const auto& [name, list] = tree.entries.front();
   const std::vector<double> numbers = numbersOf(list, name, 2, "must be a list of two numbers");
-  const auto index = std::find(names.begin(), names.end(), name) - names.begin();
   const bool is_log = name != "uniform" && name != "normal";
   const bool is_range = name == "uniform" || name == "log_uniform";
   if (is_log && numbers[0] <= 0.0) refuse(list, name, "the first number must be above 0");
@@ -150,7 +151,7 @@ Distribution distributionOf(const YamlTree& tree, std::string_view key) {
            is_range ? "the second number must be at least the first one"
                     : "the deviation must be at least 0");
   }
-  return {static_cast<Distribution::Kind>(index + 1), numbers[0], numbers[1]};
+  return {numbers[0], numbers[1], true, is_log, is_range};
 }
 
 class StudyReader {
@@ -186,9 +187,9 @@ class StudyReader {
  private:
   void readBase() {
     if (const YamlTree* const base = tree_.find("base")) {
-      checkKeys(*base, "base", keys());
+      requireMap(*base, "base");
       for (const auto& [key, value] : base->entries) {
-        assign(options_, options_.find(key, ""), value);
+        assign(options_, options_.find(key, value.place, "key"), value);
       }
     }
     const YamlTree* const axes = tree_.find("axes");
@@ -199,10 +200,10 @@ class StudyReader {
   void readAxes() {
     const YamlTree* const axes = tree_.find("axes");
     if (axes == nullptr) return;
-    checkKeys(*axes, "axes", keys());
+    requireMap(*axes, "axes");
     for (const auto& [key, value] : axes->entries) {
       if (options_.isGiven(key)) refuse(value, key, "stands in base, too");
-      const Option& option = options_.find(key, "");
+      const Option& option = options_.find(key, value.place, "key");
       Axis axis{key, std::string(option.unit), {}};
       for (const YamlTree& one : valuesOf(value, option, study_.base)) {
         assign(options_, option, one);
@@ -260,9 +261,8 @@ class StudyReader {
       if (key == "velocity") study_.velocity = distributionOf(value, key);
     }
     if (study_.samples == 0) refuse(*random, "random", "samples is missing");
-    if (study_.mass_factor.kind == Distribution::Kind::kNormal ||
-        (study_.mass_factor.kind == Distribution::Kind::kUniform &&
-         study_.mass_factor.first <= 0.0)) {
+    const Distribution& factor = study_.mass_factor;
+    if (!factor.is_log && factor.is_given && (!factor.is_range || factor.first <= 0.0)) {
       refuse(*random, "mass_factor",
              "must have positive values only: use log_normal, log_uniform or uniform above 0");
     }
@@ -291,12 +291,6 @@ class StudyReader {
     for (const auto& [key, value] : plot->entries) {
       study_.plot.push_back(fmt::format("--{}={}", key, textOf(value, key)));
     }
-  }
-
-  std::vector<std::string> keys() const {
-    std::vector<std::string> keys;
-    for (const Option& option : options_.options()) keys.emplace_back(option.key);
-    return keys;
   }
 
   /// Reads the particle file of the settings, whose path is relative to the study.
