@@ -22,7 +22,8 @@ struct BlockPlace {
   std::ptrdiff_t pitch;
 };
 
-[[gnu::always_inline]] inline Block load(BlockPlace<const double> from) {
+template <typename Number>
+[[gnu::always_inline]] inline Block load(BlockPlace<Number> from) {
   return {Pack::load(from.first), Pack::load(from.first + from.pitch),
           Pack::load(from.first + 2 * from.pitch), Pack::load(from.first + 3 * from.pitch)};
 }
@@ -32,6 +33,15 @@ struct BlockPlace {
   value.y.store(to.first + to.pitch);
   value.vx.store(to.first + 2 * to.pitch);
   value.vy.store(to.first + 3 * to.pitch);
+}
+
+[[gnu::always_inline]] inline PlaneVector<Pack> load(const double* from) {
+  return {Pack::load(from), Pack::load(from + kLanes)};
+}
+
+[[gnu::always_inline]] inline void store(const PlaneVector<Pack>& value, double* to) {
+  value.x.store(to);
+  value.y.store(to + kLanes);
 }
 
 [[gnu::always_inline]] inline Block operator+(const Block& a, const Block& b) {
@@ -58,6 +68,20 @@ template <typename Number>
 [[gnu::always_inline]] inline BlockPlace<Number> placeOf(Number* state, std::ptrdiff_t pitch,
                                                          std::ptrdiff_t block) {
   return {state + kFirstMoving + block * kLanes, pitch};
+}
+
+/// Returns the states of the left neighbours of a block's particles, where `left` precedes `here`.
+[[gnu::always_inline]] inline Block leftNeighbours(const Block& left, const Block& here) {
+  return {leftNeighbours(left.x, here.x), leftNeighbours(left.y, here.y),
+          leftNeighbours(left.vx, here.vx), leftNeighbours(left.vy, here.vy)};
+}
+
+/// Returns the same from memory, where the block lies at `here`.
+template <typename Number>
+[[gnu::always_inline]] inline Block leftNeighbours(BlockPlace<Number> here) {
+  const Number* const first = here.first - 1;
+  return {Pack::loadUnaligned(first), Pack::loadUnaligned(first + here.pitch),
+          Pack::loadUnaligned(first + 2 * here.pitch), Pack::loadUnaligned(first + 3 * here.pitch)};
 }
 
 /// Returns the separations of the particles of a block from their left neighbours.

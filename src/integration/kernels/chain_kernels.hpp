@@ -63,24 +63,19 @@ struct StepWeights {
   double dissipation[ButcherTableau::kMaxStages] = {};  ///< h b_i k_d, kg
 };
 
-/// Blocks of a ring buffer in `StagePipeline`: a power of two, at least the number of blocks between the
-/// first and the last stage.
-constexpr std::ptrdiff_t ringBlocks(std::size_t stages) {
-  std::ptrdiff_t blocks = 8;
-  while (blocks < 3 * static_cast<std::ptrdiff_t>(stages)) blocks *= 2;
-  return blocks;
+/// Moving particles of the shortest tile of `StagePipeline`. The longest is nearly twice as long.
+constexpr std::ptrdiff_t kTileParticles = 128;
+
+/// Length of a column of the workspace of a tile: the particle before it, the tile, and blocks of the
+/// tile to the right.
+constexpr std::ptrdiff_t tilePitch(std::size_t stages) {
+  return 8 + 2 * kTileParticles + 8 * static_cast<std::ptrdiff_t>(stages);
 }
 
-/// Moving particles of the longest chain that completes each stage before the next: its workspace
-/// fits the first-level cache.
-constexpr std::ptrdiff_t kWholeParticles = 256;
-
-/// Doubles of workspace for whole steps: states, sums, slopes and springs of every stage.
+/// Doubles of workspace for whole steps: springs, states, sums and slopes of a tile, then forces.
 constexpr std::ptrdiff_t stepWorkspaceSize(std::size_t stages) {
   const auto count = static_cast<std::ptrdiff_t>(stages);
-  const std::ptrdiff_t rings = 4 * count * ringBlocks(stages) * 8;
-  const std::ptrdiff_t whole = (3 + count) * (kWholeParticles + 8);
-  return 2 * count * 8 + 4 * (rings > whole ? rings : whole);
+  return (12 + 4 * count) * tilePitch(stages) + 2 * 8 * count;
 }
 
 /// Terms that a kernel for whole steps computes. A term that is 0 may be left out for speed.

@@ -1,16 +1,19 @@
-// Whole steps of an explicit Runge-Kutta method in one pass over the chain, in place.
+// Whole steps of an explicit Runge-Kutta method, in place, with the data between the stages in the
+// first-level cache.
 //
-// Stage i of a block depends only on stage i-1 of that block and of its two neighbours. So the
-// stages move along the chain as a wavefront, each some blocks behind the one before it, and the
-// data between them stays in the first-level cache. The loop is software pipelined: the first phase
-// of a stage ends with the square root and the division; the second uses their result in the next
-// iteration t, so it does not wait for the divider.
-//
-//     t:   stage 1 of blocks t and t-1,  stage 2 of t-3 and t-4,  ...,  stage 4 of t-9 and t-10
-//
-// Here blocks are counted from the free end, because the springs of a block need the block to the
+// A long chain is divided into tiles, and each stage of a tile is completed before the next. Stage
+// i of a block depends on stage i-1 of that block and of its two neighbours. So every stage stops
+// one block before the end of the previous stage, and continues there in the next tile. The order
+// is from the free end to the fixed particle, because the springs of a block need the block to the
 // left, and its particles the springs to the right. Short chains are kept in registers where these
-// suffice. Chains whose workspace fits the first-level cache complete each stage before the next.
+// suffice.
+//
+// The loop is software pipelined. Each iteration does the three phases of a stage for three blocks,
+// so that none of them waits for the divider:
+//
+//     begin    block b            separations and lengths of the springs
+//     invert   block b + 2        inverse lengths: the division alone
+//     finish   block b + 5        forces, slope, state of the next stage
 //
 // References: G. Wellein and others, COMPSAC 2009, 579-586, doi:10.1109/COMPSAC.2009.82
 // (wavefronts); M. Lam, PLDI 1988, 318-328, doi:10.1145/53990.54022 (software pipelining).
@@ -20,6 +23,7 @@
 #include "integration/kernels/chain_kernels.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -66,24 +70,22 @@ class StagePipeline {
   // every store.
   [[gnu::always_inline]] void advance(std::ptrdiff_t steps) {
     constexpr auto kAll = std::make_index_sequence<kTableau.stages>();
-    if (blocks_ <= kWholeParticles / kLanes) return wholeSteps(steps, kAll);
-    for (std::ptrdiff_t n = 0; n < steps; ++n) step(kAll);
+    if (kLanes < 8 && blocks_ >= kUnalignedBlocks) return longSteps<true>(steps, kAll);
+    longSteps<false>(steps, kAll);
   }
 
  private:
-  /// Layout of the workspace: a record per block of the chain, or a ring of records per stage.
-  enum class Memory { kWhole, kRings };
-
-  static constexpr std::ptrdiff_t kShortBlocks = kLanes == 8 ? 4 : 5;  ///< unrolled up to there
+  static constexpr std::ptrdiff_t kShortBlocks = 5;  ///< unrolled up to there
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
-  /// Iterations between the phases of a stage; about four phases of other stages run meanwhile.
-  static constexpr std::ptrdiff_t kLag = (3 + kStages) / kStages;
-  static constexpr std::ptrdiff_t kLead = 4;  ///< blocks between them where one stage runs alone
-  static_assert(kShortBlocks + 1 > kLead, "wholeStage needs more than kLead blocks");
-  static constexpr std::ptrdiff_t kBlocksBetweenStages = kLag + 2;
-  /// Iterations until the last stage finishes its first block.
-  static constexpr std::ptrdiff_t kPrologue = kBlocksBetweenStages * (kStages - 1) + kLag;
-  static constexpr std::ptrdiff_t kBlockNumbers = 4 * kLanes;
+  static constexpr std::ptrdiff_t kTile = kTileParticles / kLanes;  ///< blocks of the shortest tile
+  static constexpr std::ptrdiff_t kLead = 5;        ///< blocks from the first to the last phase
+  static constexpr std::ptrdiff_t kInvertLead = 2;  ///< blocks from the first to the middle phase
+  static_assert(kShortBlocks >= kLead, "a stage begins after the blocks that it needs");
+  static_assert(kTile >= 2 * kLead, "the next tile begins clear of the blocks that wait");
+  /// AVX-512 gains nothing from a division apart, and loses by loads across cache lines.
+  static constexpr bool kInvertsApart = kLanes < 8;
+  /// Blocks from which on a load across two blocks does not wait for the stores of both.
+  static constexpr std::ptrdiff_t kUnalignedBlocks = 12;
 
   /// Whether a stage later than j + 1 needs slope j.
   static constexpr bool keepsSlope(std::ptrdiff_t j) {
@@ -99,55 +101,83 @@ class StagePipeline {
     }
     return false;
   }
+
   /// Results of the first phase of a stage.
   struct Springs {
     PlaneVector<Pack> separation;
     Pack inverse_length, dot;
   };
 
-  static constexpr std::ptrdiff_t kRing = keepsSlopes() ? ringBlocks(kStages) : 8;
+  /// The blocks begin <= b < end of a tile or of a stage in it.
+  struct Span {
+    std::ptrdiff_t begin, end;
+    double* workspace;  ///< where the first column would have block 0
+  };
 
-  template <std::size_t... kStage>
-  [[gnu::always_inline]] void step(std::index_sequence<kStage...> /*stages*/) {
-    for (std::ptrdiff_t i = 0; i < kStages; ++i) {
-      Pack{}.store(forcesOf(i));
-      Pack{}.store(forcesOf(i) + kLanes);
-    }
-    std::ptrdiff_t t = 0;
-    for (; t <= kPrologue; ++t) (iterateAtEnd<kStage>(t), ...);
-    for (; t < blocks_ - 1; ++t) (iterateInside<kStage>(t), ...);
-    for (; t < blocks_ + kPrologue; ++t) (iterateAtEnd<kStage>(t), ...);
-  }
-
-  /// Steps that complete each stage before the next. The last `kLead` second phases of a stage
-  /// alternate with the first phases of the next one.
-  template <std::size_t... kStage>
-  [[gnu::always_inline]] void wholeSteps(std::ptrdiff_t steps,
-                                         std::index_sequence<kStage...> /*stages*/) {
+  template <bool kUnaligned, std::size_t... kStage>
+  [[gnu::always_inline]] void longSteps(std::ptrdiff_t steps,
+                                        std::index_sequence<kStage...> /*stages*/) {
     const Block fixed = load(placeOf<const double>(state_, chain_.pitch, -1));
-    store(fixed, {recordOf<Memory::kWhole>(0, -1), kLanes});
+    const std::ptrdiff_t tiles = std::max<std::ptrdiff_t>(1, blocks_ / kTile);
+    Span waiting{};
     PlaneVector<Pack> next_forces{};
-    for (std::ptrdiff_t n = 0; n < steps; ++n) (wholeStage<kStage>(n > 0, next_forces), ...);
-    for (std::ptrdiff_t block = kLead - 1; block >= 0; --block) {
-      finish<kStages - 1, Memory::kWhole, true>(block, next_forces);
+    for (std::ptrdiff_t n = 0; n < steps; ++n) {
+      for (std::ptrdiff_t i = tiles - 1; i >= 0; --i) {
+        const Span tile{i * kTile, i + 1 == tiles ? blocks_ : (i + 1) * kTile,
+                        workspace_ + (8 - i * kTile * kLanes)};
+        if (tile.end < blocks_) keepBorder(waiting.workspace, tile);
+        if (i == 0) store(fixed, placeIn(tile.workspace, kAt, -1));
+        (stageOf<kUnaligned, kStage>(tile, waiting, next_forces), ...);
+      }
+    }
+    for (std::ptrdiff_t i = 0; i < kLead; ++i) finishWaiting<kStages - 1>(waiting, i, next_forces);
+  }
+
+  /// Keeps the blocks of the tile to the right that lack later stages.
+  [[gnu::always_inline]] static void keepBorder(const double* old_workspace, const Span& tile) {
+    for (std::ptrdiff_t column = kAt; column < kColumns; ++column) {
+      for (std::ptrdiff_t block = tile.end; block < tile.end + kStages - 1; ++block) {
+        const std::ptrdiff_t at = column * kPitch + block * kLanes;
+        Pack::load(old_workspace + at).store(tile.workspace + at);
+      }
     }
   }
 
-  template <std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void wholeStage(bool has_previous, PlaneVector<Pack>& next_forces) {
+  /// A stage of a tile. It also finishes the last `kLead` blocks of the stage before; its own wait.
+  template <bool kUnaligned, std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void stageOf(const Span& tile, Span& waiting,
+                                      PlaneVector<Pack>& next_forces) {
     constexpr std::ptrdiff_t kPrevious = (kStage + kStages - 1) % kStages;
-    std::ptrdiff_t block = blocks_ - 1;
-    for (std::ptrdiff_t last = kLead - 1; last >= 0; --last, --block) {
-      if (kStage > 0 || has_previous) finish<kPrevious, Memory::kWhole, true>(last, next_forces);
-      begin<kStage, Memory::kWhole, true>(block);
+    double* const workspace = tile.workspace;
+    const bool rightmost = tile.end == blocks_;
+    const Span span{tile.begin == 0 ? 0 : tile.begin + kStage,
+                    rightmost ? blocks_ : tile.end + kStage, workspace};
+    std::ptrdiff_t block = span.end - 1;
+    Block here = load(stateOf<kStage>(workspace, block));
+    for (std::ptrdiff_t i = 0; i < kLead; ++i, --block) {
+      if (waiting.workspace != nullptr) finishWaiting<kPrevious>(waiting, i, next_forces);
+      if (i >= kInvertLead) invert(workspace, block + kInvertLead);
+      begin<kUnaligned, kStage>(workspace, block, here);
     }
-    next_forces = {};
-    finish<kStage, Memory::kWhole, false>(blocks_ - 1, next_forces);
-    begin<kStage, Memory::kWhole, true>(block);
-    for (--block; block >= 0; --block) {
-      finish<kStage, Memory::kWhole, true>(block + kLead, next_forces);
-      begin<kStage, Memory::kWhole, true>(block);
+    waiting = span;
+    store(next_forces, forcesOf(kPrevious));
+    next_forces = rightmost ? PlaneVector<Pack>{} : load(forcesOf(kStage));
+    finish<kStage, false>(workspace, span.end - 1, next_forces);
+    invert(workspace, block + kInvertLead);
+    begin<kUnaligned, kStage>(workspace, block, here);
+    for (--block; block >= span.begin; --block) {
+      finish<kStage, true>(workspace, block + kLead, next_forces);
+      invert(workspace, block + kInvertLead);
+      begin<kUnaligned, kStage>(workspace, block, here);
     }
+  }
+
+  /// Finishes the i-th block that waits.
+  template <std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void finishWaiting(const Span& waiting, std::ptrdiff_t i,
+                                            PlaneVector<Pack>& next_forces) {
+    finish<kStage, true>(waiting.workspace, waiting.begin + kLead - 1 - i, next_forces);
+    if (i < kInvertLead) invert(waiting.workspace, waiting.begin + kInvertLead - 1 - i);
   }
 
   /// A block of a short chain, which the compiler keeps in registers where these suffice.
@@ -167,7 +197,7 @@ class StagePipeline {
   }
 
   template <std::size_t... kBlock>
-  void shortStepsOf(std::ptrdiff_t steps, std::index_sequence<kBlock...> blocks) {
+  [[gnu::noinline]] void shortStepsOf(std::ptrdiff_t steps, std::index_sequence<kBlock...> blocks) {
     ShortBlock chain[sizeof...(kBlock)];
     ((chain[kBlock].state = load(placeOf<const double>(state_, chain_.pitch, kBlock))), ...);
     for (std::ptrdiff_t n = 0; n < steps; ++n) {
@@ -223,35 +253,33 @@ class StagePipeline {
     }
   }
 
-  /// The phases of a stage in iteration t, where the stage may be past an end of the chain.
-  template <std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void iterateAtEnd(std::ptrdiff_t t) {
-    const std::ptrdiff_t begun = t - kBlocksBetweenStages * kStage;  // blocks before this one
-    const std::ptrdiff_t block = blocks_ - 1 - begun;
-    if (begun >= kLag && begun - kLag < blocks_) finish<kStage, false>(block + kLag);
-    if (begun >= 0 && begun < blocks_) begin<kStage, Memory::kRings, false>(block);
+  /// First phase of a stage.
+  /// \param here state of the block; becomes that of the block to the left
+  template <bool kUnaligned, std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void begin(double* workspace, std::ptrdiff_t block, Block& here) {
+    const BlockPlace<double> at = stateOf<kStage>(workspace, block);
+    if (kUnaligned) here = load(at);
+    const Block next = load(BlockPlace<double>{at.first - kLanes, at.pitch});
+    const Block left = kUnaligned ? leftNeighbours(at) : leftNeighbours(next, here);
+    const PlaneVector<Pack> separation{here.x - left.x, here.y - left.y};
+    const Pack square = squaredLength(separation);
+    const BlockPlace<double> to = placeIn(workspace, kSprings, block);
+    separation.x.store(to.first);
+    separation.y.store(to.first + to.pitch);
+    (kInvertsApart ? squareRoot(square) : inverseSquareRoot(square)).store(to.first + 2 * to.pitch);
+    if constexpr (kDamped) {
+      const PlaneVector<Pack> relative_velocity{here.vx - left.vx, here.vy - left.vy};
+      dotProduct(relative_velocity, separation).store(to.first + 3 * to.pitch);
+    }
+    here = next;
   }
 
-  template <std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void iterateInside(std::ptrdiff_t t) {
-    const std::ptrdiff_t block = blocks_ - 1 - t + kBlocksBetweenStages * kStage;
-    finish<kStage, true>(block + kLag);
-    begin<kStage, Memory::kRings, true>(block);
-  }
-
-  /// First phase of a stage: separations and inverse lengths of the springs.
-  /// \tparam kInner whether there is a block to the left
-  template <std::ptrdiff_t kStage, Memory kMemory, bool kInner>
-  [[gnu::always_inline]] void begin(std::ptrdiff_t block) {
-    const Block here = load(stateOf<kStage, kMemory>(block));
-    const Block left = load(kInner || block > 0 ? stateOf<kStage, kMemory>(block - 1)
-                                                : placeOf<const double>(state_, chain_.pitch, -1));
-    const Springs springs = springsBetween(left, here);
-    double* const to = recordOf<kMemory>(kStage, block) + kSpringsAt;
-    springs.separation.x.store(to);
-    springs.separation.y.store(to + kLanes);
-    springs.inverse_length.store(to + 2 * kLanes);
-    if constexpr (kDamped) springs.dot.store(to + 3 * kLanes);
+  /// Middle phase.
+  [[gnu::always_inline]] static void invert(double* workspace, std::ptrdiff_t block) {
+    if (!kInvertsApart) return;
+    const BlockPlace<double> springs = placeIn(workspace, kSprings, block);
+    double* const length = springs.first + 2 * springs.pitch;
+    inverseOrZero(Pack::load(length)).store(length);
   }
 
   [[gnu::always_inline]] static Springs springsBetween(const Block& left, const Block& here) {
@@ -263,48 +291,34 @@ class StagePipeline {
     return springs;
   }
 
-  /// Second phase of a stage: forces, slope, and the state of the next stage or the end of the step.
+  /// Last phase: forces, slope, and the state of the next stage or the end of the step.
   /// \tparam kInner whether there is a block to the right
   template <std::ptrdiff_t kStage, bool kInner>
-  [[gnu::always_inline]] void finish(std::ptrdiff_t block) {
-    double* const carried = forcesOf(kStage);
-    PlaneVector<Pack> next_forces{Pack::load(carried), Pack::load(carried + kLanes)};
-    finish<kStage, Memory::kRings, kInner>(block, next_forces);
-    next_forces.x.store(carried);
-    next_forces.y.store(carried + kLanes);
-  }
-
-  template <std::ptrdiff_t kStage, Memory kMemory, bool kInner>
-  [[gnu::always_inline]] void finish(std::ptrdiff_t block, PlaneVector<Pack>& next_forces) {
-    double* const record = recordOf<kMemory>(kStage, block);
-    double* const next_record = recordOf<kMemory>(kStage + 1, block);
-    const double* const from = record + kSpringsAt;
-    Springs springs{
-        {Pack::load(from), Pack::load(from + kLanes)}, Pack::load(from + 2 * kLanes), {}};
-    if constexpr (kDamped) springs.dot = Pack::load(from + 3 * kLanes);
-    const PlaneVector<Pack> forces = forcesFrom<kStage, kInner>(springs, block);
-    const BlockPlace<const double> at = stateOf<kStage, kMemory>(block);
-    const Block here{
-        {}, {}, Pack::load(at.first + 2 * at.pitch), Pack::load(at.first + 3 * at.pitch)};
+  [[gnu::always_inline]] void finish(double* workspace, std::ptrdiff_t block,
+                                     PlaneVector<Pack>& next_forces) {
+    const Block from = load(placeIn(workspace, kSprings, block));
+    const PlaneVector<Pack> forces =
+        forcesFrom<kStage, kInner>({{from.x, from.y}, from.vx, from.vy}, block);
+    const Block here = load(stateOf<kStage>(workspace, block));
     const Block slope = slopeOf<kGravity, kInner>(chain_, here, forces, next_forces, block);
     next_forces = forces;
     const BlockPlace<double> place = placeOf(state_, chain_.pitch, block);
-    Block sum = kStage == 0 ? load({place.first, place.pitch}) : load({record + kSumAt, kLanes});
+    const Block start = load(place);
+    Block sum = kStage == 0 ? start : load(placeIn(workspace, kSum, block));
     if constexpr (kTableau.b[kStage] != 0.0) {
       sum = plusWeighted(sum, weights_.after[kStages - 1][kStage], slope);
     }
     if constexpr (kStage + 1 == kStages) {
       store(sum, place);
     } else {
-      store(sum, {next_record + kSumAt, kLanes});
-      Block result = load({place.first, place.pitch});
-      result =
-          plusEarlierSlopes<kStage, kMemory>(result, block, std::make_index_sequence<kStage>());
+      store(sum, placeIn(workspace, kSum, block));
+      Block result =
+          plusEarlierSlopes<kStage>(start, workspace, block, std::make_index_sequence<kStage>());
       if constexpr (kTableau.a[kStage + 1][kStage] != 0.0) {
         result = plusWeighted(result, weights_.after[kStage][kStage], slope);
       }
-      store(result, {next_record, kLanes});
-      if constexpr (keepsSlope(kStage)) store(slope, {slopeAt<kMemory>(kStage, block), kLanes});
+      store(result, placeIn(workspace, kAt, block));
+      if constexpr (keepsSlope(kStage)) store(slope, slopePlace(workspace, kStage, block));
     }
   }
 
@@ -324,46 +338,40 @@ class StagePipeline {
     return kInner ? forces : onlySprings(forces, chain_, block);
   }
 
-  template <std::ptrdiff_t kStage, Memory kMemory, std::size_t... kEarlier>
-  [[gnu::always_inline]] Block plusEarlierSlopes(Block result,
+  template <std::ptrdiff_t kStage, std::size_t... kEarlier>
+  [[gnu::always_inline]] Block plusEarlierSlopes(Block result, [[maybe_unused]] double* workspace,
                                                  [[maybe_unused]] std::ptrdiff_t block,
                                                  std::index_sequence<kEarlier...> /*stages*/) {
-    ((result = plusEarlierSlope<kStage, kMemory, kEarlier>(result, block)), ...);
+    ((result = kTableau.a[kStage + 1][kEarlier] == 0.0
+                   ? result
+                   : plusWeighted(result, weights_.after[kStage][kEarlier],
+                                  load(slopePlace(workspace, kEarlier, block)))),
+     ...);
     return result;
   }
 
-  template <std::ptrdiff_t kStage, Memory kMemory, std::size_t kEarlier>
-  [[gnu::always_inline]] Block plusEarlierSlope(const Block& result, std::ptrdiff_t block) {
-    if constexpr (kTableau.a[kStage + 1][kEarlier] == 0.0) return result;
-    const Block slope = load({slopeAt<kMemory>(kEarlier, block), kLanes});
-    return plusWeighted(result, weights_.after[kStage][kEarlier], slope);
-  }
+  /// Columns of the workspace, four for each: springs (separation, length, w·d), state of the next
+  /// stage, sum up to there, slopes.
+  static constexpr std::ptrdiff_t kSprings = 0, kAt = 4, kSum = 8, kSlopes = 12;
+  static constexpr std::ptrdiff_t kColumns = kSlopes + (keepsSlopes() ? 4 * kStages : 0);
+  static constexpr std::ptrdiff_t kPitch = tilePitch(kTableau.stages);
 
-  /// Workspace of a block: its state at a stage, the sum up to there, its springs, and slopes.
-  static constexpr std::ptrdiff_t kSumAt = kBlockNumbers;
-  static constexpr std::ptrdiff_t kSpringsAt = 2 * kBlockNumbers;
-  static constexpr std::ptrdiff_t kSlopesAt = 3 * kBlockNumbers;
-  template <Memory kMemory>
-  double* recordOf(std::ptrdiff_t stage, std::ptrdiff_t block) const {
-    constexpr bool kWhole = kMemory == Memory::kWhole;
-    constexpr std::ptrdiff_t kSlopes = !keepsSlopes() ? 0 : kWhole ? kStages : 1;
-    constexpr std::ptrdiff_t kNumbers = kSlopesAt + kSlopes * kBlockNumbers;
-    double* const first = workspace_ + 2 * kLanes * kStages;
-    if (kWhole) return first + (block + 1) * kNumbers;
-    return first + (stage * kRing + (block & (kRing - 1))) * kNumbers;
+  [[gnu::always_inline]] static BlockPlace<double> placeIn(double* workspace, std::ptrdiff_t column,
+                                                           std::ptrdiff_t block) {
+    return {workspace + column * kPitch + block * kLanes, kPitch};
   }
-  template <Memory kMemory>
-  double* slopeAt(std::ptrdiff_t stage, std::ptrdiff_t block) const {
-    return recordOf<kMemory>(stage, block) + kSlopesAt +
-           (kMemory == Memory::kWhole ? stage * kBlockNumbers : 0);
+  [[gnu::always_inline]] static BlockPlace<double> slopePlace(double* workspace,
+                                                              std::ptrdiff_t stage,
+                                                              std::ptrdiff_t block) {
+    return placeIn(workspace, kSlopes + 4 * stage, block);
   }
-  /// The forces of the springs of the block to the right.
-  double* forcesOf(std::ptrdiff_t stage) const { return workspace_ + 2 * kLanes * stage; }
-
-  template <std::ptrdiff_t kStage, Memory kMemory>
-  [[gnu::always_inline]] BlockPlace<const double> stateOf(std::ptrdiff_t block) const {
-    if constexpr (kStage == 0) return placeOf<const double>(state_, chain_.pitch, block);
-    return {recordOf<kMemory>(kStage, block), kLanes};
+  template <std::ptrdiff_t kStage>
+  [[gnu::always_inline]] BlockPlace<double> stateOf(double* workspace, std::ptrdiff_t block) const {
+    return kStage == 0 ? placeOf(state_, chain_.pitch, block) : placeIn(workspace, kAt, block);
+  }
+  /// The forces of the first springs of the tile to the right.
+  [[gnu::always_inline]] double* forcesOf(std::ptrdiff_t stage) const {
+    return workspace_ + (12 + 4 * kStages) * kPitch + 2 * kLanes * stage;
   }
 
   const KernelChain chain_;  ///< copy: through a reference it would be reloaded after every store

@@ -43,6 +43,10 @@ struct Pack {
   [[gnu::always_inline]] static Pack load(const double* aligned) {
     return {*reinterpret_cast<const Native*>(aligned)};
   }
+  [[gnu::always_inline]] static Pack loadUnaligned(const double* from) {
+    using Unaligned [[gnu::vector_size(kLanes * sizeof(double)), gnu::aligned(8)]] = double;
+    return {*reinterpret_cast<const Unaligned*>(from)};
+  }
   [[gnu::always_inline]] static Pack all(double value) { return {value - Native{}}; }
   [[gnu::always_inline]] void store(double* aligned) const {
     *reinterpret_cast<Native*>(aligned) = lanes;
@@ -97,11 +101,19 @@ struct Pack {
   return fused(a, Pack::all(b), Pack::all(c));
 }
 
-/// Applies `inverseSquareRoot(double)` to each lane.
-[[gnu::always_inline]] inline Pack inverseSquareRoot(Pack square) {
+[[gnu::always_inline]] inline Pack squareRoot(Pack square) {
   Pack root;
   for (int lane = 0; lane < kLanes; ++lane) root.lanes[lane] = std::sqrt(square.lanes[lane]);
-  return {square.lanes > 0.0 ? 1.0 / root.lanes : Pack::Native{}};
+  return root;
+}
+
+[[gnu::always_inline]] inline Pack inverseOrZero(Pack length) {
+  return {length.lanes > 0.0 ? 1.0 / length.lanes : Pack::Native{}};
+}
+
+/// Applies `inverseSquareRoot(double)` to each lane.
+[[gnu::always_inline]] inline Pack inverseSquareRoot(Pack square) {
+  return {square.lanes > 0.0 ? 1.0 / squareRoot(square).lanes : Pack::Native{}};
 }
 
 /// Returns the bits of the absolute values.
