@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$project/scripts/setup.sh" core test sanitize
 tests=(integration_{kernels_chain_kernels,kernels_instruction_sets,fixed_step_explicit_runge_kutta}_test
-       integration_{embedded_embedded_pair,taylor_taylor_stepper,taylor_stabilized_taylor_stepper}_test)
+       integration_{embedded_embedded_runge_kutta_stepper,taylor_taylor_stepper,taylor_stabilized_taylor_stepper}_test)
 say "building into $build"
 configure "$build"
 compile "$build" "${tests[@]}"

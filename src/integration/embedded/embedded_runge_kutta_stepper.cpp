@@ -1,7 +1,5 @@
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 
-#include "integration/kernels/stage_sum.hpp"
-
 #include <algorithm>
 #include <utility>
 

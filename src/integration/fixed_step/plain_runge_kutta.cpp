@@ -1,7 +1,5 @@
 #include "integration/fixed_step/plain_runge_kutta.hpp"
 
-#include "integration/kernels/stage_sum.hpp"
-
 namespace spring_pendulum {
 
 PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& tableau,

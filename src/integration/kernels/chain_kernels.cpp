@@ -67,10 +67,6 @@ AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTablea
   return nullptr;
 }
 
-const ChainKernels& fastestChainKernels() {
-  return *supportedChainKernels().front();
-}
-
 // A short chain waits for its square roots and divisions, which take longer for 8 lanes than for 4.
 // Measured: AVX-512 is faster from 13 particles on.
 const ChainKernels& fastestChainKernels(std::ptrdiff_t particles) {

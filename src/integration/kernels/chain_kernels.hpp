@@ -176,8 +176,7 @@ std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name);
 AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTableau& tableau,
                                 StepNeeds needs = {});
 
-/// Returns the fastest supported kernels, for long chains or for the given number of particles.
-const ChainKernels& fastestChainKernels();
-const ChainKernels& fastestChainKernels(std::ptrdiff_t particles);
+/// Returns the fastest supported kernels for a number of particles; by default, for long chains.
+const ChainKernels& fastestChainKernels(std::ptrdiff_t particles = 1000);
 
 }  // namespace spring_pendulum

@@ -5,7 +5,19 @@
 #include "integration/kernels/state_buffer.hpp"
 #include "integration/kernels/taylor_workspace.hpp"
 
+#include <array>
+#include <cstddef>
+
 namespace spring_pendulum {
+
+/// The reciprocals 1/i, which save divisions; element 0 is not used.
+inline constexpr auto kReciprocals = [] {
+  std::array<double, kLargestTaylorOrder + 2> reciprocals{};
+  for (std::size_t i = 1; i < reciprocals.size(); ++i) {
+    reciprocals[i] = 1.0 / static_cast<double>(i);
+  }
+  return reciprocals;
+}();
 
 /// Owns the coefficients to which a `TaylorWorkspace` points. `work().chain.size` and `work().order` may
 /// be set to smaller values, and back up to their initial values.
@@ -13,7 +25,19 @@ class TaylorExpansion {
  public:
   /// \param chain points to numbers that must outlive the expansion
   /// \param order K in 2..14, the largest number of coefficients
-  TaylorExpansion(const KernelChain& chain, int order);
+  TaylorExpansion(const KernelChain& chain, int order)
+      : inverse_masses_(chain.pitch),
+        left_inverse_masses_(chain.pitch),
+        springs_(TaylorWorkspace::springNumbers(chain.pitch)),
+        accelerations_(TaylorWorkspace::accelerationNumbers(chain.pitch, order)),
+        work_{chain, left_inverse_masses_.data(), order, springs_.data(), accelerations_.data()} {
+    for (std::ptrdiff_t i = 0; i + 1 < chain.size; ++i) {
+      inverse_masses_[i] = chain.inverse_masses[chain.mass_stride * i];
+      if (i + 2 < chain.size) left_inverse_masses_[i + 1] = inverse_masses_[i];
+    }
+    work_.chain.inverse_masses = inverse_masses_.data();
+    work_.chain.mass_stride = 1;
+  }
 
   TaylorWorkspace& work() { return work_; }
   const TaylorWorkspace& work() const { return work_; }
@@ -43,6 +67,17 @@ bool springsChangeMuch(const ChainKernels& kernels, const TaylorWorkspace& work,
 }
 
 /// Returns the weights that sum the first `count` coefficients of the series at `time` s.
-TaylorWeights taylorWeights(std::ptrdiff_t count, double time);
+inline TaylorWeights taylorWeights(std::ptrdiff_t count, double time) {
+  TaylorWeights weights;
+  weights.count = count;
+  weights.start_velocity = time;
+  double power = time;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    weights.velocity[n] = power * kReciprocals[n + 1];
+    power *= time;
+    weights.position[n] = power * (kReciprocals[n + 1] * kReciprocals[n + 2]);
+  }
+  return weights;
+}
 
 }  // namespace spring_pendulum

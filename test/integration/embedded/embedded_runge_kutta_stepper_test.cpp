@@ -1,4 +1,4 @@
-#include "integration/embedded/embedded_pair.hpp"
+#include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 
 #include "integration/order_conditions.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
