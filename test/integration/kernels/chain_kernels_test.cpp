@@ -123,15 +123,6 @@ TEST(ChainKernels, DissipationHasTheBitsOfThePlainCode) {
   }
 }
 
-TEST(ChainKernels, KnowATableauByItsCoefficients) {
-  for (const ChainKernels* kernels : supportedChainKernels()) {
-    ButcherTableau tableau = kClassicalRungeKuttaTableau;
-    EXPECT_NE(findAdvanceKernel(*kernels, tableau, {}), nullptr) << kernels->name;
-    tableau.a[2][0] = 1e-3;
-    EXPECT_EQ(findAdvanceKernel(*kernels, tableau, {}), nullptr) << kernels->name;
-  }
-}
-
 TEST(ChainKernels, NamedInstructionSetLeavesOutFasterOnes) {
   const std::vector<const ChainKernels*>& all = supportedChainKernels();
   for (std::size_t i = 0; i < all.size(); ++i) {
