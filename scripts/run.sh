@@ -20,7 +20,6 @@ while [ $# -gt 0 ]; do
   case $option in -p) option=--particles ;; -o) option=--output ;; esac
   case $option in
     --check | --help | -h | --version | --list-methods | --no-frames) answers=true ;;
-    --report-skips) ;;
     --resume) parameters+=(resume=true) ;;
     --*=*) set -- "${option%%=*}" "${option#*=}" "$@"; continue ;;
     --*)

@@ -14,10 +14,8 @@ namespace {
 
 /// The simulation loop: advances the run frame by frame and writes each frame.
 int simulate(const Scenario& scenario, const Switches& switches) {
-  refuseSeveralRanks("start Exercise3 without mpirun");
   Run run(scenario, readParticles(scenario), {!scenario.energy.empty(), 0.0, interruption});
-  printAnswers(run, switches);
-  if (switches.check) return kDone;
+  if (switches.has("check")) return printAdvice(run);
   catchInterruptions();
   const std::string remarks = remarksOn(run);
   RunFiles files(run, switches.config);  // last, because it removes the frames of earlier runs

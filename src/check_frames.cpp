@@ -61,7 +61,7 @@ int checkAll(const Scenario& scenario, const OptionSet& options, const Switches&
   for (const std::string& folder : switches.folders) {
     const int one = check(folder, scenario, particles,
                           {options.isGiven("method"), [] { return interruption() != 0; }},
-                          switches.json, width);
+                          switches.has("json"), width);
     if (interruption() != 0) return kSignalled + interruption();
     if (severity(one) > severity(status)) status = one;
   }
@@ -71,9 +71,10 @@ int checkAll(const Scenario& scenario, const OptionSet& options, const Switches&
 int runCommandLine(int argc, const char* const* argv) {
   const ProgramText program{
       "check_frames",
-      "Compares the frames in folders with each method, and says which mistake is in the program\n"
-      "that wrote them.",
+      "Compares frames with each method, and says which mistake is in the program that wrote them.",
       "frames --particles particle.txt",
+      {{"json", "print a line of JSON for each folder"},
+       {"list-mistakes", "describe the known mistakes", listOfMistakes}},
       "DIR ...",
       "0 equal, 1 could not read, 2 wrong use or bad input, 4 different,\n"
       "5 undecided: frames are missing or too sensitive to compare, 128 + n stopped by signal n.",
@@ -83,9 +84,8 @@ int runCommandLine(int argc, const char* const* argv) {
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
-  if (switches.answer.empty() && !switches.list_mistakes)
-    return checkAll(scenario, options, switches);
-  printOutput(switches.list_mistakes ? listOfMistakes() : switches.answer);
+  if (switches.answer.empty()) return checkAll(scenario, options, switches);
+  printOutput(switches.answer);
   return kDone;
 }
 

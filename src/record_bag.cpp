@@ -47,8 +47,7 @@ int record(int argc, const char* const* argv) {
   const Particles particles = replay ? replay->begin(scenario) : readParticles(scenario);
   Run run(scenario, particles,
           {display.track_dissipation || !scenario.energy.empty(), display_interval, interruption});
-  printAnswers(run, switches);
-  if (switches.check) return kDone;
+  if (switches.has("check")) return printAdvice(run);
   catchInterruptions();
   const std::string remarks = remarksOn(run) + warningLine(replay ? replay->missing() : "");
   const std::string output =

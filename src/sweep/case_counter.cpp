@@ -1,14 +1,26 @@
 #include "sweep/case_counter.hpp"
 
-#include "io/program/command_line.hpp"
+#include "base/numbers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
-#ifdef SPRING_PENDULUM_MPI
 #include <cstdlib>
+#ifdef SPRING_PENDULUM_MPI
 #include <mpi.h>
 #endif
 
 namespace spring_pendulum::sweep {
+namespace {
+
+/// Whether mpirun or srun has started several processes. Without MPI, each would run all cases.
+bool isOneOfSeveral() {
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
+    const char* const text = std::getenv(name);
+    if (text != nullptr && parseInteger(text).value_or(1) > 1) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 #ifdef SPRING_PENDULUM_MPI
 
@@ -39,12 +51,14 @@ struct CaseCounter::Mpi {
 };
 
 CaseCounter::CaseCounter() {
-  if (startedRanks().count == 1) return;  // starting MPI takes 0.3 s
+  if (!isOneOfSeveral()) return;  // starting MPI takes 0.3 s
   mpi_ = std::make_unique<Mpi>();
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   int size = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &size);
-  if (size == 1) refuseSeveralRanks("start them with mpirun or srun --mpi=pmix, or use --shard");
+  if (size > 1) return;
+  throw InputError(
+      "several processes, but each is alone in MPI: use mpirun, srun --mpi=pmix or --shard");
 }
 
 std::int64_t CaseCounter::next() {
@@ -78,7 +92,7 @@ void CaseCounter::abort(int status) const {
 struct CaseCounter::Mpi {};
 
 CaseCounter::CaseCounter() {
-  refuseSeveralRanks("build sweep with MPI, or use --shard");
+  if (isOneOfSeveral()) throw InputError("several processes: build sweep with MPI, or use --shard");
 }
 std::int64_t CaseCounter::next() {
   return next_++;

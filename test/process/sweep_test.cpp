@@ -363,7 +363,7 @@ TEST_F(Sweep, RefusesBadArguments) {
   };
   Command ranks = sweep({});
   ranks.environment = {{"SLURM_STEP_NUM_TASKS", "4"}};  // MPI does not know of them
-  EXPECT_THAT(run(ranks).errors, HasSubstr("this is one of 4 processes (SLURM_STEP_NUM_TASKS)"));
+  EXPECT_THAT(run(ranks).errors, HasSubstr("several processes, but each is alone in MPI"));
   for (const auto& [arguments, message] : bad) {
     const Result result = run(sweep(arguments));
     EXPECT_EQ(result.status, 2) << message;

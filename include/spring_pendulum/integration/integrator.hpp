@@ -17,13 +17,6 @@ struct IntegratorOptions {
   int threads = 0;                 ///< largest number; 0: one per processor core
 };
 
-/// Terms that a method leaves out because they vanish for its chain. Results are the same bits.
-struct Skips {
-  bool damping = false;  ///< damping is 0: no velocity differences
-  bool gravity = false;  ///< gravity is 0
-  bool masses = false;   ///< all masses are equal: they are not read
-};
-
 /// Solves z' = F(z) for one chain. The integrator owns its workspace and does not allocate while
 /// stepping; only `Auto` allocates the workspace of a method when it first uses the method. The
 /// caller keeps the time, as a step count.
@@ -65,9 +58,6 @@ class Integrator {
   /// Energy in J that the holders of particles and the applied forces have supplied to the chain since
   /// construction or the last restart; 0 for a chain that is not driven.
   virtual double suppliedEnergy() const { return 0.0; }
-
-  /// Terms that this integrator skips for its chain.
-  virtual Skips skips() const { return {}; }
 
   /// One line on how the motion was integrated: the methods that `Auto` chose. Empty for all other
   /// methods.

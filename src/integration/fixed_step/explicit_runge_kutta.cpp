@@ -40,8 +40,9 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
       stages_(tableau.stages),
       track_dissipation_(dissipated().data() != nullptr),
       tableau_(tableau),
-      kernel_(findAdvanceKernel(kernels(), tableau,
-                                {!skips().damping, !skips().gravity, track_dissipation_})) {
+      kernel_(findAdvanceKernel(
+          kernels(), tableau,
+          {chain.spring().damping != 0.0, chain.gravity() != 0.0, track_dissipation_})) {
   assert(kernel_ != nullptr);
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
@@ -58,10 +59,6 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
   workers_ = std::make_unique<WorkerThreads>(static_cast<int>(shares_.size()), [this](int share) {
     workOn(shares_[static_cast<std::size_t>(share)]);
   });
-}
-
-Skips ExplicitRungeKutta::skips() const {
-  return {chain().spring.damping == 0.0, chain().gravity == 0.0, chain().mass_stride == 0};
 }
 
 void ExplicitRungeKutta::integrate(State& state, double time_step, std::int64_t steps) {

@@ -54,8 +54,9 @@ std::string hiddenName(const std::string& name) {
 
 AtomicFile::AtomicFile(const OutputFolder& folder, std::string name, std::string path, Lock lock)
     : folder_(folder), name_(std::move(name)), hidden_(hiddenName(name_)), path_(std::move(path)) {
-  open(lock == Lock::kNone ? O_EXCL : O_NONBLOCK);
-  if (lock == Lock::kOneWriter) this->lock();
+  do {
+    open(lock == Lock::kNone ? O_EXCL : O_NONBLOCK);
+  } while (lock == Lock::kOneWriter && !takeLock());
 }
 
 void AtomicFile::open(int flags) {
@@ -71,7 +72,7 @@ void AtomicFile::open(int flags) {
   refuse("could not be written: " + reason);
 }
 
-void AtomicFile::lock() {
+bool AtomicFile::takeLock() {
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     refuse("another run is writing here; use a different path for each run");
   }  // a file system without locks is not an error
@@ -79,12 +80,12 @@ void AtomicFile::lock() {
   struct stat by_name {};
   if (::fstat(file_.get(), &opened) != 0) refuseForErrno();
   if (!S_ISREG(opened.st_mode) || opened.st_nlink > 1) refuseTaken();
-  // The run that held the lock may have renamed or removed the file.
-  if (::fstatat(folder_.descriptor(), hidden_.c_str(), &by_name, AT_SYMLINK_NOFOLLOW) != 0 ||
-      !isSameFile(by_name, opened)) {
-    refuse("another run has just written here; use a different path for each run");
-  }
+  const bool has_its_name =
+      ::fstatat(folder_.descriptor(), hidden_.c_str(), &by_name, AT_SYMLINK_NOFOLLOW) == 0 &&
+      isSameFile(by_name, opened);
+  if (!has_its_name) return false;
   if (opened.st_size > 0 && ::ftruncate(file_.get(), 0) != 0) refuseForErrno();
+  return true;
 }
 
 AtomicFile::~AtomicFile() {

@@ -55,7 +55,8 @@ class AtomicFile {
 
  private:
   void open(int flags);
-  void lock();
+  /// \returns false if the run that held the lock has renamed or removed the file meanwhile
+  bool takeLock();
   [[noreturn]] void refuseTaken() const;
 
   const OutputFolder& folder_;

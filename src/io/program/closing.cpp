@@ -23,25 +23,6 @@ std::string memoryLine(const Run& run) {
   return line(memoryRemark(run.scenario(), run.chain().size()));
 }
 
-/// Returns a line "skipped: ..." for each kind of work that a run skips because its scenario does not
-/// need it.
-std::string skippedWork(const Run& run) {
-  const Skips skips = run.integrator().skips();
-  std::string text;
-  if (skips.damping) text += "skipped: velocity differences: damping is 0\n";
-  if (skips.gravity) text += "skipped: gravity: it is 0\n";
-  if (skips.masses) {
-    text += "skipped: reading masses: all moving particles have the same mass\n";
-  }
-  if (!run.chain().isDissipative()) {
-    text += "skipped: dissipated energy: damping is 0\n";
-  } else if (!run.tracksDissipation()) {
-    text += "skipped: dissipated energy: expensive for this run; --energy FILE computes it\n";
-  }
-  if (run.scenario().no_frames) text += "skipped: frame files: not written\n";
-  return text;
-}
-
 }  // namespace
 
 std::string warningLine(const std::string& warning) {
@@ -53,11 +34,10 @@ void printClosingLine(const std::string& text) {
   flushOutput();
 }
 
-void printAnswers(const Run& run, const Switches& switches) {
-  if (switches.report_skips) printOutput(skippedWork(run));
-  if (!switches.check) return;
+int printAdvice(const Run& run) {
   printError(memoryLine(run));
   printOutput(checkStability(run.chain(), run.start(), run.scenario()).text);
+  return kDone;
 }
 
 std::string remarksOn(const Run& run) {

@@ -1,7 +1,6 @@
 // What a program prints before and after a run.
 #pragma once
 
-#include "io/program/command_line.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <string>
@@ -15,8 +14,8 @@ std::string warningLine(const std::string& warning);
 /// \throws FileError if it can't be written
 void printClosingLine(const std::string& text);
 
-/// Prints what --report-skips and --check ask for.
-void printAnswers(const Run& run, const Switches& switches);
+/// Prints what --check asks for. \returns the exit status of the program
+int printAdvice(const Run& run);
 
 /// Returns lines for standard error: a remark if the run needs much memory, a warning if its step size
 /// is too large.

@@ -3,6 +3,7 @@
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "io/files/paths.hpp"
+#include "io/files/text_file.hpp"
 #include "io/formats/option_file.hpp"
 #include "io/program/arguments.hpp"
 #include "simulation/options/scenario_options.hpp"
@@ -15,7 +16,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string_view>
@@ -55,6 +55,24 @@ bool isOnCommandLine(const Option& option, const ProgramText& program) {
   return std::find(keys.begin(), keys.end(), option.key) != keys.end();
 }
 
+std::string listOfMethods() {
+  std::string lists[2] = {"Methods with a fixed step (--time-step, --steps-per-frame):\n",
+                          "\nError-controlled methods (--tolerance, --frame-interval):\n"};
+  for (const Method& method : methodTable()) {
+    lists[method.hasFixedStep() ? 0 : 1] +=
+        fmt::format("  {:<20} order {}\n      {}\n", method.name, method.order, method.use);
+  }
+  return lists[0] + lists[1];
+}
+
+std::vector<Switch> switchesOf(const ProgramText& program) {
+  std::vector<Switch> switches = program.switches;
+  switches.push_back({"list-methods", "describe the methods", listOfMethods});
+  switches.push_back({"version", "show the version",
+                      [] { return "spring_pendulum " SPRING_PENDULUM_VERSION "\n"; }});
+  return switches;
+}
+
 /// All options except METHOD, for the parser and the help text.
 po::options_description describe(const OptionSet& options, const ProgramText& program) {
   po::options_description description("Options", kLineLength, kLineLength / 2);
@@ -72,14 +90,7 @@ po::options_description describe(const OptionSet& options, const ProgramText& pr
     }
   }
   auto add = description.add_options();
-  if (program.takesFolders()) {
-    add("json", "print a line of JSON for each folder");
-    add("list-mistakes", "describe the known mistakes");
-  } else {
-    add("check", "try the run, report verdict, errors and the largest step sizes; write nothing");
-    add("report-skips", "print what the run leaves out because the scene does not need it");
-  }
-  add("list-methods", "describe the methods")("version", "show the version");
+  for (const Switch& one : switchesOf(program)) add(one.name.c_str(), one.help.c_str());
   add("help,h", "show this help");
   return description;
 }
@@ -91,16 +102,6 @@ std::string helpText(const ProgramText& program, const po::options_description& 
       "{}\n\nUsage: {} {} [options]\nExample: {} {}\n\nMethods: {}\n\n{}\nExit status: {}\n",
       program.purpose, program.name, program.arguments, program.name, program.example,
       knownMethodNames(), options.str(), program.exit_status);
-}
-
-std::string listOfMethods() {
-  std::string lists[2] = {"Methods with a fixed step (--time-step, --steps-per-frame):\n",
-                          "\nError-controlled methods (--tolerance, --frame-interval):\n"};
-  for (const Method& method : methodTable()) {
-    lists[method.hasFixedStep() ? 0 : 1] +=
-        fmt::format("  {:<20} order {}\n      {}\n", method.name, method.order, method.use);
-  }
-  return lists[0] + lists[1];
 }
 
 bool has(const std::vector<po::option>& given, std::string_view name) {
@@ -201,7 +202,7 @@ std::string readConfig(const std::vector<po::option>& given, OptionSet& options)
     if (option.string_key == "config") path = option.value.front();
   }
   if (!path.empty()) {
-    readOptionFile(path, options);
+    parseOptions(readTextFile(path), path, options);
   } else if (has(given, "config")) {
     throw InputError("--config: must be a file, got ''");
   }
@@ -223,15 +224,13 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
                           OptionSet& options, const Scenario& scenario) {
   const po::options_description description = describe(options, program);
   const std::vector<po::option> given = splitArguments(argc, argv, description);
+  if (has(given, "help")) return {helpText(program, description)};
   Switches switches;
-  if (has(given, "help"))
-    switches.answer = helpText(program, description);
-  else if (has(given, "version"))
-    switches.answer = "spring_pendulum " SPRING_PENDULUM_VERSION "\n";
-  else if (has(given, "list-methods"))
-    switches.answer = listOfMethods();
-  switches.list_mistakes = has(given, "list-mistakes");
-  if (!switches.answer.empty() || switches.list_mistakes) return switches;
+  for (const Switch& one : switchesOf(program)) {
+    if (!has(given, one.name)) continue;
+    if (one.answer) return {one.answer()};
+    switches.given.insert(one.name);
+  }
   switches.config = readConfig(given, options);
   if (program.takesFolders()) {
     switches.folders = foldersIn(given, program);
@@ -247,27 +246,7 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   }
   checkScenario(scenario);
   if (options.isGiven(kMethodKey)) refuseUnused(keys, options, scenario);
-  switches.check = has(given, "check");
-  switches.report_skips = has(given, "report-skips");
-  switches.json = has(given, "json");
   return switches;
-}
-
-StartedRanks startedRanks() {
-  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
-    const char* const text = std::getenv(name);
-    const std::int64_t ranks = text == nullptr ? 1 : parseInteger(text).value_or(1);
-    if (ranks > 1) return {ranks, name};
-  }
-  return {};
-}
-
-void refuseSeveralRanks(std::string_view cure) {
-  const StartedRanks started = startedRanks();
-  if (started.count == 1) return;
-  throw InputError(
-      fmt::format("this is one of {} processes ({}), which would write the same files; {}",
-                  started.count, started.variable, cure));
 }
 
 Particles readParticles(const Scenario& scenario, std::string_view argument) {

@@ -1,23 +1,33 @@
 // The command line of all programs: METHOD, the particle file, an option such as `--time-step X` for
-// each key of the option table, and common switches.
+// each key of the option table, and switches.
 #pragma once
 
 #include "simulation/options/option_set.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
-#include <cstdint>
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace spring_pendulum {
 
+/// An option without a value.
+struct Switch {
+  std::string name;
+  std::string help;
+  std::function<std::string()> answer = {};  ///< text to print instead of a run; empty: none
+};
+
 /// Texts about a program for --help and messages.
 struct ProgramText {
   std::string name;     ///< "Exercise3"
   std::string purpose;  ///< one sentence
   std::string example;  ///< arguments of a typical run
+  std::vector<Switch> switches = {
+      {"check", "try the run, report verdict, errors and the largest step sizes; write nothing"}};
   std::string arguments = "METHOD [FILE]";
   std::string exit_status =
       "0 done, 1 could not read or write, 2 wrong use or bad input,\n"
@@ -32,15 +42,14 @@ struct ProgramText {
   bool takesFolders() const { return !keys.empty(); }
 };
 
-/// The common switches.
+/// What is given on a command line, in addition to the options.
 struct Switches {
-  bool check = false;          ///< validate the input, print the stability advice, write nothing
-  bool report_skips = false;   ///< print the terms that the run skips
-  bool json = false;           ///< print JSON
-  bool list_mistakes = false;  ///< print the known mistakes, nothing else
-  std::string answer;  ///< text to print instead of a run: --help, --version, --list-methods
-  std::string config;  ///< file given with --config; empty: none
+  std::string answer;                     ///< text to print instead of a run
+  std::string config = {};                ///< file given with --config; empty: none
   std::vector<std::string> folders = {};  ///< of a program that takes folders
+  std::set<std::string> given = {};
+
+  bool has(const std::string& name) const { return given.count(name) > 0; }
 };
 
 /// Sets `options` from the file given with --config and then from the other arguments, which win.
@@ -52,18 +61,6 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
 
 /// Returns the meaning of an option with its default in brackets, for the help text.
 std::string optionHelp(const Option& option);
-
-/// What mpirun or srun says in the environment of each process that it starts.
-struct StartedRanks {
-  std::int64_t count = 1;
-  std::string_view variable = {};  ///< that says so; empty for a single process
-};
-StartedRanks startedRanks();
-
-/// Refuses to run as one of several processes that mpirun has started: each would write the same files.
-/// \param cure what to do instead
-/// \throws InputError
-void refuseSeveralRanks(std::string_view cure);
 
 /// Reads the particle file of a scenario.
 /// \param argument how to name another file, for the error if the default file does not exist

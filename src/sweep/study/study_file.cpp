@@ -1,6 +1,7 @@
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "io/files/text_file.hpp"
+#include "io/formats/yaml_tree.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
@@ -13,7 +14,6 @@
 
 #include "sweep/study/random_numbers.hpp"
 #include "sweep/study/study.hpp"
-#include "sweep/study/yaml_tree.hpp"
 #include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {

@@ -202,14 +202,6 @@ TEST(ExplicitRungeKutta, GivesTheRecordedBits) {
   }
 }
 
-TEST(ExplicitRungeKutta, TellsWhatItSkips) {
-  const auto skips = [](const Kind& kind) {
-    return makeIntegrator("Runge-Kutta-4", chainOf(5, kind))->skips();
-  };
-  EXPECT_TRUE(skips(kKinds[1]).damping && skips(kKinds[1]).gravity && skips(kKinds[1]).masses);
-  EXPECT_FALSE(skips(kKinds[0]).damping || skips(kKinds[0]).gravity || skips(kKinds[0]).masses);
-}
-
 TEST(ExplicitRungeKutta, LeavesTheFixedParticleWhereItIsThoughItsNeighbourIsLost) {
   State state = bentChain(3);
   state.x()[1] = std::nan("");

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-namespace spring_pendulum::sweep {
+namespace spring_pendulum {
 
 struct YamlTree {
   enum class Kind { kNothing, kScalar, kList, kMap };
 
   Kind kind = Kind::kNothing;
-  std::string place;       ///< "study.yaml:7"
+  std::string place;       ///< of its key, else of the value: "study.yaml:7"
   std::string text;        ///< of a scalar
   bool is_quoted = false;  ///< a scalar that is text even if it looks like a number
   std::vector<std::pair<std::string, YamlTree>> entries;  ///< of a map, or of a list without keys
@@ -24,6 +24,6 @@ struct YamlTree {
 /// Reads one document.
 /// \param name name of the text in error messages
 /// \throws InputError with file and line for invalid YAML, deep nesting, aliases or a key given twice
-YamlTree parseYamlTree(std::string_view text, const std::string& name);
+YamlTree parseYamlTree(std::string_view text, std::string_view name);
 
-}  // namespace spring_pendulum::sweep
+}  // namespace spring_pendulum

@@ -1,24 +1,30 @@
-#include "sweep/study/yaml_tree.hpp"
+#include "io/formats/yaml_tree.hpp"
 
-#include "io/formats/option_file.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/mark.h>
+#include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <optional>
+#include <sstream>
 
-namespace spring_pendulum::sweep {
+namespace spring_pendulum {
 namespace {
 
 /// yaml-cpp recurses for nested input, so a deep file would overflow the stack.
 constexpr std::size_t kMostLevels = 6;
 
-/// Builds the tree from the events of yaml-cpp's parser.
+std::string placeOf(std::string_view name, const YAML::Mark& mark) {
+  return mark.is_null() ? std::string(name) : fmt::format("{}:{}", name, mark.line + 1);
+}
+
+/// Builds the tree from the events of yaml-cpp's parser. YAML::LoadAll does not return for some broken
+/// files.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(std::string name, YamlTree& root) : name_(std::move(name)), root_(root) {}
+  TreeBuilder(std::string_view name, YamlTree& root) : name_(name), root_(root) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (has_document_) refuse(mark, "must be a single YAML document");
@@ -32,9 +38,11 @@ class TreeBuilder : public YAML::EventHandler {
     if (expectsKey()) {
       if (open_.back()->find(value) != nullptr) refuse(mark, value + ": is given twice");
       key_ = value;
+      key_place_ = placeOf(name_, mark);
       return;
     }
-    if (tag != "?" && tag != "!") refuse(mark, "must not have a tag");
+    // yaml-cpp tags a plain scalar with "?" and a quoted one, which is text, with "!".
+    if (tag != "?" && tag != "!") refuse(mark, key_.value_or("a value") + ": must not have a tag");
     YamlTree& scalar = add(mark, YamlTree::Kind::kScalar);
     scalar.text = value;
     scalar.is_quoted = tag == "!";
@@ -65,9 +73,9 @@ class TreeBuilder : public YAML::EventHandler {
     if (!open_.empty()) {
       tree = &open_.back()->entries.emplace_back(key_.value_or(""), YamlTree{}).second;
     }
-    key_.reset();
     tree->kind = kind;
-    tree->place = fmt::format("{}:{}", name_, mark.line + 1);
+    tree->place = key_ ? key_place_ : placeOf(name_, mark);
+    key_.reset();
     return *tree;
   }
 
@@ -77,15 +85,27 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& what) const {
-    throw InputError(fmt::format("{}:{}: {}", name_, mark.line + 1, what));
+    throw InputError(fmt::format("{}: {}", placeOf(name_, mark), what));
   }
 
-  std::string name_;
+  std::string_view name_;
   YamlTree& root_;
   bool has_document_ = false;
   std::vector<YamlTree*> open_;  ///< an entry stays in place while its own entries are added
   std::optional<std::string> key_;
+  std::string key_place_;
 };
+
+/// yaml-cpp takes a NUL for an escape character. YAML allows none of these characters.
+void refuseControlCharacters(std::string_view text, std::string_view name) {
+  const auto is_control = [](unsigned char c) {
+    return c < 0x20 && c != '\t' && c != '\n' && c != '\r';
+  };
+  const auto found = std::find_if(text.begin(), text.end(), is_control);
+  if (found == text.end()) return;
+  throw InputError(fmt::format("{}:{}: has a control character; must be UTF-8 text", name,
+                               1 + std::count(text.begin(), found, '\n')));
+}
 
 }  // namespace
 
@@ -96,11 +116,25 @@ const YamlTree* YamlTree::find(std::string_view key) const {
   return nullptr;
 }
 
-YamlTree parseYamlTree(std::string_view text, const std::string& name) {
+YamlTree parseYamlTree(std::string_view text, std::string_view name) {
+  refuseControlCharacters(text, name);
+  // Without an explicit end of the document, yaml-cpp accepts a quotation mark that is not closed,
+  // and the rest of the file would be the value.
+  const bool ends_line = text.empty() || text.back() == '\n';
+  std::istringstream stream{fmt::format("{}{}...\n", text, ends_line ? "" : "\n")};
   YamlTree root;
   TreeBuilder builder(name, root);
-  parseYaml(text, name, builder, "must be a study");
+  try {
+    YAML::Parser parser(stream);
+    // The second call only checks that there is no second document.
+    if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
+  } catch (const YAML::Exception& error) {
+    if (error.msg == YAML::ErrorMsg::DOC_IN_SCALAR) {
+      throw InputError(fmt::format("{}: a quotation mark is not closed", name));
+    }
+    throw InputError(fmt::format("{}: invalid YAML ({})", placeOf(name, error.mark), error.msg));
+  }
   return root;
 }
 
-}  // namespace spring_pendulum::sweep
+}  // namespace spring_pendulum
