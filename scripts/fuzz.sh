@@ -15,14 +15,27 @@ CXX=clang++ configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_B
 targets=(particle_file scenario_file command_line parameters frames)
 compile "$folder" "${targets[@]/%/_fuzz}"
 
-# libFuzzer adds new inputs to the first folder, so this is a temporary one.
+# The seeds of a target are in one file, each under a line '==> NAME' and followed by a line end.
+split_seeds() {
+  python3 - "$1" "$2" << 'EOF'
+import pathlib, sys
+text = b'\n' + pathlib.Path(sys.argv[1]).read_bytes()[:-1]
+for seed in text.split(b'\n==> ')[1:]:
+    name, content = seed.split(b'\n', 1)
+    (pathlib.Path(sys.argv[2]) / name.decode()).write_bytes(content)
+EOF
+}
+
+# libFuzzer adds new inputs to the first folder.
 found=$(mktemp -d)
 trap 'rm -rf "$found"' EXIT
 for target in "${targets[@]}"; do
   say "$runs runs of $target"
-  mkdir "$found/$target"
+  mkdir -p "$found/$target" "$found/seeds/$target"
+  split_seeds "$project/fuzz/corpus/$target.txt" "$found/seeds/$target"
+  if [ "$target" = scenario_file ]; then cp "$project/config/pendulum.yaml" "$found/seeds/$target"; fi
   "$folder/fuzz/${target}_fuzz" -runs="$runs" -seed=1 -timeout=10 -max_len=2000 -print_funcs=0 \
-    -artifact_prefix="$folder/" "$found/$target" "$project/fuzz/corpus/$target" \
+    -artifact_prefix="$folder/" "$found/$target" "$found/seeds/$target" \
     > "$folder/$target.log" 2>&1 || { tail -n 50 "$folder/$target.log" >&2; die "$target failed"; }
   grep '^Done' "$folder/$target.log"
 done
