@@ -127,9 +127,8 @@ TEST(OrderOnHangingChain, IsThatOfEachMethod) {
     for (const Eigen::Index masses : {10, 1000}) {
       const double stiffness = masses == 10 ? 1000.0 : 1e4;  // no spring turns over
       const Chain chain = chainOf(masses + 1, 1.0, {stiffness, damping, 1.0});
-      const double step = masses == 10 ? 4e-3 : 1e-3;
-      const double order = orderOnHangingChain(chain, "Runge-Kutta-4", step);
-      EXPECT_NEAR(order, 4.0, 0.05) << masses << " " << damping;  // 4.03, 3.98, 4.01, 4.01
+      const double step = masses == 10 ? 4e-3 : 1e-3;  // measured: 4.03, 3.98, 4.01, 4.01
+      EXPECT_NEAR(orderOnHangingChain(chain, "Runge-Kutta-4", step), 4.0, 0.05) << masses;
     }
   }
 }

@@ -65,6 +65,12 @@ TEST(GrowthPerStep, ChangesSignAtTheLimitsOfTheTable) {
   });
 }
 
+TEST(GrowthPerStep, OfStabilizedMethodsReachesTheLimitOfTheTable) {
+  const Method& method = findMethod("Stabilized-Taylor-4");
+  EXPECT_LE(growthPerStep(method, 0.0, 0.99999 * method.real_stability_limit), 1e-5);
+  EXPECT_GT(growthPerStep(method, 0.0, 1.01 * method.real_stability_limit), 0.0);
+}
+
 TEST(GrowthPerStep, OfOwnMethodsFollowsFromWhatTheirRowSays) {
   Method own{"Own", 3, 3, StepControl::kFixed};
   EXPECT_LE(growthPerStep(own, 0.0, 2.5), 0.0);  // limits of a third-order method: 2.513, 1.732

@@ -2,6 +2,7 @@
 
 #include "base/checks.hpp"
 #include "integration/tableau.hpp"
+#include "integration/taylor/stabilized_polynomials.hpp"
 #include "model/chain_modes.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
@@ -18,27 +19,31 @@ using Complex = std::complex<double>;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-bool isImplicitEuler(const Method& method) {
-  return method.order == 1 && std::isinf(method.real_stability_limit);
-}
-
-/// Returns ln |R(z)|. A method without a tableau sums the Taylor series to its order; R(z) of the implicit
-/// Euler method is 1/(1 - z).
+/// Returns ln |R(z)|. Without a tableau, R is 1/(1 - z) of the implicit Euler method, exp(z) of other methods
+/// without limits, or the Taylor series; of the stabilized ones that with the smallest |R|.
 double growthOf(const Method& method, Complex z) {
-  if (isImplicitEuler(method)) return -std::log(std::abs(1.0 - z));
   if (method.tableau != nullptr) {
     return spring_pendulum::growthOf(stabilityIncrement(*method.tableau, z));
   }
-  constexpr auto kMostTerms = static_cast<int>(ButcherTableau::kMaxStages);
-  Complex sum = 0.0;
-  Complex term = 1.0;
-  for (int i = 1; i <= std::min(method.order, kMostTerms); ++i) sum += term *= z / (1.0 * i);
-  return spring_pendulum::growthOf(sum);
+  if (std::isinf(method.imaginary_stability_limit)) {
+    return method.order == 1 ? -std::log(std::abs(1.0 - z)) : z.real();
+  }
+  const int order = std::min(method.order, static_cast<int>(ButcherTableau::kMaxStages));
+  const StabilizedPolynomial plain{order, order, 0.0, {}, {}};
+  const bool stabilized = method.name.rfind("Stabilized-", 0) == 0;
+  double growth = kUnlimited;
+  for (const StabilizedPolynomial& series :
+       stabilized ? stabilizedPolynomials(order) : StabilizedPolynomials{&plain, 1}) {
+    Complex sum = 0.0;
+    Complex term = 1.0;
+    for (int i = 1; i <= series.terms; ++i) sum += series.weight(i) * (term *= z / (1.0 * i));
+    growth = std::min(growth, spring_pendulum::growthOf(sum));
+  }
+  return growth;
 }
 
-/// Returns ln of the spectral radius of a symplectic method whose two limits are 2, with hω and hc scaled
-/// to the limits of the method: z² - 2 (1 + e) z + 1 - a + s - m = 0, where s = m = 0 but for
-/// Velocity-Verlet.
+/// Returns ln of the spectral radius of a symplectic method, with hω and hc scaled so that its limits are
+/// 2: z² - 2 (1 + e) z + 1 - a + s - m = 0, where s = m = 0 but for Velocity-Verlet.
 double growthFromLimits(const Method& method, double swing, double decay) {
   const double a = 2.0 * decay / method.real_stability_limit;
   const double b = std::pow(2.0 * swing / method.imaginary_stability_limit, 2);
@@ -77,10 +82,8 @@ double stepForMode(const Method& method, double frequency, double damping, doubl
 }  // namespace
 
 double growthPerStep(const Method& method, double swing, double decay) {
-  const bool unlimited = std::isinf(method.imaginary_stability_limit);
-  if (unlimited && !isImplicitEuler(method)) return -0.5 * decay;
-  if (method.tableau == nullptr && method.hasFixedStep() && !unlimited &&
-      method.imaginary_stability_limit > 0.0) {
+  if (method.tableau == nullptr && method.hasFixedStep() &&
+      std::isfinite(method.imaginary_stability_limit) && method.imaginary_stability_limit > 0.0) {
     return growthFromLimits(method, swing, decay);
   }
   const double center = -0.5 * decay;
@@ -91,8 +94,7 @@ double growthPerStep(const Method& method, double swing, double decay) {
 }
 
 double springStepLimit(const Method& method, const Chain& chain, double duration) {
-  const double frequency = fastestVibration(chain);
-  return stepForMode(method, frequency, largestDampingRate(chain), duration);
+  return stepForMode(method, fastestVibration(chain), largestDampingRate(chain), duration);
 }
 
 bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step,
@@ -114,16 +116,14 @@ bool isClearlyUnstable(const Method& method, const Chain& chain, double time_ste
 
 double linearStepLimit(const Method& method, const Chain& chain, double duration) {
   requireFinitePositive("duration", duration, "s");
-  const double mode = largestSpringMode(chain);
-  if (!method.hasFixedStep() || mode == 0.0) return kUnlimited;
-  const double frequency = std::sqrt(chain.spring().stiffness * mode);
+  if (!method.hasFixedStep() || stiffestSpring(chain) == 0.0) return kUnlimited;
   // Transverse motion is undamped. The tension acts as a stiffness below k_s; for methods that are
   // unstable on the imaginary axis, the slowest mode, which has most of the energy, counts.
   const bool stable = method.imaginary_stability_limit > 0.0;
+  const double swing = stable ? fastestVibration(chain) : slowSwing(chain);
   constexpr double kMargin = 0.25;  // measured: 0.35 is too much for Euler with mixed masses
-  return kMargin *
-         std::min(springStepLimit(method, chain, duration),
-                  stepForMode(method, stable ? frequency : slowSwing(chain), 0.0, duration));
+  return kMargin * std::min(springStepLimit(method, chain, duration),
+                            stepForMode(method, swing, 0.0, duration));
 }
 
 }  // namespace spring_pendulum
