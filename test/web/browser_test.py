@@ -230,7 +230,7 @@ class LabTest(unittest.TestCase):
                 'particles': '0 0 1\n1 0.1 2\n1.8 -0.4 1\n', 'frames': 20, 'damping': 1.3, 'tab': 'step',
                 'runs': [{'method': method, 'time_step': 0.01}]})
             self.element('step').click()  # shows the step that was done
-            self.wait('return document.getElementById("step-text").textContent.includes("from t = 0.05 s")')
+            self.wait(f'return document.getElementById("step-text").textContent.startsWith("{method}, from t = 0.05 s")')
             step = self.state()['step']
             tables, texts = self.browser.execute_script("""
                 const all = (name, parent = document) => [...parent.querySelectorAll(name)];
