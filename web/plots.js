@@ -1,5 +1,6 @@
 // Plots with Chart.js: a legend, colours of the theme, the value under the mouse, a cursor that follows the time.
 import {play} from './motion.js';
+import {short} from './report.js';
 import {lastTime, tracks} from './runs.js';
 import {colorOf, css, dashes, nameOf, on, settings} from './state.js';
 
@@ -29,6 +30,7 @@ export function makeChart(id, {title, x, y, xType = 'linear', yType = 'linear', 
       interaction: {mode: 'nearest', intersect: false},
       plugins: {
         title: {display: true, text: title, color: css('--text')},
+        tooltip: {callbacks: {label: ({dataset, raw}) => `${dataset.label}: ${short(raw.x, 4)}, ${short(raw.y, 4)}`}},
         legend: {position: 'bottom', labels: {
           boxWidth: 24, boxHeight: 0, color: css('--text'), filter: ({datasetIndex}, {datasets}) => !datasets[datasetIndex].unlabelled}},
       },

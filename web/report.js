@@ -153,7 +153,8 @@ function why(ended, diverged) {
 function remedy(ended) {
   const advice = ended.flatMap(({track}) => track.end.messages).find((line) => /largest stable step/.test(line));
   if (advice) return `The library advises: ${advice.replace(/^warning: /, '').split('; ').slice(-2).join('; ')}.`;
-  const {run, method} = ended[0];
+  const {run, method, track: {end}} = ended[0];
+  if (end.kind === 'sensitive') return `Compare motions up to t = ${short(end.measuredUntil, 3)} s, not later ones.`;
   if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} only a few more evaluations: try it.`;
   return `Half the step divides the error of ${method.name} (order ${method.order}) by about ${2 ** method.order} ` +
     `and doubles its work: try ${short(Number(run.time_step) / 2, 6)} s.`;

@@ -298,6 +298,10 @@ class LabTest(unittest.TestCase):
                              [[p['x'], p['y']] for p in plots['error'][run]['data']])
             self.assertEqual([[row[1], abs(row[8])] for row in rows if row[8] != 0],
                              [[p['x'], p['y']] for p in plots['balance'][run]['data']])
+        point = plots['error'][0]['data'][3]
+        told = self.call('const {tooltip} = Chart.getChart("plot-error"); tooltip.setActiveElements([{datasetIndex: 0,'
+                         'index: 3}], {x: 0, y: 0}); tooltip.update(true); return tooltip.body[0].lines[0]')
+        numpy.testing.assert_allclose([float(word) for word in told.split(': ')[1].split(', ')], list(point.values()), 1e-3)
 
     def test_buttons_and_slider_move_the_time(self):
         self.call('await pendulumLab.set({particles: "one_spring.txt", frames: 100,'
