@@ -32,6 +32,8 @@ Options parseOptions(int count, char** words) {
       options.budget = std::stod(value);
     } else if (key == "--passes") {
       options.passes = std::stoi(value);
+    } else if (key == "--busy-sibling") {
+      options.busy_sibling = value == "1";
     } else if (key == "--smoke") {
       options.smoke = value == "1";
     } else {

@@ -15,7 +15,8 @@ struct Options {
   double limit = 2.0;    ///< s, longest time of a point; longer ones are recorded as too slow
   double budget = 0.02;  ///< s, least time per point and pass
   int passes = 2;
-  bool smoke = false;  ///< few points, in seconds: checks that everything works
+  bool busy_sibling = false;  ///< beside another program on the other thread of the core
+  bool smoke = false;         ///< few points, in seconds: checks that everything works
 };
 
 /// The benchmark of a program, called by main.cpp.

@@ -12,10 +12,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "busy_sibling.hpp"
 #include "isolated.hpp"
 #include "options.hpp"
 #include "peer.hpp"
@@ -179,12 +181,15 @@ bool runSize(std::size_t particles, const Options& options, std::set<std::string
 }  // namespace
 
 int run(const Options& options) {
+  std::optional<BusySibling> sibling;
+  if (options.busy_sibling) sibling.emplace();
   ResultFile file(options.output + "/throughput.csv",
                   {"Classical Runge-Kutta method: nanoseconds per spring force, by chain length.",
                    "Candidates take turns; median and least of the rounds. `difference` is the",
                    "largest one from the plain structure-of-arrays loop after the first calls.",
                    fmt::format("divider bound: {:.3f} ns for a square root and a division alone",
-                               dividerBound())},
+                               dividerBound()),
+                   sibling ? sibling->description() : "alone on the core, as far as known"},
                   "particles,library,method,threads,status,median_ns,least_ns,rounds,"
                   "force_evaluations_a_step,difference_m_or_m_per_s,note");
   bool all_agree = true;
