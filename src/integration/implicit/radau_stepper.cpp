@@ -33,9 +33,16 @@ constexpr double kRounding = 1e-14;
 /// Error, relative to the allowed error, that a failed iteration reports; it halves the step size.
 constexpr double kErrorOfFailure = 32.0;
 
-void setRow(StateBuffer& buffer, std::size_t particle, const double (&values)[4]) {
-  double* const row = buffer.particle(static_cast<Eigen::Index>(particle));
-  for (std::ptrdiff_t c = 0; c < 4; ++c) row[c * buffer.pitch()] = values[c];
+/// Component c of the state of a particle: x, y, vx, vy.
+template <typename Buffer>
+auto& valueOf(Buffer& state, std::size_t particle, std::size_t c) {
+  auto* const row = state.particle(static_cast<Eigen::Index>(particle));
+  return row[static_cast<Eigen::Index>(c) * state.pitch()];
+}
+
+std::array<double, 2> springlessAcceleration(const Chain& chain, std::size_t particle) {
+  const auto [x, y] = chain.springlessAcceleration(static_cast<Eigen::Index>(particle));
+  return {x, y};
 }
 
 }  // namespace
@@ -88,10 +95,9 @@ RadauStepper::Ends RadauStepper::endsOf(std::size_t spring, const Ends& start,
                                         std::size_t stage) const {
   const Increments& a = stages_.particles[spring];
   const Increments& b = stages_.particles[spring + 1];
-  return {{start.separation.x + (b.x[stage] - a.x[stage]),
-           start.separation.y + (b.y[stage] - a.y[stage])},
-          {start.relative_velocity.x + (b.vx[stage] - a.vx[stage]),
-           start.relative_velocity.y + (b.vy[stage] - a.vy[stage])}};
+  const auto change = [&](std::size_t c) { return b[c][stage] - a[c][stage]; };
+  return {{start.separation.x + change(0), start.separation.y + change(1)},
+          {start.relative_velocity.x + change(2), start.relative_velocity.y + change(3)}};
 }
 
 void RadauStepper::predict(double h) {
@@ -109,13 +115,12 @@ void RadauStepper::predict(double h) {
       position[s] = h * (radau::kNodes[s] * velocity + radau::dot(radau::kMatrix[s], change));
     }
   };
-  const std::ptrdiff_t pitch = begin().pitch();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const double* velocity = begin().particle(static_cast<Eigen::Index>(i)) + 2 * pitch;
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
-    guess(velocity[0], old.vx, next.x, next.vx);
-    guess(velocity[pitch], old.vy, next.y, next.vy);
+    for (std::size_t c = 0; c < 2; ++c) {
+      guess(valueOf(begin(), i, 2 + c), old[2 + c], next[c], next[2 + c]);
+    }
   }
   if (chain().isDriven()) setAnchor(h);
   for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -130,15 +135,14 @@ void RadauStepper::predict(double h) {
 }
 
 void RadauStepper::setAnchor(double h) {
-  const PlaneVector<double> speed = velocityOf(begin(), 0);
-  const PlaneVector<double> acceleration = chain().springlessAcceleration(0);
+  const auto acceleration = springlessAcceleration(chain(), 0);
   Increments& stage = stages_.particles[0];
-  for (std::size_t s = 0; s < kStages; ++s) {
-    const double time = h * radau::kNodes[s];
-    stage.vx[s] = time * acceleration.x;
-    stage.vy[s] = time * acceleration.y;
-    stage.x[s] = time * (speed.x + 0.5 * stage.vx[s]);
-    stage.y[s] = time * (speed.y + 0.5 * stage.vy[s]);
+  for (std::size_t c = 0; c < 2; ++c) {
+    for (std::size_t s = 0; s < kStages; ++s) {
+      const double time = h * radau::kNodes[s];
+      stage[2 + c][s] = time * acceleration[c];
+      stage[c][s] = time * (valueOf(begin(), 0, 2 + c) + 0.5 * stage[2 + c][s]);
+    }
   }
 }
 
@@ -170,7 +174,8 @@ bool RadauStepper::solveStages(double h) {
   return false;
 }
 
-void RadauStepper::springForces(std::size_t spring, Row& fx, Row& fy) {
+RadauStepper::Forces RadauStepper::springForces(std::size_t spring) {
+  Forces forces;
   const SpringLaw& law = chain().spring();
   const Ends start = endsOf(spring, begin());
   Row& tensions = stages_.tensions[spring];
@@ -181,30 +186,32 @@ void RadauStepper::springForces(std::size_t spring, Row& fx, Row& fy) {
     const double unit = tensions[s] * inverseSquareRoot(d.x * d.x + d.y * d.y);
     const double tension = springTension(law, d, ends.relative_velocity);
     const double residual = tension - tensions[s];
-    fx[s] = unit * d.x + residual * r.x;
-    fy[s] = unit * d.y + residual * r.y;
+    forces[0][s] = unit * d.x + residual * r.x;
+    forces[1][s] = unit * d.y + residual * r.y;
     tensions[s] = tension;
   }
+  return forces;
 }
 
 void RadauStepper::computeResiduals() {
-  Row left_x{}, left_y{};
+  Forces left{};
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    Row right_x{}, right_y{};
-    if (i < springs_.size()) springForces(i, right_x, right_y);
+    const Forces right = i < springs_.size() ? springForces(i) : Forces{};
     const double mass = massOf(chain(), static_cast<Eigen::Index>(i));
-    const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
-    Row fx, fy;
-    for (std::size_t s = 0; s < kStages; ++s) {
-      fx[s] = (right_x[s] - left_x[s]) + mass * fall.x;
-      fy[s] = (right_y[s] - left_y[s]) + mass * fall.y;
-    }
+    const auto fall = springlessAcceleration(chain(), i);
     const Increments& increments = stages_.particles[i];
-    subtractDrag(i, fx, fy);
-    real_.setRightHandSide(i, mass, increments, fx, fy);
-    for (System<Complex>& pair : pairs_) pair.setRightHandSide(i, mass, increments, fx, fy);
-    left_x = right_x;
-    left_y = right_y;
+    const double drag = dragOn(i);
+    Forces forces;
+    for (std::size_t c = 0; c < 2; ++c) {
+      for (std::size_t s = 0; s < kStages; ++s) {
+        forces[c][s] = (right[c][s] - left[c][s]) + mass * fall[c];
+        if (drag == 0.0) continue;
+        forces[c][s] -= drag * (valueOf(begin(), i, 2 + c) + increments[2 + c][s]);
+      }
+    }
+    real_.setRightHandSide(i, mass, increments, forces);
+    for (System<Complex>& pair : pairs_) pair.setRightHandSide(i, mass, increments, forces);
+    left = right;
   }
   counters().force_evaluations += static_cast<std::int64_t>(kStages);
 }
@@ -221,17 +228,14 @@ RadauStepper::Change RadauStepper::updateStages() {
     const LinearSpring& spring = springs_[i - 1];
     Increments& stage = stages_.particles[i];
     for (std::size_t s = 0; s < kStages; ++s) {
-      stage.x[s] += change.x[s];
-      stage.y[s] += change.y[s];
-      stage.vx[s] += change.vx[s];
-      stage.vy[s] += change.vy[s];
+      for (std::size_t c = 0; c < 4; ++c) stage[c][s] += change[c][s];
+      const auto grown = [&](std::size_t c) { return change[c][s] - left[c][s]; };
       stages_.tensions[i - 1][s] +=
-          spring.tensionChange(damping, {change.x[s] - left.x[s], change.y[s] - left.y[s]},
-                               {change.vx[s] - left.vx[s], change.vy[s] - left.vy[s]});
-      largest.position = std::max({largest.position, std::abs(change.x[s]), std::abs(change.y[s])});
-      largest.velocity =
-          std::max({largest.velocity, std::abs(change.vx[s]), std::abs(change.vy[s])});
-      finite += 0.0 * (change.vx[s] + change.vy[s]);
+          spring.tensionChange(damping, {grown(0), grown(1)}, {grown(2), grown(3)});
+      const auto size = [&](std::size_t c) { return std::abs(change[c][s]); };
+      largest.position = std::max({largest.position, size(0), size(1)});
+      largest.velocity = std::max({largest.velocity, size(2), size(3)});
+      finite += 0.0 * (change[2][s] + change[3][s]);
     }
     left = change;
   }
@@ -268,44 +272,46 @@ PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected)
 
 double RadauStepper::filteredError(bool corrected) {
   const double q = real_.q;
-  const auto position_part = [&](std::size_t i) {
-    const double* velocity = begin().particle(static_cast<Eigen::Index>(i)) + 2 * begin().pitch();
-    const Increments& stage = stages_.particles[i];
-    return PlaneVector<double>{q * velocity[0] + radau::dot(radau::kError, stage.x),
-                               q * velocity[begin().pitch()] + radau::dot(radau::kError, stage.y)};
+  const auto position_part = [&](std::size_t i, std::size_t c) {
+    return q * valueOf(begin(), i, 2 + c) + radau::dot(radau::kError, stages_.particles[i][c]);
   };
-  PlaneVector<double> here{}, left{};
+  std::array<double, 2> here{}, left{};
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    PlaneVector<double> right{}, next{};
+    std::array<double, 2> right{}, next{};
     if (i < springs_.size()) {
-      next = position_part(i + 1);
+      next = {position_part(i + 1, 0), position_part(i + 1, 1)};
       const PlaneVector<double> force = startForce(i, corrected);
       const PlaneVector<double> change =
-          springs_[i].stiffnessTimes({next.x - here.x, next.y - here.y});
+          springs_[i].stiffnessTimes({next[0] - here[0], next[1] - here[1]});
       right = {q * (force.x + change.x), q * (force.y + change.y)};
     }
     const double mass = massOf(chain(), static_cast<Eigen::Index>(i));
-    const PlaneVector<double> fall = chain().springlessAcceleration(static_cast<Eigen::Index>(i));
-    const Increments& stage = stages_.particles[i];
-    real_.x[i] = mass * (radau::dot(radau::kError, stage.vx) + q * fall.x) + (right.x - left.x);
-    real_.y[i] = mass * (radau::dot(radau::kError, stage.vy) + q * fall.y) + (right.y - left.y);
-    const PlaneVector<double> drag = startDrag(i, corrected);
-    real_.x[i] -= q * drag.x;
-    real_.y[i] -= q * drag.y;
+    const auto fall = springlessAcceleration(chain(), i);
+    const double drag = dragOn(i);
+    for (std::size_t c = 0; c < 2; ++c) {
+      double& sum = real_.unknowns[c][i];
+      const double error = radau::dot(radau::kError, stages_.particles[i][2 + c]);
+      sum = mass * (error + q * fall[c]) + (right[c] - left[c]);
+      if (drag == 0.0) continue;
+      const double change = corrected ? valueOf(change_, i, 2 + c) : 0.0;
+      sum -= q * (drag * (valueOf(begin(), i, 2 + c) + change));
+    }
     here = next;
     left = right;
   }
   real_.solve();
   ++counters().force_evaluations;
-  setRow(change_, 0, {0.0, 0.0, 0.0, 0.0});
+  for (std::size_t c = 0; c < 4; ++c) valueOf(change_, 0, c) = 0.0;
   double largest = 0.0, finite = 0.0;
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
-    const PlaneVector<double> part = position_part(i);
-    const double errors[] = {part.x + q * real_.x[i], part.y + q * real_.y[i], real_.x[i],
-                             real_.y[i]};
-    setRow(change_, i, errors);
-    largest = std::max({largest, std::abs(errors[0]), std::abs(errors[1])});
-    finite += 0.0 * (errors[0] + errors[1]);
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double velocity = real_.unknowns[c][i];
+      const double error = position_part(i, c) + q * velocity;
+      valueOf(change_, i, c) = error;
+      valueOf(change_, i, 2 + c) = velocity;
+      largest = std::max(largest, std::abs(error));
+      finite += 0.0 * error;
+    }
   }
   return largest + finite;
 }
@@ -313,19 +319,15 @@ double RadauStepper::filteredError(bool corrected) {
 double RadauStepper::stepExplicitly(double h) {
   kernels().stageSlope(kernelChain(), begin().data(), {}, change_.data());
   ++counters().force_evaluations;
-  const std::ptrdiff_t pitch = begin().pitch();
   double finite = 0.0;
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const double* slope = change_.particle(static_cast<Eigen::Index>(i));
-    Increments& stage = stages_.particles[i];
-    for (std::size_t s = 0; s < kStages; ++s) {
-      const double time = h * radau::kNodes[s];
-      stage.x[s] = time * slope[0];
-      stage.y[s] = time * slope[pitch];
-      stage.vx[s] = time * slope[2 * pitch];
-      stage.vy[s] = time * slope[3 * pitch];
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double slope = valueOf(change_, i, c);
+      for (std::size_t s = 0; s < kStages; ++s) {
+        stages_.particles[i][c][s] = (h * radau::kNodes[s]) * slope;
+      }
+      finite += 0.0 * slope;
     }
-    finite += 0.0 * (stage.x[0] + stage.y[0] + stage.vx[0] + stage.vy[0]);
   }
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const Ends ends = endsOf(i, begin());
@@ -337,28 +339,21 @@ double RadauStepper::stepExplicitly(double h) {
 }
 
 void RadauStepper::setEndFromLastStage() {
-  const std::ptrdiff_t pitch = begin().pitch();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const Increments& stage = stages_.particles[i];
-    const double* lost = carry().particle(static_cast<Eigen::Index>(i));
-    const double changes[] = {lost[0] + stage.x.back(), lost[pitch] + stage.y.back(),
-                              lost[2 * pitch] + stage.vx.back(), lost[3 * pitch] + stage.vy.back()};
-    setRow(change_, i, changes);
+    for (std::size_t c = 0; c < 4; ++c) {
+      valueOf(change_, i, c) = valueOf(carry(), i, c) + stages_.particles[i][c].back();
+    }
   }
   setEnd(change_, {});
 }
 
 const StateBuffer& RadauStepper::stateInside(double fraction) const {
   const Row weights = radau::lagrangeWeights(fraction, true);
-  auto values = change_.values();
-  values = begin().values();
+  change_.values() = begin().values();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    const Increments& stage = stages_.particles[i];
-    const auto row = static_cast<Eigen::Index>(i);
-    values(row, 0) += radau::dot(weights, stage.x);
-    values(row, 1) += radau::dot(weights, stage.y);
-    values(row, 2) += radau::dot(weights, stage.vx);
-    values(row, 3) += radau::dot(weights, stage.vy);
+    for (std::size_t c = 0; c < 4; ++c) {
+      valueOf(change_, i, c) += radau::dot(weights, stages_.particles[i][c]);
+    }
   }
   return change_;
 }

@@ -46,10 +46,11 @@ class RadauStepper final : public ErrorEstimatingStepper {
 
  private:
   using Row = radau::Row;
-  /// Differences between the state of a particle at each stage and at the beginning of the step.
-  struct Increments {
-    Row x, y, vx, vy;
-  };
+  /// Differences x, y, vx, vy between the state of a particle at each stage and at the beginning of
+  /// the step.
+  using Increments = std::array<Row, 4>;
+  /// Components x and y of a force at each stage, N.
+  using Forces = std::array<Row, 2>;
   /// The collocation polynomial: values at the stages.
   struct Collocation {
     explicit Collocation(Eigen::Index size)
@@ -57,37 +58,37 @@ class RadauStepper final : public ErrorEstimatingStepper {
     std::vector<Increments> particles;
     std::vector<Row> tensions;
   };
-  /// One linear system. x and y hold its right-hand side and, after `solve`, its solution.
+  /// One linear system. `unknowns` (x, y) holds its right-hand side and, after `solve`, its solution.
   template <typename Scalar>
   struct System {
     System(const Chain& chain, const radau::Eigenvalue<Scalar>& coefficients)
-        : eigenvalue(coefficients),
-          solver(chain),
-          x(static_cast<std::size_t>(chain.size())),
-          y(x.size()) {}
+        : eigenvalue(coefficients), solver(chain) {
+      unknowns.fill(std::vector<Scalar>(static_cast<std::size_t>(chain.size())));
+    }
     void factor(const std::vector<LinearSpring>& springs, double h) {
       q = h * reciprocal(eigenvalue.value);
       solver.factor(springs, q);
     }
-    void setRightHandSide(std::size_t i, double mass, const Increments& increments, const Row& fx,
-                          const Row& fy) {
-      const auto& left = eigenvalue.left;
-      x[i] = q * radau::dot(left, fx) - mass * radau::dot(left, increments.vx);
-      y[i] = q * radau::dot(left, fy) - mass * radau::dot(left, increments.vy);
+    void setRightHandSide(std::size_t i, double mass, const Increments& increments,
+                          const Forces& forces) {
+      for (std::size_t c = 0; c < 2; ++c) {
+        unknowns[c][i] = q * radau::dot(eigenvalue.left, forces[c]) -
+                         mass * radau::dot(eigenvalue.left, increments[2 + c]);
+      }
     }
-    void solve() { solver.solve(x.data(), y.data()); }
+    void solve() { solver.solve(unknowns[0].data(), unknowns[1].data()); }
     /// Adds this system's contribution to the change of a particle's stages.
     void addChange(std::size_t i, Increments& change) const {
-      radau::addTo(change.vx, eigenvalue.right, x[i]);
-      radau::addTo(change.vy, eigenvalue.right, y[i]);
-      radau::addTo(change.x, eigenvalue.right, q * x[i]);
-      radau::addTo(change.y, eigenvalue.right, q * y[i]);
+      for (std::size_t c = 0; c < 2; ++c) {
+        radau::addTo(change[2 + c], eigenvalue.right, unknowns[c][i]);
+        radau::addTo(change[c], eigenvalue.right, q * unknowns[c][i]);
+      }
     }
 
     const radau::Eigenvalue<Scalar>& eigenvalue;
     ChainSolver<Scalar> solver;
     Scalar q{};  ///< h / eigenvalue, s
-    std::vector<Scalar> x, y;
+    std::array<std::vector<Scalar>, 2> unknowns;
   };
   struct Change {
     double position = 0.0;  ///< largest change of a coordinate, m
@@ -113,31 +114,6 @@ class RadauStepper final : public ErrorEstimatingStepper {
   double dragOn(std::size_t particle) const {
     return chain().isHeld(static_cast<Eigen::Index>(particle)) ? 0.0 : chain().airDrag();
   }
-  static PlaneVector<double> velocityOf(const StateBuffer& state, std::size_t particle) {
-    const double* row = state.particle(static_cast<Eigen::Index>(particle));
-    return {row[2 * state.pitch()], row[3 * state.pitch()]};
-  }
-  /// Subtracts k_air v at all stages.
-  void subtractDrag(std::size_t particle, Row& fx, Row& fy) const {
-    const double drag = dragOn(particle);
-    if (drag == 0.0) return;
-    const PlaneVector<double> velocity = velocityOf(begin(), particle);
-    const Increments& increments = stages_.particles[particle];
-    for (std::size_t s = 0; s < radau::kStages; ++s) {
-      fx[s] -= drag * (velocity.x + increments.vx[s]);
-      fy[s] -= drag * (velocity.y + increments.vy[s]);
-    }
-  }
-  /// Returns k_air v at the beginning of the step; `corrected` as for `filteredError`.
-  PlaneVector<double> startDrag(std::size_t particle, bool corrected) const {
-    const double drag = dragOn(particle);
-    if (drag == 0.0) return {};
-    const PlaneVector<double> velocity = velocityOf(begin(), particle);
-    const PlaneVector<double> change = velocityOf(change_, particle);
-    const double share = corrected ? 1.0 : 0.0;
-    return {drag * (velocity.x + share * change.x), drag * (velocity.y + share * change.y)};
-  }
-
   /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.
   void predict(double h);
   /// Sets the stages of the first particle of a driven chain.
@@ -148,8 +124,8 @@ class RadauStepper final : public ErrorEstimatingStepper {
   bool solveStages(double h);
   /// Computes the right-hand sides of all systems, and the tensions from the spring law.
   void computeResiduals();
-  /// Computes the tensions of spring i and its forces on particle i, at all stages.
-  void springForces(std::size_t spring, Row& fx, Row& fy);
+  /// Computes the tensions of a spring and its forces on its left particle, at all stages.
+  Forces springForces(std::size_t spring);
   Change updateStages();
   /// Returns the largest estimated error of a coordinate, m.
   double estimateError(double h);
