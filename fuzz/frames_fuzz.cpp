@@ -69,7 +69,7 @@ void checkReport(const std::vector<FrameText>& frames, const Particles& particle
                                                     constexpr int kMostQuestions = 30;
                                                     return ++questions > kMostQuestions;
                                                   }});
-  constexpr const char* kResults[] = {"equal", "different", "undecided"};
+  constexpr const char* kResults[] = {"equal", "undecided", "different"};
   require(check.text.rfind(kResults[static_cast<int>(check.verdict)], 0) == 0, "a result");
   require(isOneLine(shortReportOf(check)), "a row of a table");
   const std::string json = jsonOf(check, folder().string());

@@ -78,23 +78,19 @@ class Checker {
     const std::int64_t wanted = scenario_.frames - 1;
     if (result_.last_frame >= std::min(wanted - 2, wanted * 49 / 50))
       result_.verdict = FrameVerdict::kEqual;
-    if (result_.last_frame > frames_.start) nameHiddenMistakes();
     describeEqual();
     return result_;
   }
 
  private:
-  WorkLimit limit() const {
-    constexpr double kMostWork = 4e9;  // some 10 s
-    return {kMostWork, options_.stop};
-  }
+  static constexpr double kMostWork = 4e9;  ///< some 10 s
 
   /// Notes the methods that agree, and the departure from the nearest of those that students write, or
   /// from the only one.
   void compareWith(const Methods& methods) {
     const Chain chain = scenario_.chainOf(particles_.masses);
     for (const Method* method : methods) {
-      WorkLimit work = limit();
+      WorkLimit work{kMostWork, options_.stop};
       const Agreement agreement = compare(
           frames_, [&] { return motionOf(*method, scenario_, particles_); }, work, &chain);
       if (work.isStopped()) return;
@@ -125,7 +121,7 @@ class Checker {
 
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
   void explain() {
-    Search search{scenario_, particles_, frames_, known_frames_, limit()};
+    Search search{scenario_, particles_, frames_, known_frames_, {kMostWork, options_.stop}};
     result_.explanations = findMistakes(search, wanted_written_, true);
     if (!result_.explanations.empty()) return;
     compareWith(others_);
@@ -140,27 +136,6 @@ class Checker {
     result_.explanations = findMistakes(search, written);
     if (search.gave_up && result_.explanations.empty())
       result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
-  }
-
-  /// Names mistakes that right frames would not show.
-  void nameHiddenMistakes() {
-    constexpr double kMostWork = 4e8;
-    constexpr std::size_t kMostNamed = 12;
-    const Method& best = findMethod(result_.methods.front());
-    if (!StudentProgram::isWritten(best)) return;
-    Search search{scenario_, particles_, frames_, 0, {kMostWork, options_.stop}};
-    std::vector<std::string> hidden;
-    for (const Explanation& one : findMistakes(search, {&best}, true)) {
-      const std::string& name = one.mistakes.back();
-      if (std::find(hidden.begin(), hidden.end(), name) == hidden.end()) hidden.push_back(name);
-    }
-    if (hidden.empty()) return;
-    result_.remarks.push_back(
-        hidden.size() > kMostNamed
-            ? "these frames would show hardly any mistake; give more frames or digits, or another "
-              "scene"
-            : fmt::format("this scene and these digits would not show the mistakes {}",
-                          fmt::join(hidden, ", ")));
   }
 
   std::string comparedText() const {
@@ -208,11 +183,8 @@ class Checker {
     }
     constexpr std::size_t kMostShown = 3;
     std::vector<std::string> texts;
-    std::vector<std::vector<std::string>> shown;
     for (const Explanation& one : result_.explanations) {
       if (texts.size() == kMostShown) break;
-      if (std::find(shown.begin(), shown.end(), one.mistakes) != shown.end()) continue;
-      shown.push_back(one.mistakes);
       texts.push_back(
           fmt::format("{}: the program {}", one.method, fmt::join(one.sentences, " and ")));
     }

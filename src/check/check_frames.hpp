@@ -20,10 +20,11 @@
 
 namespace spring_pendulum {
 
+/// By severity.
 enum class FrameVerdict {
   kEqual,
-  kDifferent,
-  kUndecided  ///< no difference, but the last frames are missing or cannot be compared
+  kUndecided,  ///< no difference, but the last frames are missing or cannot be compared
+  kDifferent
 };
 
 struct FrameCheck {

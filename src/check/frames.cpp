@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -27,82 +28,71 @@ std::optional<double> valueOf(std::string_view word) {
   return value;
 }
 
-class FrameReader {
- public:
-  /// Returns x and y of each line.
-  FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles) {
-    std::vector<double> numbers;
-    std::string_view text = frame.text;
-    for (int number = 1; !text.empty(); ++number) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      const std::string_view line = text.substr(0, end);
-      const std::string wrong = readLine(line.substr(0, line.find('#')), numbers);
-      if (!wrong.empty()) throw FileError(fmt::format("{}:{}: {}", frame.name, number, wrong));
-      text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    const auto lines = static_cast<std::ptrdiff_t>(numbers.size() / 2);
-    if (lines != particles) {
-      throw FileError(fmt::format("{}: has {}, but the particle file has {}", frame.name,
-                                  counted(lines, "particle"), particles));
-    }
-    using Rows = Eigen::Array<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-    return {frame.index, Eigen::Map<const Rows>(numbers.data(), lines, 2), {}};
-  }
+/// How numbers are printed. A format limits either the decimals ("%.6f", round(x, 6)) or the significant
+/// digits ("%g").
+struct Format {
+  int digits = 0;
+  int decimals = 0;
 
-  int digits() const { return digits_; }
-
-  /// One unit of the last digit. A format limits either the decimals ("%.6f", round(x, 6)) or the
-  /// significant digits ("%g"): the larger of both units is right for each.
-  double unitOf(double value) const {
-    const double unit = std::pow(10.0, -decimals_);
-    if (value == 0.0 || !std::isfinite(value)) return unit;
-    return std::max(unit, std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits_ + 1.0));
-  }
-
- private:
-  /// \returns what is wrong, or an empty text
-  std::string readLine(std::string_view line, std::vector<double>& numbers) {
-    constexpr std::string_view kSeparators = " \t\r,;";
-    std::int64_t columns = 0;
-    for (;; ++columns) {
-      const std::size_t begin = std::min(line.find_first_not_of(kSeparators), line.size());
-      line.remove_prefix(begin);
-      if (line.empty()) break;
-      const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
-      line.remove_prefix(word.size());
-      const std::optional<double> value = valueOf(word);
-      if (!value) return inQuotes(word) + " is not a number";
-      if (columns < 2) numbers.push_back(*value);
-      if (std::isfinite(*value)) noteFormat(word);
-    }
-    if (columns == 0 || columns == 2) return "";
-    return counted(columns, "number") +
-           " in this line; a line of a frame is 'x y' with decimal points";
-  }
-
-  void noteFormat(std::string_view word) {
+  void note(std::string_view word) {
     const std::size_t mantissa = std::min(word.find_first_of("eE"), word.size());
-    int digits = 0;
-    int decimals = 0;
-    bool after_point = false;
+    int count = 0;
+    int after_point = 0;
+    bool has_point = false;
     for (const char c : word.substr(0, mantissa)) {
-      after_point |= c == '.';
+      has_point |= c == '.';
       if (std::isdigit(static_cast<unsigned char>(c)) == 0) continue;
-      if (digits > 0 || c != '0') ++digits;
-      if (after_point) ++decimals;
+      if (count > 0 || c != '0') ++count;
+      if (has_point) ++after_point;
     }
     constexpr std::int64_t kMostExponent = 400;  // of a number other than 0
     if (mantissa < word.size()) {
-      decimals -= static_cast<int>(std::clamp(parseInteger(word.substr(mantissa + 1)).value_or(0),
-                                              -kMostExponent, kMostExponent));
+      after_point -= static_cast<int>(std::clamp(
+          parseInteger(word.substr(mantissa + 1)).value_or(0), -kMostExponent, kMostExponent));
     }
-    digits_ = std::max(digits_, digits);
-    decimals_ = std::max(decimals_, decimals);
+    digits = std::max(digits, count);
+    decimals = std::max(decimals, after_point);
   }
 
-  int digits_ = 0;
-  int decimals_ = 0;
+  /// One unit of the last digit: the larger of both units is right for each format.
+  double unitOf(double value) const {
+    const double unit = std::pow(10.0, -decimals);
+    if (value == 0.0 || !std::isfinite(value)) return unit;
+    return std::max(unit, std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1.0));
+  }
 };
+
+FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& format) {
+  std::vector<double> numbers;
+  std::istringstream lines(frame.text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const auto refuse = [&](const std::string& what) {
+      throw FileError(fmt::format("{}:{}: {}", frame.name, number, what));
+    };
+    const auto is_separator = [](char c) { return c == ',' || c == ';'; };
+    std::replace_if(line.begin(), line.end(), is_separator, ' ');
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::int64_t columns = 0;
+    for (std::string word; words >> word; ++columns) {
+      const std::optional<double> value = valueOf(word);
+      if (!value) refuse(inQuotes(word) + " is not a number");
+      if (columns < 2) numbers.push_back(*value);
+      if (std::isfinite(*value)) format.note(word);
+    }
+    if (columns != 0 && columns != 2) {
+      refuse(counted(columns, "number") +
+             " in this line; a line of a frame is 'x y' with decimal points");
+    }
+  }
+  const auto rows = static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  if (rows != particles) {
+    throw FileError(fmt::format("{}: has {}, but the particle file has {}", frame.name,
+                                counted(rows, "particle"), particles));
+  }
+  using Rows = Eigen::Array<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  return {frame.index, Eigen::Map<const Rows>(numbers.data(), rows, 2), {}};
+}
 
 /// Whether a program in float wrote the frames: they begin with the start rounded to float, or have enough
 /// digits to show that the last frame has only floats.
@@ -153,20 +143,20 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
 
 AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& particles) {
   constexpr int kFewDigits = 5;
-  FrameReader reader;
+  Format format;
   AllFrames all;
   all.start = particles.frame;
   for (const FrameText& text : texts) {
     if (text.index < all.start) continue;
-    all.frames.push_back(reader.read(text, particles.state.size()));
+    all.frames.push_back(read(text, particles.state.size(), format));
   }
   if (all.frames.empty())
     throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
   std::sort(all.frames.begin(), all.frames.end(),
             [](const auto& a, const auto& b) { return a.index < b.index; });
   for (FrameNumbers& frame : all.frames)
-    frame.units = frame.positions.unaryExpr([&](double value) { return reader.unitOf(value); });
-  all.digits = reader.digits();
+    frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
+  all.digits = format.digits;
   all.are_floats = areFloats(all, particles.state.positions());
   if (const std::string gaps = missingFrames(all); !gaps.empty()) all.remarks.push_back(gaps);
   if (all.digits <= kFewDigits) {

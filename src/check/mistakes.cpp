@@ -104,9 +104,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"weights", kFour, "weights the slopes 2, 1, 1, 2 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 6, 2, 1, 1, 2); }},
       {"weights", kFour, "weights the slopes 1, 1, 2, 2 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 6, 1, 1, 2, 2); }},
       {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 8) instead of dividing by 6", [](P& p) { fourth(p, 8, 1, 2, 2, 1); }},
-      {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 4) instead of dividing by 6", [](P& p) { fourth(p, 4, 1, 2, 2, 1); }},
       {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 3) instead of dividing by 6", [](P& p) { fourth(p, 3, 1, 2, 2, 1); }},
-      {"weights", kFour, "takes only the fourth slope", [](P& p) { weights(p, 0, 0, 0, 1); }},
       {"stage_slope", kFour, "starts the third stage with the first slope instead of the second", [](P& p) { stage(p, 3, 0.5); }},
       {"stage_slope", kFour, "starts the fourth stage with the second slope instead of the third", [](P& p) { stage(p, 4, 0, 1); }},
       {"stage_slope", kFour, "starts the fourth stage with the first slope instead of the third", [](P& p) { stage(p, 4, 1); }},
@@ -124,7 +122,6 @@ const std::vector<Mistake>& knownMistakes() {
       {"in_place", kExplicit, "overwrites particle by particle: forces on later particles use the new positions and velocities of earlier ones", [](P& p) { p.order = Order::kStagesInPlace; }},
       {"in_place", kExplicit, "overwrites the positions particle by particle: forces on later particles use the new positions of earlier ones", [](P& p) { p.order = Order::kPositionsInPlace; }},
       {"in_place", kSeveral, "takes the whole step of a particle before the next particle, which uses the result", [](P& p) { p.order = Order::kParticlesInPlace; }},
-      {"frozen_neighbours", kSeveral, "keeps the neighbours of a particle where they were at the begin of the step in all its stages", [](P& p) { p.order = Order::kFrozenNeighbours; }},
       // The force
       {"no_damping", kAny, "leaves out the damping", [](P& p) { p.damping = 0; }},
       {"damping_sign", kAny, "has the wrong sign of the damping", [](P& p) { p.damping = -p.damping; }},

@@ -79,7 +79,6 @@ struct StudentProgram : Scenario {
     kStagesInPlace,     ///< at once: later particles use the next stage of earlier ones
     kPositionsInPlace,  ///< the same for the positions only
     kParticlesInPlace,  ///< a particle takes its whole step before the next one
-    kFrozenNeighbours,  ///< the same, but with neighbours at the begin of the step
     kForceAfterMove     ///< all positions take the step before the forces are computed
   };
   enum class Implicit { kNone, kSolved, kOneIteration };

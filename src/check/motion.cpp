@@ -188,7 +188,7 @@ class ProgramMotion : public Motion {
 
   void step() {
     const Order order = program_.order;
-    const bool by_particle = order == Order::kParticlesInPlace || order == Order::kFrozenNeighbours;
+    const bool by_particle = order == Order::kParticlesInPlace;
     const auto size = static_cast<std::size_t>(state_.cols());
     const std::size_t stages = slopes_.size();
     seen_ = state_;
@@ -202,7 +202,6 @@ class ProgramMotion : public Motion {
       next_.col(i) = moved(i, s + 1);
       if (by_particle || order == Order::kStagesInPlace) seen_.col(i) = next_.col(i);
       if (order == Order::kPositionsInPlace) seen_.col(i).head<2>() = next_.col(i).head<2>();
-      if (order == Order::kFrozenNeighbours && s + 1 == stages) seen_.col(i) = state_.col(i);
       if (!by_particle && i + 1 == state_.cols()) std::swap(seen_, next_);
     }
     std::swap(state_, by_particle ? next_ : seen_);

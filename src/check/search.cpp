@@ -168,20 +168,16 @@ class Trials {
   Search& search_;
 };
 
-/// Whether an explanation reproduces all frames, or many that show the mistake.
-bool isStrong(const Search& search, const Explanation& explanation) {
-  constexpr std::size_t kEvidence = 20;  // frames after the departure
-  const std::vector<FrameNumbers>& frames = search.frames.frames;
-  return explanation.last_frame >=
-         frames[std::min(search.known_frames + kEvidence, frames.size() - 1)].index;
-}
-
 }  // namespace
 
 std::vector<Explanation> findMistakes(Search& search, const Methods& methods, bool only_single) {
   constexpr void (Trials::*kLevels[])(const Candidate&) = {
       &Trials::tryMistakes, &Trials::tryConstants, &Trials::trySinglePrecision,
       &Trials::tryTwoMistakes, &Trials::tryMistakeAndConstant};
+  constexpr std::size_t kEvidence = 20;  // frames after the departure that a strong explanation has
+  const std::vector<FrameNumbers>& frames = search.frames.frames;
+  const std::int64_t far =
+      frames[std::min(search.known_frames + kEvidence, frames.size() - 1)].index;
   Trials trials(search);
   std::vector<Explanation> best;
   for (const auto level : kLevels) {
@@ -189,7 +185,7 @@ std::vector<Explanation> findMistakes(Search& search, const Methods& methods, bo
     std::vector<Explanation> found = std::exchange(trials.found, {});
     // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
     const auto weak = std::stable_partition(
-        found.begin(), found.end(), [&](const Explanation& one) { return isStrong(search, one); });
+        found.begin(), found.end(), [&](const Explanation& one) { return one.last_frame >= far; });
     if (weak != found.begin()) return {found.begin(), weak};
     if (only_single) break;
     if (best.empty() && !found.empty() && found.front().mistakes.size() == 1) best = found;
