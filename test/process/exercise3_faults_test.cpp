@@ -1,6 +1,4 @@
 // External faults during a run: each ends with one clear line and the right exit status.
-#include <spring_pendulum/integration/method_table.hpp>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,12 +18,6 @@ namespace {
 
 using testing::AnyOf;
 using testing::HasSubstr;
-
-std::vector<std::string> methods() {
-  std::vector<std::string> names;
-  for (const Method& method : methodTable()) names.emplace_back(method.name);
-  return names;
-}
 
 void expectOneLine(const std::string& text) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
@@ -72,24 +64,6 @@ TEST_F(Disturbed, OutputFolderMadeReadOnly) {
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.errors, HasSubstr("could not be written: Permission denied"));
   expectOneLine(result.errors);
-}
-
-TEST_F(Disturbed, KilledWithAEnergyBalanceLeavesNoPartOfIt) {
-  Process process(command({"--energy", "energy.csv"}));
-  process.waitForFile(folder_.path(kFrame));
-  process.sendSignal(SIGKILL);
-  EXPECT_EQ(process.wait().status, 128 + SIGKILL);
-  EXPECT_FALSE(std::filesystem::exists(folder_.path("energy.csv")));
-}
-
-TEST_F(Disturbed, ASecondRunWithTheSameEnergyBalanceIsRefused) {
-  Process first(command({"--energy", "energy.csv"}));
-  first.waitForFile(folder_.path(kFrame));
-  const Result second = run(exercise3(folder_, {"Euler", "--no-frames", "--energy", "energy.csv"}));
-  EXPECT_EQ(second.status, 1);
-  EXPECT_EQ(second.errors,
-            folder_.path("energy.csv") +
-                ": another run is writing here; use a different path for each run\n");
 }
 
 TEST_F(Disturbed, ParticleFileReplacedDuringTheRunDoesNotMatter) {
@@ -172,18 +146,6 @@ TEST(Exercise3Faults, MoreParticlesThanMemory) {
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.errors, "not enough memory for a chain of this length\n");
   EXPECT_EQ(listFolder(folder.path()), std::vector<std::string>{"particle.txt"});
-}
-
-TEST(Exercise3Faults, NoMethodHangsOnANumberOutOfRange) {
-  const TemporaryFolder folder;
-  folder.write("particle.txt", chainOf(4, "1e-300"));
-  for (const char* option : {"--stiffness", "--damping", "--gravity"}) {
-    for (const std::string& method : methods()) {
-      const Result result =
-          run(exercise3(folder, {method, "--no-frames", "--frames", "3", option, "1e150"}));
-      EXPECT_THAT(result.status, AnyOf(0, 2, 3)) << method << " " << option;
-    }
-  }
 }
 
 TEST(Exercise3Faults, AnExplosionIsFilmedOnlyOnDemandAndOnlyWhileItIsFinite) {

@@ -47,31 +47,14 @@ class Exercise3Files : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Exercise3Files, InputsAreNeverWritten) {
-  const std::string yaml = "frames: 3\n";
-  folder_.write("run.yaml", yaml);
-  std::filesystem::create_symlink("particle.txt", folder_.path("soft"));
-  std::filesystem::create_hard_link(folder_.path("particle.txt"), folder_.path("hard"));
-  for (const std::string name : {"particle.txt", "./particle.txt", "soft", "hard", "run.yaml"}) {
-    const Result result = run(command({"--config", "run.yaml", "--no-frames", "--energy", name}));
-    EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(
-        result.errors,
-        EndsWith(" is an input of this run and would be overwritten; choose another file\n"));
-  }
-  EXPECT_EQ(read("particle.txt"), kTwoParticles);
-  EXPECT_EQ(read("run.yaml"), yaml);
-  const Result inside = run(command({"--no-frames", "--energy", folder_.path(".")}));
-  EXPECT_EQ(inside.status, 1);
-  EXPECT_THAT(inside.errors, EndsWith(": is a folder, a pipe or a device; give a regular file\n"));
-}
-
-TEST_F(Exercise3Files, AParticleFileWithTheNameOfAFrameStays) {
+TEST_F(Exercise3Files, AnInputIsNoOutput) {
+  expectRefused({"--energy", "particle.txt"}, 2,
+                folder_.path("particle.txt") +
+                    ": is an input of this run and would be overwritten; choose another file");
   folder_.write("frame_0012.txt", kTwoParticles);
   expectRefused({"--particles", "frame_0012.txt"}, 2,
                 folder_.path("frame_0012.txt") +
                     ": has the name of a frame; choose another folder for the frames");
-  EXPECT_EQ(read("frame_0012.txt"), kTwoParticles);
 }
 
 TEST_F(Exercise3Files, AnEnergyFileIsNoFrame) {
@@ -115,14 +98,6 @@ TEST_F(Exercise3Files, WhatIsInTheWayOfTheHiddenFileIsNotOpened) {
   EXPECT_EQ(read("other"), "of somebody");
 }
 
-TEST_F(Exercise3Files, WhatAKilledRunLeftIsReplaced) {
-  folder_.write(".e.csv.tmp", std::string(100000, 'x'));
-  EXPECT_EQ(run(command({"--no-frames", "--energy", "e.csv"})).status, 0);
-  EXPECT_THAT(read("e.csv"), StartsWith(kEnergyStart));
-  EXPECT_LT(read("e.csv").size(), 10000U);
-  EXPECT_THAT(listFolder(folder_.path()), ElementsAre("e.csv", "particle.txt"));
-}
-
 TEST_F(Exercise3Files, PipesAndStandardStreamsAreRefused) {
   mkfifo(folder_.path("pipe").c_str(), 0600);
   for (const std::string& name : {folder_.path("pipe"), folder_.path(), std::string("/dev/null")}) {
@@ -158,15 +133,6 @@ TEST_F(Exercise3Files, DotsAfterALinkMeanTheFolderThatTheLinkLeadsTo) {
   EXPECT_THAT(result.output, HasSubstr(" to " + folder_.path("link/../frames")));
   EXPECT_EQ(listFolder(folder_.path("far/frames")).size(), 3U);
   EXPECT_EQ(read("frames/frame_0000.txt"), "not of this run");
-}
-
-TEST_F(Exercise3Files, EarlierFramesAreCounted) {
-  folder_.write("frame_9999.txt", "of somebody");
-  folder_.write("frame_0000.txt", "of somebody");
-  EXPECT_THAT(run(command({})).output,
-              HasSubstr(" to " + folder_.path() + " (2 earlier frames removed), "));
-  EXPECT_THAT(run(command({"--output", "new"})).output,
-              HasSubstr(" to " + folder_.path("new") + ", "));
 }
 
 TEST_F(Exercise3Files, AReplacedEnergyFileKeepsItsPermissions) {
@@ -225,19 +191,6 @@ TEST_F(Exercise3Endless, AFolderMovedAwayAndReplacedIsAnError) {
             folder_.path("out") + ": was moved or removed during the run, and its files with it\n");
   EXPECT_THAT(read("e.csv"), StartsWith(kEnergyStart));
   EXPECT_THAT(listFolder(folder_.path("out")), ElementsAre());
-}
-
-TEST_F(Exercise3Endless, TheFolderOfAnEnergyFileMovedAwayIsAnError) {
-  std::filesystem::create_directory(folder_.path("far"));
-  Process process(endless({"--energy", "far/e.csv"}));
-  process.waitForFile(folder_.path("out/frame_0005.txt"));
-  std::filesystem::rename(folder_.path("far"), folder_.path("moved"));
-  process.sendSignal(SIGTERM);
-  const Result result = process.wait();
-  EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.errors,
-            folder_.path("far") + ": was moved or removed during the run, and its files with it\n");
-  EXPECT_THAT(read("moved/e.csv"), StartsWith(kEnergyStart));
 }
 
 TEST_F(Exercise3Endless, ASignalEndsItInsideAFrame) {
@@ -304,13 +257,6 @@ TEST_F(Exercise3Files, TheEnergyFileMayLieInTheNewFolderOfTheFrames) {
   folder_.write("file", "");
   expectRefused({"--energy", "file/e.csv"}, 1,
                 folder_.path("file/e.csv") + ": could not be written: Not a directory");
-}
-
-TEST_F(Exercise3Files, ALinkToNoFolderIsToldAsSuch) {
-  std::filesystem::create_symlink("nowhere", folder_.path("link"));
-  expectRefused({"--output", "link"}, 1,
-                folder_.path("link") +
-                    ": could not be created: it is a link to a folder that does not exist");
 }
 
 // Otherwise a folder name could forge lines, or control the terminal.

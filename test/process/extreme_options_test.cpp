@@ -1,6 +1,7 @@
 // Random products of extreme values of the options: what a program refuses, it refuses before it
 // touches the output folder.
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,18 +38,16 @@ class ExtremeOptions : public testing::Test {
 
   /// Some of the options with a range, at extreme values.
   std::vector<std::string> randomArguments(const std::vector<std::string>& own_options) {
-    const bool fixed_step = random_() % 3 != 0;
-    std::vector<std::string> arguments{
-        pick(fixed_step ? std::vector<std::string>{"Euler", "Runge-Kutta-4", "Velocity-Verlet"}
-                        : std::vector<std::string>{"Auto", "Taylor-8", "Radau-9"}),
-        "--frames", "3"};
+    const Method& method = methodTable()[random_() % methodTable().size()];
+    std::vector<std::string> arguments{method.name, "--frames", "3"};
     for (const std::string& option : own_options) {
       if (random_() % 4 == 0) arguments.insert(arguments.end(), {option, pick(kNumbers)});
     }
     Scenario scenario;
     for (const Option& option : scenarioOptions(scenario)) {
       const bool is_other =
-          option.applies_to == (fixed_step ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep);
+          option.applies_to ==
+          (method.hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep);
       if (is_other || random_() % 4 != 0) continue;
       std::string name = "--" + std::string(option.key);
       std::replace(name.begin() + 2, name.end(), '_', '-');

@@ -48,7 +48,7 @@ class FaultInjection : public testing::TestWithParam<std::string> {
     folder.write("frame_0002.txt", std::string(200, 'e'));
     folder.write("frame_0007.txt", "earlier");
     folder.write(".frame_0004.txt.tmp", "killed");
-    folder.write(".e.csv.tmp", "killed");
+    folder.write(".e.csv.tmp", std::string(10000, 'k'));
     folder.write("e.csv", "earlier energies");
   }
 

@@ -131,6 +131,10 @@ const Program kExercise3{{EXERCISE3, "Euler", "--particles", "in.txt", "--config
 
 TEST_F(TouchedFiles, OfExercise3AreNoInputs) {
   checkAgainstInputs(kExercise3);
+  const std::string state = "# state of 2 particles at frame 0, t = 0 s\n0 0 1 0 0\n1 0 1 0 0\n";
+  checkAgainstInputs({{EXERCISE3, "Euler", "in.txt", "--resume", "--frames", "3"},
+                      {{"in.txt", state}},
+                      {"--energy", "--save-state", "--output"}});
   expectBoth(100);
 }
 
