@@ -63,6 +63,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
 
 void ExplicitRungeKutta::integrate(State& state, double time_step, std::int64_t steps) {
   requireAdvance(chain().size, state.size(), time_step, steps);
+  if (steps == 0) return;  // kernels take at least one
   held().begin(state, time_step);
   for (std::size_t i = 0; i < stages_; ++i) {
     const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
