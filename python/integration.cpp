@@ -31,22 +31,12 @@ Numbers finiteVector(const py::object& argument, const std::string& name) {
   return numbers;
 }
 
-AlignedNumbers toVector(const py::object& argument, const std::string& name) {
-  const Numbers numbers = toNumbers(argument, name, 1);
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
-}
-
 /// A view of memory that `owner` keeps alive.
 py::array viewOf(const double* data, const std::vector<py::ssize_t>& shape,
                  const py::object& owner) {
   std::vector<py::ssize_t> strides{static_cast<py::ssize_t>(sizeof(double))};
   if (shape.size() > 1) strides.push_back(shape.front() * strides.front());
   return {py::dtype::of<double>(), shape, strides, data, owner};
-}
-
-py::array readOnly(py::array view) {
-  view.attr("setflags")("write"_a = false);
-  return view;
 }
 
 State makeState(const py::object& x, const py::object& y, const py::object& vx,
@@ -125,8 +115,10 @@ void defineChain(py::module_& module) {
   constexpr SpringLaw kSpring;
   const auto make = [](const py::object& masses, double stiffness, double damping,
                        double rest_length, double gravity, double air_drag) {
-    return Chain(toVector(masses, "masses"), {stiffness, damping, rest_length}, gravity)
-        .inAir(air_drag);
+    const Numbers numbers = toNumbers(masses, "masses", 1);
+    const AlignedNumbers aligned =
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
+    return Chain(aligned, {stiffness, damping, rest_length}, gravity).inAir(air_drag);
   };
   py::class_<Chain>(module, "Chain",
                     "N particles joined by N - 1 equal springs; the first is fixed.")
@@ -136,7 +128,9 @@ void defineChain(py::module_& module) {
       .def_property_readonly("masses",
                              [](const py::object& self) {
                                const auto& chain = self.cast<const Chain&>();
-                               return readOnly(viewOf(chain.masses().data(), {chain.size()}, self));
+                               py::array view = viewOf(chain.masses().data(), {chain.size()}, self);
+                               view.attr("setflags")("write"_a = false);
+                               return view;
                              })
       .def_property_readonly("stiffness", [](const Chain& c) { return c.spring().stiffness; })
       .def_property_readonly("damping", [](const Chain& c) { return c.spring().damping; })

@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -26,6 +24,7 @@ namespace {
 
 using namespace py::literals;
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Numbers of a frame, as `recordNumbers` writes them.
 constexpr py::ssize_t kFrameNumbers = 9;
 
@@ -48,12 +47,6 @@ std::string pathText(const py::object& value) {
   return py::reinterpret_steal<py::bytes>(bytes);
 }
 
-/// Whether Python converts a value to a number without parsing text.
-bool isNumber(const py::object& value) {
-  const PyNumberMethods* const number = Py_TYPE(value.ptr())->tp_as_number;
-  return number != nullptr && (number->nb_float != nullptr || number->nb_index != nullptr);
-}
-
 /// The text of a value as the option table reads it.
 std::string optionText(const OptionDescription& option, const py::object& value) {
   if (option.is_text) {
@@ -64,9 +57,8 @@ std::string optionText(const OptionDescription& option, const py::object& value)
   py::detail::make_caster<bool> flag;
   if (flag.load(value, false)) return flag ? "true" : "false";
   if (PyIndex_Check(value.ptr()) != 0) return py::str(py::int_(value));
-  if (!isNumber(value)) return reprOf(value);
-  const auto number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
-  if (number) return py::repr(number);
+  const double number = PyFloat_AsDouble(value.ptr());  // does not parse text
+  if (PyErr_Occurred() == nullptr) return py::repr(py::float_(number));
   PyErr_Clear();
   return reprOf(value);
 }
@@ -87,14 +79,12 @@ Scenario scenarioOf(const py::dict& options) {
 
 /// Writes an array of shape (N, 3) as the text of a particle file, so that its rules apply.
 std::string particleText(const Numbers& rows) {
-  fmt::memory_buffer text;
+  std::string text;
   for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
-    for (py::ssize_t j = 0; j < rows.shape(1); ++j) {
-      fmt::format_to(std::back_inserter(text), "{} ", *rows.data(i, j));
-    }
-    text.push_back('\n');
+    for (py::ssize_t j = 0; j < rows.shape(1); ++j) text += fmt::format("{} ", *rows.data(i, j));
+    text += '\n';
   }
-  return fmt::to_string(text);
+  return text;
 }
 
 /// \param particles a path or an array; sets `scenario.particles`
@@ -109,7 +99,7 @@ Particles particlesOf(const py::object& particles, Scenario& scenario) {
 }
 
 double orNan(const std::optional<double>& number) {
-  return number.value_or(std::numeric_limits<double>::quiet_NaN());
+  return number.value_or(kNan);
 }
 
 /// Writes the numbers of a frame into a column of a table with a row for each quantity.
@@ -176,11 +166,6 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
                   "closing_line"_a = run.closingLine(output.closingText()));
 }
 
-/// NaN becomes None.
-py::object orNone(double number) {
-  return std::isnan(number) ? py::object(py::none()) : py::float_(number);
-}
-
 py::tuple check(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
   const Particles start = particlesOf(particles, scenario);
@@ -192,17 +177,9 @@ py::tuple check(const py::object& particles, const py::dict& options) {
     report = checkStability(chain, start.state, scenario, [&] { return interruption(); });
   }
   interruption.raise();
-  return py::make_tuple(report.text,
-                        report.tried ? tupleOf(report.verdict) : py::object(py::none()),
-                        report.tried ? orNone(report.position_error.largest) : py::none(),
-                        orNone(report.stable.step), orNone(report.accurate_step));
-}
-
-py::object defaultOf(const OptionDescription& option) {
-  if (option.is_text) return py::str(option.value);
-  if (option.is_flag) return py::bool_(option.value == "true");
-  return option.is_count ? py::object(py::int_(py::str(option.value)))
-                         : py::float_(py::str(option.value));
+  return py::make_tuple(report.text, report.tried ? tupleOf(report.verdict) : py::tuple(),
+                        report.tried ? report.position_error.largest : kNan, report.stable.step,
+                        report.accurate_step);
 }
 
 }  // namespace
@@ -217,12 +194,14 @@ void defineSimulation(py::module_& module) {
       [] {
         py::list rows;
         for (const OptionDescription& option : describeOptions(pythonDefaults())) {
-          rows.append(py::make_tuple(option.key, defaultOf(option), option.unit, option.range,
-                                     option.meaning, option.users));
+          rows.append(py::make_tuple(option.key, option.value, option.is_text, option.unit,
+                                     option.range, option.meaning, option.users));
         }
         return rows;
       },
-      "The options of a run: tuples of key, default, unit, range, meaning, users.");
+      "The options of a run: tuples of key, text of the default, whether it is no number, unit, "
+      "range, "
+      "meaning, users.");
 }
 
 }  // namespace spring_pendulum::python

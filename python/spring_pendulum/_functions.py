@@ -1,5 +1,7 @@
 """simulate and check. Their keywords, defaults and documentation come from the option table."""
 import inspect
+import json
+import math
 import textwrap
 import warnings
 
@@ -10,7 +12,8 @@ from ._run import Report, Run, Verdict
 def _with_options(function):
     """Completes signature and documentation of a function of particles and options."""
     parameters, lines = [], []
-    for key, default, unit, accepted, meaning, users in _core.options():
+    for key, default, is_text, unit, accepted, meaning, users in _core.options():
+        default = default if is_text else json.loads(default)
         is_first = key == 'particles'
         kind = inspect.Parameter.POSITIONAL_OR_KEYWORD if is_first else inspect.Parameter.KEYWORD_ONLY
         parameters.insert(0 if is_first else len(parameters), inspect.Parameter(key, kind, default=default))
@@ -69,4 +72,4 @@ Raises:
     FileError: a file that cannot be read
 """
     text, verdict, *limits = _core.check(particles, options)
-    return Report(text, verdict and Verdict(*verdict), *limits)
+    return Report(text, Verdict(*verdict) if verdict else None, *(None if math.isnan(x) else x for x in limits))
