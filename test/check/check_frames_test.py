@@ -132,12 +132,13 @@ class Lab:
     def rng_array(self, shape):
         return np.array([self.rng.random() for _ in range(int(np.prod(shape)))]).reshape(shape)
 
-    def verdict(self, result, form, particles, method, frames=None, *options):
+    def verdict(self, result, form, particles, method, frames=None, *options, first=0):
         self.count += 1
         folder = self.folder / f'frames_{self.count}'
-        student.write(folder, result, form)
+        student.write(folder, result, form, first=first)
         command = [self.check, folder, '--particles', particles, '--json', '--frames', str(frames or len(result))]
-        done = subprocess.run(command + ['--method', method, *options], stdout=subprocess.PIPE, check=False)
+        asked = ['--tableau' if isinstance(method, pathlib.Path) else '--method', method]
+        done = subprocess.run(command + [*asked, *options], stdout=subprocess.PIPE, check=False)
         return done.returncode, json.loads(done.stdout)
 
 
@@ -247,6 +248,41 @@ def garbage_is_not_equal(lab):
     return True
 
 
+def other_courses_are_judged(lab):
+    """Whether programs with air drag, with Heun or Ralston, and with implicit Euler are equal or their mistakes named."""
+    path = PROJECT / 'data' / 'random_masses.txt'
+    scene = student.read_scene(path)
+    heun, air, file = dict(tableau=student.HEUN), ('--air-drag', '0.2'), lab.folder / 'ralston.txt'
+    ralston = dict(tableau=dict(start=[(), (2 / 3,)], weights=(1 / 4, 3 / 4)))
+    implicit = dict(method='Backward-Euler')
+    file.write_text('# Ralston\n2/3\n1/4 3/4\n')
+    cases = [  # program, format, first index, asked, status, what is named
+        (dict(heun, air=0.2), '6f', 0, ('Heun', *air), 0, []),
+        (dict(heun, air=0.2), '17g', 1, ('Heun', *air), 0, []),
+        (dict(ralston, steps=4, h=0.02), '6g', 0, ('Ralston', '--steps-per-frame', '4', '--time-step', '0.02'), 0, []),
+        (ralston, '9g', 0, (file,), 0, []),
+        (dict(heun, air=0.2), '8f', 0, ('Heun',), 4, ['air_drag']),
+        (heun, '8f', 0, ('Heun', *air), 4, ['no_air_drag']),
+        (dict(heun, air=0.2), '8f', 0, ('Runge-Kutta-2', *air), 4, ['heun']),
+        (dict(heun, wrong=['gravity_divided']), '8f', 0, (file,), 4, ['heun', 'gravity_divided']),
+        (implicit, '6f', 0, ('Backward-Euler',), 0, []),
+        (dict(implicit, air=0.2), '8g', 1, ('Backward-Euler', *air), 0, []),
+        (dict(implicit, k_s=40), '6f', 0, ('Backward-Euler',), 4, ['k_s']),
+        (dict(implicit, wrong=['no_damping']), '6f', 0, ('Backward-Euler',), 4, ['no_damping']),
+        (implicit, '6f', 0, ('Euler',), 4, 'Backward-Euler'),
+    ]
+    good = True
+    for program, form, first, (asked, *options), expected, names in cases:
+        status, verdict = lab.verdict(student.frames(scene, count=40, **program), form, path, asked, 40, *options,
+                                      first=first)
+        found = verdict['explanations'][0]['mistakes'] if verdict['explanations'] else []
+        is_named = verdict['methods'] == [names] if isinstance(names, str) else found == names
+        if status != expected or not is_named or any('numbered' in line for line in verdict['remarks']) != (first == 1):
+            print('course:', program, form, first, asked, options, status, verdict)
+            good = False
+    return good
+
+
 def resumed_run_is_equal(lab, method):
     """Whether the second half of a run is accepted, with the start or with the saved state as particle file."""
     start, state, folder = PROJECT / 'data' / 'random_masses.txt', lab.folder / 'state.txt', lab.folder / 'resumed'
@@ -283,6 +319,7 @@ def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
         assert late_frames_fail(lab, ['frame_0000.txt', 'frame_99999999999.txt'])
         assert late_frames_fail(lab, ['frame_99999999999.txt'])
         assert garbage_is_not_equal(lab)
+        assert other_courses_are_judged(lab)
         assert resumed_run_is_equal(lab, 'Runge-Kutta-4') and resumed_run_is_equal(lab, 'Auto')
         assert stops_inside_a_frame(lab)
     print(f'{named_rightly} of {number_wrong} wrong programs named, {accused} of {number_right} right ones accused')

@@ -4,8 +4,9 @@ frames(scene, method, mistakes, ...) returns N x 2 arrays; write(...) prints the
 """
 import numpy as np
 
-DEFAULTS = dict(k_s=50.0, k_d=1.0, L_0=1.0, g=9.81, h=0.01, steps=10)
+DEFAULTS = dict(k_s=50.0, k_d=1.0, L_0=1.0, g=9.81, air=0.0, h=0.01, steps=10)
 RK2 = dict(start=[(), (0.5,)], weights=(0, 1))
+HEUN = dict(start=[(), (1,)], weights=(0.5, 0.5))
 RK4 = dict(start=[(), (0.5,), (0, 0.5), (0, 0, 1)], weights=(1 / 6, 1 / 3, 1 / 3, 1 / 6))
 
 
@@ -43,6 +44,7 @@ def accelerations(p, v, m, c, wrong, real):
         force[1:] -= f
     if 'one_spring_previous' not in wrong:
         force[:-1] += f
+    force -= real(c['air']) * v
     if 'mass_of_neighbour' in wrong:
         a = force / np.concatenate([m[:1], m[:-1]])
     else:
@@ -67,6 +69,16 @@ def euler_step(p, v, f, h, wrong):
     a = f(p, v)
     new = v + h * a
     return p + h * (new if 'semi_implicit' in wrong else v), new
+
+
+def implicit_step(p, v, f, h):
+    """Solved by iteration, which converges for the springs and steps of the exercise."""
+    new = v
+    for _ in range(100):
+        new, last = v + h * f(p + h * new, new), new
+        if np.abs(new - last).max() < 1e-10:
+            break
+    return p + h * new, new
 
 
 def runge_kutta_step(p, v, f, h, tableau, wrong):
@@ -95,7 +107,7 @@ def frames(scene, method='Runge-Kutta-4', wrong=(), count=500, tableau=None, **c
     p, v, m = scene[:, :2].astype(real), np.zeros((len(scene), 2), real), scene[:, 2:].astype(real)
     tableau = tableau or {'Runge-Kutta-2': RK2, 'Runge-Kutta-4': RK4}.get(method)
     if 'heun' in wrong:
-        tableau = dict(start=[(), (1,)], weights=(0.5, 0.5))
+        tableau = HEUN
     h = real(c['h'])
 
     def f(pos, vel):
@@ -104,6 +116,8 @@ def frames(scene, method='Runge-Kutta-4', wrong=(), count=500, tableau=None, **c
     def step(pos, vel):
         if method == 'Euler':
             return euler_step(pos, vel, f, h, wrong)
+        if method == 'Backward-Euler':
+            return implicit_step(pos, vel, f, h)
         return runge_kutta_step(pos, vel, f, h, tableau, wrong)
 
     result = []
@@ -126,8 +140,8 @@ def number(value, form):
     return repr(float(value)) if form == 'r' else format(value, '.' + form)
 
 
-def write(folder, result, form='17g', separator=' '):
+def write(folder, result, form='17g', separator=' ', first=0):
     folder.mkdir(parents=True, exist_ok=True)
     for n, frame in enumerate(result):
         text = ''.join(separator.join(number(x, form) for x in row) + '\n' for row in frame)
-        (folder / f'frame_{n:04d}.txt').write_text(text)
+        (folder / f'frame_{n + first:04d}.txt').write_text(text)
