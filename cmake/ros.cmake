@@ -10,7 +10,7 @@ if(pybind11_FOUND)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/catkin_generated/safe_execute_install.cmake "")
 endif()
 add_message_files(FILES PendulumInput.msg PendulumState.msg PendulumStatus.msg)
-add_service_files(FILES ApplyForce.srv Set.srv StatePath.srv)
+add_service_files(FILES ApplyForce.srv Set.srv SetMethod.srv StatePath.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 catkin_package(

@@ -4,7 +4,8 @@
 Usage: view.py CONFIG BAG [arguments of rviz]
 
 BAG is "none", or a bag that will be played. Then rviz shows every topic of markers in it. If the bag
-holds no camera transform, which shows the whole scene, the view is set from the markers."""
+holds no camera transform, which shows the whole scene, the view is set from the markers. Without a bag,
+rviz also shows the pendulums that run in namespaces."""
 import signal
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while Python starts is no reason for a traceback
 
@@ -13,6 +14,7 @@ import os
 import sys
 
 import rosbag
+import rosgraph
 import rospkg
 import yaml
 
@@ -31,11 +33,23 @@ def has_camera(bag):
                bag.read_messages(topics=['/tf_static', 'tf_static']) for transform in message.transforms)
 
 
-def set_displays(config, topics):
+def live_topics():
+    """The topics of markers of the running nodes."""
+    try:
+        topics = dict(rosgraph.Master('/view').getPublishedTopics(''))
+    except (OSError, rosgraph.MasterException):
+        topics = {}
+    return sorted(name for name in topics if name.endswith('/markers') and
+                  topics.get(name[:-len('markers')] + 'state') == 'spring_pendulum/PendulumState')
+
+
+def set_displays(config, topics, keep=False):
     displays = config['Visualization Manager']['Displays']
     template = next(d for d in displays if d['Class'] == 'rviz/MarkerArray')
-    others = [d for d in displays if d['Class'] != 'rviz/MarkerArray']
-    shown = [dict(template, Name=topic, **{'Marker Topic': topic}) for topic in topics]
+    others = [d for d in displays if keep or d['Class'] != 'rviz/MarkerArray']
+    own = os.environ.get('ROS_NAMESPACE', '/')
+    known = {rosgraph.names.ns_join(own, d['Marker Topic']) for d in others if 'Marker Topic' in d}
+    shown = [dict(template, Name=topic, **{'Marker Topic': topic}) for topic in topics if topic not in known]
     config['Visualization Manager']['Displays'] = others + shown
 
 
@@ -59,16 +73,19 @@ def set_view(config, bag, topics):
 
 
 def adapted(path, bag_path):
-    """The path of a copy of the configuration with the topics of the bag."""
+    """The path of a copy of the configuration with the topics of the bag or of the running nodes."""
     with open(path) as file:
         config = yaml.safe_load(file)
-    with rosbag.Bag(bag_path) as bag:
-        topics = marker_topics(bag)
-        if not topics:
-            sys.exit('%s: contains no markers (visualization_msgs/MarkerArray)' % bag_path)
-        set_displays(config, topics)
-        if not has_camera(bag):
-            set_view(config, bag, topics)
+    if bag_path == 'none':
+        set_displays(config, live_topics(), keep=True)
+    else:
+        with rosbag.Bag(bag_path) as bag:
+            topics = marker_topics(bag)
+            if not topics:
+                sys.exit('%s: contains no markers (visualization_msgs/MarkerArray)' % bag_path)
+            set_displays(config, topics)
+            if not has_camera(bag):
+                set_view(config, bag, topics)
     copy = os.path.join(rospkg.get_ros_home(), 'spring_pendulum.rviz')
     os.makedirs(os.path.dirname(copy), exist_ok=True)
     with open(copy, 'w') as file:
@@ -83,7 +100,7 @@ def main():
     if not any(os.environ.get(name) for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM')):
         sys.exit('rviz needs a display, and DISPLAY is not set; without one, use rviz:=false')
     try:
-        if bag != 'none':
+        if bag != 'none' or live_topics():
             config = adapted(config, bag)
     except (OSError, rosbag.ROSBagException, yaml.YAMLError) as error:
         sys.exit('%s: %s' % (bag, error))

@@ -1,24 +1,191 @@
 // Writes the messages of a run directly to a bag: without a master, as fast as possible, stamped
 // with simulated time, and with the same bytes in every run.
+#include "base/numbers.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/paths.hpp"
+#include "io/formats/run_files.hpp"
 #include "io/program/closing.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
-#include "ros/bag_recorder.hpp"
+#include "ros/inputs/input_messages.hpp"
+#include "ros/messages/run_messages.hpp"
+#include "ros/node/pacer.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
+#include <boost/make_shared.hpp>
+#include <fmt/format.h>
+
+#include <rosbag/bag.h>
+
+#include <cerrno>
 #include <console_bridge/console.h>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace spring_pendulum {
 namespace {
+
+struct BagOptions {
+  std::string path = "pendulum.bag";
+  std::string name_space;  ///< prefix of the topics
+  std::string inputs;      ///< bag whose run is repeated; empty: none
+  bool append = false;     ///< add to the bag instead of replacing it
+  std::string config;      ///< configuration file of the run, which must not be overwritten
+};
+
+/// Returns the connection header of a latched topic.
+template <typename Message>
+boost::shared_ptr<ros::M_string> latched(const std::string& topic) {
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["topic"] = topic;
+  (*header)["type"] = ros::message_traits::datatype<Message>();
+  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+  (*header)["message_definition"] = ros::message_traits::definition<Message>();
+  (*header)["latching"] = "1";
+  return header;
+}
+
+/// Sends the messages of a run to a bag.
+class BagRecorder : public Outlet {
+ public:
+  BagRecorder(rosbag::Bag& bag, const Run& run, const NodeOptions& options, std::string prefix)
+      : bag_(bag),
+        messages_(run, options, true),
+        pacer_(1.0, options.display_rate),
+        prefix_(std::move(prefix)),
+        status_header_(latched<PendulumStatus>(prefix_ + "status")),
+        camera_header_(latched<tf2_msgs::TFMessage>("/tf_static")) {}
+
+  /// Writes a state if it is that of a frame, or one that the display rate asks for.
+  void write(const Run& run) {
+    if (pacer_.isShown(run.time(), run.isAtFrame())) messages_.send(run, {}, *this);
+  }
+
+  std::int64_t count() const { return count_; }
+
+  void start(const std_msgs::Header& header) override { stamp_ = header.stamp; }
+  void put(const tf2_msgs::TFMessage& camera) override {
+    write("/tf_static", camera, camera_header_);
+  }
+  void put(const visualization_msgs::MarkerArray& markers) override {
+    write(prefix_ + "markers", markers);
+  }
+  void put(const PendulumState& state) override { write(prefix_ + "state", state); }
+  void put(const PendulumStatus& status) override {
+    write(prefix_ + "status", status, status_header_);
+  }
+
+ private:
+  template <typename Message>
+  void write(const std::string& topic, const Message& message,
+             const boost::shared_ptr<ros::M_string>& connection = {}) {
+    bag_.write(topic, stamp_, message, connection);
+    ++count_;
+  }
+
+  rosbag::Bag& bag_;
+  RunMessages messages_;
+  Pacer pacer_;
+  std::string prefix_;
+  boost::shared_ptr<ros::M_string> status_header_;
+  boost::shared_ptr<ros::M_string> camera_header_;
+  ros::Time stamp_;
+  std::int64_t count_ = 0;
+};
+
+/// Returns the prefix of topics: "/euler/" for "euler" or "/euler/", "/" for empty text.
+std::string topicPrefix(const std::string& name_space) {
+  return std::regex_replace("/" + name_space + "/", std::regex("//+"), "/");
+}
+
+/// Records until the end of the run or a signal, also the status of a run that diverged.
+void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files) {
+  bool goes_on = true;
+  while (goes_on) {
+    goes_on = run.advancePart();
+    if (goes_on) {
+      recorder.write(run);
+      files.write(run);
+    }
+    if (replay == nullptr || run.wasStopped()) continue;
+    // A run that is over may go back.
+    goes_on = replay->apply(run) || (goes_on && !replay->isOver(run));
+  }
+  if (!run.isShown()) recorder.write(run);
+}
+
+std::vector<Option> bagOptions(BagOptions& o) {
+  return {
+      {"bag", Text{&o.path, "FILE", "a file"}, "", "the bag to write"},
+      {"namespace", Text{&o.name_space, "NAME", "a name that ROS accepts", isTopicName}, "",
+       "put before the topics markers, state and status"},
+      {"inputs", Text{&o.inputs, "FILE", "a bag"}, "",
+       "bag with the inputs of a node, whose run is repeated bit for bit; method, constants, "
+       "numbers and particles come from it"},
+      {"append", Flag{&o.append}, "", "add to an existing bag, for example another method's run"},
+  };
+}
+
+/// Records a run. The same scenario and options give the same bytes. The bag is complete or absent, like every
+/// OutputFile; when appending, a longer copy replaces the bag at the end. After a signal, the bag ends
+/// with the last message before it.
+/// \param started called when nothing about the files can be refused any more, before the run
+/// \returns for the closing line: ", 501 messages, 123456 bytes in /home/me/pendulum.bag"
+/// \throws FileError naming the bag
+std::string recordBag(Run& run, Replay* replay, const NodeOptions& options, const BagOptions& to,
+                      const std::function<void()>& started) {
+  const Scenario& scenario = run.scenario();
+  auto bag = std::make_unique<rosbag::Bag>();
+  BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
+  // What can refuse the options is done: these remove files of earlier runs.
+  TouchedFiles touched = touchedFiles(scenario, to.config);
+  touched.inputs.push_back(to.inputs);
+  touched.outputs.push_back(to.path);
+  checkTouchedFiles(touched);
+  OutputFile file(to.path);
+  RunFiles files(run, to.config);
+  std::int64_t messages = 0;
+  bool has_earlier = false;
+  try {
+    has_earlier = to.append && file.copyEarlier();
+    errno = 0;
+    bag->open(file.unfinishedPath(),
+              has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
+    started();
+    recordRun(run, replay, recorder, files);
+    bag->close();
+    messages = recorder.count();
+  } catch (const rosbag::BagException& error) {
+    // The text of a BagIOException has neither the file nor the reason.
+    const bool is_io = dynamic_cast<const rosbag::BagIOException*>(&error) != nullptr;
+    std::string reason = is_io ? "could not be written: " + messageForErrno() : error.what();
+    if (is_io && has_earlier && errno == 0)
+      reason = "is not a complete bag, so nothing can be appended to it";
+    static_cast<void>(
+        bag.release());  // its destructor would close again and throw, which ends the program
+    throw FileError(fmt::format("{}: {}", file.path(), reason));
+  } catch (...) {
+    static_cast<void>(bag.release());
+    throw;
+  }
+  std::string output =
+      fmt::format(", {}, {} bytes in {}", counted(messages, "message"), file.size(), file.path());
+  file.finish();
+  files.finish();
+  return output;
+}
 
 int record(int argc, const char* const* argv) {
   ProgramText program{"record_bag",

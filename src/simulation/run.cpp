@@ -52,6 +52,15 @@ std::int64_t partsPerFrame(const Scenario& scenario, double display_interval) {
   return parts;
 }
 
+/// Gives a scenario frames of this interval, s. If it is no whole number of fixed steps, they become shorter.
+void keepFrames(Scenario& scenario, double interval) {
+  scenario.frame_interval = interval;
+  if (std::abs(frameSteps(scenario).timeOfFrame(1) - interval) <= 1e-12 * interval) return;
+  scenario.steps_per_frame =
+      static_cast<std::int64_t>(std::min(std::ceil(interval / scenario.time_step), 1e9));
+  scenario.time_step = interval / static_cast<double>(scenario.steps_per_frame);
+}
+
 const Scenario& checked(const Scenario& scenario, std::int64_t first_frame) {
   checkScenario(scenario);
   checkFirstFrame(scenario, first_frame);
@@ -203,9 +212,9 @@ void Run::begin(std::int64_t frame, const State& state) {
   integrator_->restart();
   state_ = state;
   frame_ = frame;
-  part_ = frame_origin_ = 0;
+  part_ = 0;
   started_ = stopped_ = asleep_ = false;
-  time_origin_ = dissipated_before_ = dissipated_ = supplied_before_ = supplied_ = work_ = 0.0;
+  dissipated_before_ = dissipated_ = supplied_before_ = supplied_ = work_ = 0.0;
   judgeFrame();
 }
 
@@ -223,13 +232,12 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   next.rest_length = scenario.rest_length;
   next.gravity = scenario.gravity;
   next.air_drag = scenario.air_drag;
-  checkScenario(next);
   const bool fixed_step = next.method.get().hasFixedStep();
   const bool other_control = fixed_step != scenario_.method.get().hasFixedStep();
-  if (other_control && part_ != 0) {
-    throw InputError(
-        "a method with fixed steps and one with error control alternate at frames only");
-  }
+  if (other_control) keepFrames(next, frameSteps(scenario_).timeOfFrame(1));
+  checkScenario(next);
+  if (other_control && part_ != 0)
+    throw InputError("fixed steps and error control alternate at frames only");
   Chain chain = next.chainOf(chain_.masses()).drivenBy(drive);
   checkState(state);
   if (!fixed_step) checkTolerance(next.tolerance, chain, state);
@@ -237,7 +245,6 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   EnergyBalance balance = judge_.balance();
   const double supplied = balance.change(chain, state_, state, knows_dissipation, supplied_);
 
-  const double start_of_steps = time();
   chain_ = std::move(chain);
   scenario_ = next;
   state_ = state;
@@ -245,11 +252,7 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
   changed_ = true;
   judge_.change(chain_, std::move(balance), judgeOptions(first_frame_));
   if (reference_) reference_->stopAtChange();
-  if (other_control) {
-    setFrameSteps();
-    time_origin_ = start_of_steps;
-    frame_origin_ = frame_;
-  }
+  if (other_control) setFrameSteps();
   dissipated_before_ = dissipated_;
   supplied_before_ = supplied_ = supplied;
   evaluations_before_ += integrator_->forceEvaluations();
@@ -306,9 +309,8 @@ std::int64_t Run::stepOfPart(std::int64_t part) const {
 }
 
 double Run::timeOfPart(std::int64_t part) const {
-  const std::int64_t frames = frame_ - frame_origin_;
-  return time_origin_ + static_cast<double>(frames * frame_steps_.steps + stepOfPart(part)) *
-                            frame_steps_.time_step;
+  return static_cast<double>(frame_ * frame_steps_.steps + stepOfPart(part)) *
+         frame_steps_.time_step;
 }
 
 }  // namespace spring_pendulum

@@ -105,7 +105,7 @@ TEST_F(ExtremeOptions, OfExercise3AreRefusedBeforeTheFolderChanges) {
 TEST_F(ExtremeOptions, OfRecordBagAreRefusedBeforeTheFolderChanges) {
   for (int i = 0; i < 100 && !HasFailure(); ++i) {
     std::vector<std::string> arguments =
-        randomArguments({"--display-rate", "--trail", "--y-offset"});
+        randomArguments({"--display-rate", "--trail"});
     arguments.insert(arguments.end(), {"--bag", "run.bag"});
     check(RECORD_BAG, arguments);
   }

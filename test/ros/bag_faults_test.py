@@ -8,7 +8,7 @@ import unittest
 import rosbag
 import rostest
 
-from fault_injection import (CLEANS_UP, NO_MASTER, files_in, fill, injection, read_report)
+from fault_injection import CLEANS_UP, NO_MASTER, disturbed_runs, files_in, fill
 from pendulum_process import Folder, program, wait_until
 
 
@@ -21,35 +21,21 @@ def record(folder, *arguments, env=None):
 
 class RecordBag(unittest.TestCase):
 
-    def disturbed_runs(self, kind, arguments=(), bag=b'earlier bag'):
-        """For every call: its name, the result and the files."""
-        call = 0
-        with Folder() as outside:
-            while True:
-                call += 1
-                with Folder() as folder:
-                    fill(folder, bag)
-                    result = record(folder, *arguments,
-                                    env=injection(folder, outside + '/call', call, kind))
-                    name = read_report(outside + '/call')
-                    if not name:
-                        break
-                    with self.subTest(kind=kind, call=call, name=name, says=result.stderr):
-                        yield name, result, folder, files_in(folder)
-        self.assertGreater(call, 10)
-
     def check(self, kind, arguments=(), bag=b'earlier bag'):
+        def run(folder, environment=None):
+            return record(folder, *arguments, env=environment)
         with Folder() as folder:
-            fill(folder, bag)
-            self.assertEqual(record(folder, *arguments).returncode, 0)
+            fill(folder, run_bag=bag)
+            self.assertEqual(run(folder).returncode, 0)
             finished = files_in(folder)
         self.assertEqual(sorted(finished), ['particle.txt', 'run.bag'])
-        for name, result, folder, files in self.disturbed_runs(kind, arguments, bag):
+        for name, result, folder in disturbed_runs(self, kind, run, {'run_bag': bag}):
+            files = files_in(folder)
             self.assertIn(files['run.bag'], (bag, finished['run.bag']))
             self.assertEqual(files['particle.txt'], finished['particle.txt'])
             if kind == 'kill':
                 self.assertEqual(result.returncode, -signal.SIGKILL)
-                again = record(folder, *arguments)
+                again = run(folder)
                 if not arguments:  # what was appended before the kill is appended again
                     self.assertEqual(files_in(folder), finished, again.stderr)
                 self.assertEqual(again.returncode, 0, again.stderr)
@@ -73,7 +59,7 @@ class RecordBag(unittest.TestCase):
 
     def test_appending_fails_at_every_call(self):
         with Folder() as folder:
-            fill(folder, None)
+            fill(folder)
             self.assertEqual(record(folder, '--namespace', 'a').returncode, 0)
             bag = files_in(folder)['run.bag']
         for kind in ('fail', 'kill'):
@@ -81,7 +67,7 @@ class RecordBag(unittest.TestCase):
 
     def test_a_second_run_into_the_same_bag_is_refused(self):
         with Folder() as folder:
-            fill(folder, None)
+            fill(folder)
             first = subprocess.Popen(
                 [program('record_bag'), 'Runge-Kutta-4', '--bag', 'run.bag', '--frames', '1000000'],
                 cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -104,7 +90,7 @@ class RecordBag(unittest.TestCase):
 
     def test_check_and_inputs_write_nothing(self):
         with Folder() as folder:
-            fill(folder)
+            fill(folder, run_bag=b'earlier bag')
             before = files_in(folder)
             checked = record(folder, '--check')
             self.assertEqual((checked.returncode, checked.stderr), (0, ''))

@@ -64,6 +64,14 @@ class Bag(unittest.TestCase):
         self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])))
         self.assertNotIn('real time', markers[-1][0].markers[4].text)
 
+    def test_the_display_rate_is_kept_by_every_kind_of_method(self):
+        for method, rate in (('Auto', 30), ('Auto', 25), ('Auto', 60), ('Runge-Kutta-4', 30), ('Runge-Kutta-4', 25)):
+            with Folder() as folder:
+                path, _ = record(folder, 'one.bag', '--frames', '101', '--display-rate', str(rate), method=method)
+                states = [message for message, _ in contents(path, '/state')]
+            self.assertEqual([m.frame for m in states if m.at_frame], list(range(101)))
+            self.assertAlmostEqual((len(states) - 1) / (10.0 * rate), 1.0, delta=0.1, msg=(method, rate))
+
     def test_status_is_latched(self):
         with Folder() as folder:
             path, _ = record(folder, 'one.bag', '--frames', '5')

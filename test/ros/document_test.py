@@ -75,7 +75,7 @@ class Document(unittest.TestCase):
     def test_the_services_set_names_its_constants(self):
         with PendulumNode(particles=SCENE, frames=100000, real_time_factor=1.0, at_end='hold'):
             rospy.wait_for_service('/pendulum/set', timeout=60)
-            answer = rospy.ServiceProxy('/pendulum/set', Set)('nothing', '1')
+            answer = rospy.ServiceProxy('/pendulum/set', Set)('nothing', 1.0)
         row = next(row for row in document().split('\n') if row.startswith('| `~set`'))
         constants = re.findall('`(\\w+)`', row.split('|')[3])
         self.assertGreater(len(constants), 6)
@@ -149,7 +149,7 @@ class Namespaces(unittest.TestCase):
             wait_until(moved, 'the left chain is pulled')
             force = rospy.ServiceProxy('/left/pendulum/apply_force', ApplyForce)
             self.assertTrue(force(3, '', Vector3(50.0, 0.0, 0.0), 0.0, 1.0).success)
-            self.assertTrue(rospy.ServiceProxy('/left/pendulum/set', Set)('gravity', '-2').success)
+            self.assertTrue(rospy.ServiceProxy('/left/pendulum/set', Set)('gravity', -2).success)
             self.assertTrue(rospy.ServiceProxy('/left/pendulum/pause', SetBool)(True).success)
             rospy.sleep(0.5)
             frame = states['right'].messages[-1].frame

@@ -42,7 +42,7 @@ class Robot {
         from_{start.x()[particle], start.y()[particle]},
         phase_(phase),
         random_(seed),
-        follower_(InputCheck("odom", 1.0)) {}
+        follower_("odom", 1.0) {}
 
   /// Sends the odometry until the present time, and holds the particle.
   void follow(const Run& run, Driver& driver) {

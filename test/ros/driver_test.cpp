@@ -2,8 +2,8 @@
 #include "ros/inputs/driver.hpp"
 
 #include "ros/inputs/follower.hpp"
-#include "ros/inputs/handles.hpp"
 #include "ros/inputs/robots.hpp"
+#include "ros/markers/markers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <gtest/gtest.h>
@@ -134,48 +134,53 @@ TEST(Driver, SwitchBetweenStepControlsAtAFrame) {
   EXPECT_EQ(live.run.state().values(), live.run.start().values());
 }
 
-using Answer = InputCheck::Answer;
-
-TEST(InputCheck, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
-  InputCheck check("odom", 1.0);
-  EXPECT_FALSE(check.isAlive(0.0));
-  EXPECT_EQ(check.check({0.0, 0.0}, {}, 1.0, 1.0), Answer::kReturns);
-  EXPECT_EQ(check.check({0.5, 0.0}, {}, 1.1, 1.1), Answer::kFollows);
-  EXPECT_EQ(check.takeMessage(), "");
-  EXPECT_EQ(check.check({5.0, 0.0}, {}, 1.2, 1.2), Answer::kRefused);
-  EXPECT_EQ(check.takeMessage(), "odom jumps by more than 1 m: the particle is held where it is");
-  EXPECT_EQ(check.check({0.5, std::nan("")}, {}, 1.3, 1.3), Answer::kRefused);
-  EXPECT_EQ(check.takeMessage(), "");  // said once
-  EXPECT_EQ(check.check({0.6, 0.0}, {}, 1.4, 1.4), Answer::kFollows);
-  EXPECT_EQ(check.takeMessage(), "odom is followed again");
-  EXPECT_EQ(check.check({0.6, 0.0}, {}, 1.0, 1.5), Answer::kRefused);
-  EXPECT_EQ(check.takeMessage(), "odom runs backwards in time: the particle is held where it is");
-  EXPECT_EQ(check.check({0.6, 0.0}, {}, 1.5, 1.6), Answer::kFollows);
-  check.takeMessage();
-  EXPECT_TRUE(check.isAlive(1.7));
-  EXPECT_FALSE(check.isAlive(3.0));
-  EXPECT_EQ(check.takeMessage(), "odom has stopped: the particle is held where it is");
-  EXPECT_EQ(check.check({0.7, 0.0}, {}, 3.0, 3.1), Answer::kReturns);
+TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
+  Follower follower("odom", 1.0);
+  const auto takes = [&](double x, double stamp, double now) {
+    return follower.take({{x, 0.0}, {}, {}}, true, stamp, now);
+  };
+  const std::string held = ": the particle is held where it is until the input is steady";
+  EXPECT_FALSE(follower.targetAt(0.0, {}, 0.03).has_value());
+  EXPECT_TRUE(takes(0.0, 1.0, 1.0));
+  EXPECT_TRUE(takes(0.5, 1.1, 1.1));
+  EXPECT_EQ(follower.takeMessage(), "");
+  EXPECT_FALSE(takes(5.0, 1.2, 1.2));
+  EXPECT_EQ(follower.takeMessage(),
+            "odom jumps by more than 1 m (check its frame and unit)" + held);
+  EXPECT_FALSE(takes(std::nan(""), 1.3, 1.3));
+  EXPECT_EQ(follower.takeMessage(), "");  // said once
+  EXPECT_TRUE(takes(0.6, 1.4, 1.4));
+  EXPECT_EQ(follower.takeMessage(), "odom is followed again");
+  EXPECT_FALSE(takes(0.6, 1.0, 1.5));
+  EXPECT_EQ(follower.takeMessage(), "odom runs backwards in time" + held);
+  EXPECT_TRUE(takes(0.6, 1.5, 1.6));
+  follower.takeMessage();
+  EXPECT_FALSE(follower.isSilent(1.7));
+  EXPECT_TRUE(follower.isSilent(3.0));
+  EXPECT_EQ(follower.targetAt(3.0, {}, 0.03)->velocity.x, 0.0);
+  EXPECT_EQ(follower.takeMessage(), "odom has stopped: the particle is held where it is");
 }
 
 // After any inputs, a steady one is followed within a second.
-TEST(InputCheck, FollowsASteadyInputAgain) {
+TEST(Follower, FollowsASteadyInputAgain) {
   std::mt19937 random(4);
   const auto draw = [&random](double size) {
     return size * (static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5);
   };
   for (int round = 0; round < 200; ++round) {
-    InputCheck check("odom", 1.0);
+    Follower follower("odom", 1.0);
     double now = 1.0;
     for (int i = 0; i < 20; ++i, now += 0.03) {
-      check.check({draw(20.0), draw(20.0)}, {draw(30.0), 0.0}, draw(100.0), now);
+      const Target wild{{draw(20.0), draw(20.0)}, {draw(30.0), 0.0}, {}};
+      follower.take(wild, true, draw(100.0), now);
     }
-    Answer answer = Answer::kRefused;
+    bool follows = false;
     const double stamp = draw(100.0), start = now;
     for (; now < start + 1.0; now += 0.03) {
-      answer = check.check({3.0, 0.1 * (now - start)}, {}, stamp + now, now);
+      follows = follower.take({{3.0, 0.1 * (now - start)}, {}, {}}, true, stamp + now, now);
     }
-    EXPECT_EQ(answer, Answer::kFollows) << round;
+    EXPECT_TRUE(follows) << round;
+    EXPECT_NEAR(follower.targetAt(now, {3.0, 0.1}, 0.03)->position.x, 3.0, 1e-9) << round;
   }
 }
 
@@ -189,7 +194,7 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
   };
   Live live;
   live.run.advance();
-  Follower follower(InputCheck("odom", 3.0));
+  Follower follower("odom", 3.0);
   double largest = 0.0, next_input = 0.0;
   while (live.run.time() < 8.0) {
     const double now = live.run.nextTime();  // the state that is computed is shown now
@@ -218,7 +223,7 @@ TEST(Follower, IsWithItsHolderOnACircle) {
 }
 
 TEST(Follower, ComesBackSlowlyAfterASilence) {
-  Follower follower(InputCheck("odom", 10.0));
+  Follower follower("odom", 10.0);
   for (double t = 0.0; t < 1.0; t += 0.03) follower.take({{0.0, 0.0}, {}, {}}, true, t, t);
   EXPECT_LT(std::hypot(follower.targetAt(1.0, {0.0, 0.0}, 0.03)->position.x, 0.0), 1e-12);
   follower.take({{4.0, 0.0}, {}, {}}, true, 3.0, 3.0);
@@ -236,11 +241,11 @@ TEST(Robots, ParseListsOfParticles) {
   }
 }
 
-TEST(Handles, AreEvenlyChosen) {
-  EXPECT_EQ(Handles::chosen(1), (std::vector<std::ptrdiff_t>{0}));
-  EXPECT_EQ(Handles::chosen(3), (std::vector<std::ptrdiff_t>{0, 1, 2}));
-  const auto many = Handles::chosen(1000);
-  EXPECT_EQ(many.size(), Handles::kMost);
+TEST(Markers, AreEvenlyChosen) {
+  EXPECT_EQ(evenlyChosen(1, 20), (std::vector<std::ptrdiff_t>{0}));
+  EXPECT_EQ(evenlyChosen(3, 20), (std::vector<std::ptrdiff_t>{0, 1, 2}));
+  const auto many = evenlyChosen(1000, 20);
+  EXPECT_EQ(many.size(), 20U);
   EXPECT_EQ(many.front(), 0);
   EXPECT_EQ(many.back(), 999);
 }

@@ -1,52 +1,46 @@
 #!/usr/bin/python3
-"""How a run ends: hold, exit, loop, a signal, a motion that diverges."""
+"""How a run ends: hold, exit, loop, a motion that diverges, and a signal in every phase, also if SIGINT was
+ignored when the node started, as in a job that a script starts with `&`."""
 import os
 import signal
+import subprocess
 import time
 import unittest
 
 import rospy
 import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
-from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
-                              wait_until)
+from fault_injection import NO_MASTER
+from pendulum_process import (Folder, NodeTest, PendulumNode, computing_time, program, project,
+                              read_frames, run_exercise, service, total_computing_time, wait_until)
 
-HORIZONTAL = project('data/horizontal_11.txt')
-
-
-def stamps(messages):
-    return [m.header.stamp.to_nsec() for m in messages]
+HORIZONTAL = SCENE = project('data/horizontal_11.txt')
 
 
-class Ends(unittest.TestCase):
+def ignore_interrupts():
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+class Ends(NodeTest):
 
     def test_hold_keeps_showing_the_last_frame(self):
-        status = Listener('status', PendulumStatus)
         with PendulumNode(frames=3, at_end='hold') as node:
-            status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
-            status.close()
-            listener = Listener('state', PendulumState)
-            messages = listener.wait_for(2)
-            listener.close()
-            self.assertEqual({m.frame for m in messages}, {2})
+            self.listen('status', PendulumStatus).wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
+            self.assertEqual({m.frame for m in self.listen('state', PendulumState).wait_for(2)}, {2})
             node.interrupt()
             self.assertEqual(node.wait(), 0, node.output())
 
     def test_loop_starts_again_and_time_stamps_go_on(self):
-        listener = Listener('state', PendulumState)
         with Folder() as folder:
             with PendulumNode(frames=4, at_end='loop', output=folder, wait_for_subscribers=1) as node:
-                wait_until(lambda: sum(m.time == 0 for m in listener.messages) >= 2, 'a second round')
-                wait_until(lambda: listener.messages[-1].frame == 3, 'its end')
+                wait_until(lambda: sum(m.time == 0 for m in self.state.messages) >= 2, 'a second round')
+                wait_until(lambda: self.last().frame == 3, 'its end')
                 node.interrupt()
                 self.assertEqual(node.wait(), 0, node.output())
             self.assertEqual(len(read_frames(folder)), 4)
-        listener.close()
-        seconds = stamps(listener.messages)
-        self.assertTrue(all(a < b for a, b in zip(seconds, seconds[1:])))
+        self.assert_increasing(self.state.messages)
 
     def test_interrupted_exits_0_and_every_frame_is_whole(self):
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -70,10 +64,8 @@ class Ends(unittest.TestCase):
                               at_end='hold') as node:
                 wait_until(lambda: len(read_frames(folder)) == len(expected), 'the last good frame')
                 time.sleep(0.5)
-                late = Listener('status', PendulumStatus)
-                message = late.wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
+                message = self.listen('status', PendulumStatus).wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
                 self.assertIn('diverged at t = ', message.text)
-                late.close()
                 # All of this is logged when it happens, not at the end of the node. The search for the
                 # largest stable step comes between the status and the log.
                 wait_until(lambda: 'until Ctrl-C' in node.output(), 'the lines about the divergence')
@@ -81,10 +73,7 @@ class Ends(unittest.TestCase):
                     self.assertIn(part, node.lines('ERROR')[0])
                 self.assertIn('verdict: diverged', node.lines('INFO')[-2])
                 self.assertIn('until Ctrl-C (at_end: hold)', node.lines('INFO')[-1])
-                rospy.wait_for_service('/pendulum/pause', timeout=30)
-                answer = rospy.ServiceProxy('/pendulum/pause', SetBool)(True)
-                self.assertFalse(answer.success)
-                self.assertIn('because the motion diverged', answer.message)
+                self.assertIn('because the motion diverged', self.call('pause', True, success=False))
                 node.interrupt()
                 self.assertEqual(node.wait(), 3, node.output())
                 self.assertEqual(len(node.lines('ERROR')), 1, node.output())
@@ -96,18 +85,16 @@ class Ends(unittest.TestCase):
         with PendulumNode(method='Euler', particles=HORIZONTAL, at_end='hold') as node:
             for count in (1, 2):
                 wait_until(lambda: len(node.lines('ERROR')) == count, 'the divergence')
-                rospy.wait_for_service('/pendulum/reset', timeout=30)
-                self.assertTrue(rospy.ServiceProxy('/pendulum/reset', Trigger)().success)
+                self.call('reset')
             node.interrupt()
             node.wait()
 
     def test_divergence_changes_the_colour_and_keeps_the_last_good_chain(self):
-        markers = Listener('markers', MarkerArray)
+        markers = self.listen('markers', MarkerArray)
         with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=1) as node:
             self.assertEqual(node.wait(), 3, node.output())
         last = wait_until(lambda: markers.messages and 'diverged' in markers.messages[-1].markers[4].text
                           and markers.messages[-1], 'the verdict')
-        markers.close()
         springs, good = last.markers[0], markers.messages[-2].markers[0]
         self.assertEqual(springs.points, good.points)
         self.assertEqual(len({(c.r, c.g, c.b) for c in springs.colors}), 1)
@@ -119,7 +106,7 @@ class Ends(unittest.TestCase):
             self.assertTrue(any('gained energy' in line for line in node.lines('WARN')), node.output())
 
     def test_a_time_step_above_the_stability_limit_is_a_warning_at_the_start(self):
-        with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=1) as node:
+        with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=2) as node:
             warning = wait_until(lambda: node.lines('WARN'), 'the warning')[0]
             self.assertRegex(warning, r'Euler is unstable with a time step of 0\.01 s .*; largest stable '
                                       r'step for Euler: [\d.e-]+ s; or use Auto')
@@ -129,11 +116,6 @@ class Ends(unittest.TestCase):
             self.assertEqual(node.wait(), 0, node.output())
             self.assertEqual(node.lines('WARN'), [])
 
-    def test_the_method_that_auto_chose_is_said(self):
-        with PendulumNode(method='Auto', particles=HORIZONTAL, frames=30) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-            self.assertRegex(node.output(), r'Auto chose \S+ for 0\.\d+ s')
-
     def test_the_closing_line_says_what_was_done(self):
         with PendulumNode(frames=11, particles=HORIZONTAL) as node:
             self.assertEqual(node.wait(), 0, node.output())
@@ -142,6 +124,92 @@ class Ends(unittest.TestCase):
                 self.assertIn(part, node.lines('INFO')[-1])
 
 
+class Signals(unittest.TestCase):
+    """Without the signal, each of these nodes would run for hours or for ever."""
+
+    def end(self, phase, **parameters):
+        """Starts a node, interrupts it when phase(node) is true, and returns its output."""
+        ended = {}
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number), Folder() as folder, \
+                    PendulumNode(preexec=ignore_interrupts,
+                                 **dict(dict(particles=SCENE, output=folder), **parameters)) as node:
+                wait_until(lambda: phase(node, folder), 'the phase')
+                before = computing_time(node.process.pid)
+                ended_before = total_computing_time()
+                node.interrupt(number)
+                self.assertIn(node.wait(), (0, 3), node.output())
+                # Computing time, as other programs share the computer. Measured: at most 0.1 s.
+                self.assertLess(total_computing_time() - ended_before - before, 1.0, node.output())
+                ended[number] = node.output()
+        return ended[signal.SIGINT]
+
+    def first_frame(self, node, folder):
+        return os.path.exists(folder + '/frame_0000.txt')
+
+    def test_record_bag(self):
+        for options in (('--steps-per-frame', '2000000000', '--time-step', '1e-4'),
+                        ('--time-step', '1e6', '--steps-per-frame', '1', '--reference', 'always')):
+            with self.subTest(options=options), Folder() as folder:
+                process = subprocess.Popen(
+                    [program('record_bag'), 'Runge-Kutta-4', SCENE, '--bag', folder + '/run.bag', *options],
+                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                try:
+                    wait_until(lambda: os.path.exists(folder + '/.run.bag.tmp'), 'a bag')
+                    before = computing_time(process.pid)
+                    ended_before = total_computing_time()
+                    process.send_signal(signal.SIGINT)
+                    errors = process.communicate(timeout=60)[1]
+                    self.assertIn(process.returncode, (3, 128 + signal.SIGINT), errors)
+                    self.assertLess(total_computing_time() - ended_before - before, 1.0)
+                finally:
+                    process.kill()
+                    process.wait()
+
+    def test_without_a_master(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            node = subprocess.Popen([program('pendulum_node'), '_particles:=' + SCENE], text=True,
+                                    env=dict(os.environ, **NO_MASTER), stdout=subprocess.PIPE,
+                                    stderr=subprocess.STDOUT, preexec_fn=ignore_interrupts)
+            try:
+                wait_until(lambda: 'master' in node.stdout.readline(), 'a try to find a master')
+                node.send_signal(number)
+                self.assertIn(node.wait(60), (0, -number))  # before ROS has started, killed
+            finally:
+                node.kill()
+                node.communicate()
+
+    def test_waiting_for_subscribers(self):
+        output = self.end(lambda node, _: 'waiting for 9 subscribers' in node.output(),
+                          wait_for_subscribers=9, wait_timeout=0)
+        self.assertIn('verdict: ', output)
+
+    def test_running(self):
+        self.end(lambda _, folder: os.path.exists(folder + '/frame_0003.txt'), frames=1000000,
+                 real_time_factor=1.0)
+
+    def test_inside_a_long_frame(self):
+        self.end(self.first_frame, steps_per_frame=2000000000)
+        self.end(self.first_frame, method='Taylor-8', frame_interval=1e6)
+
+    def test_in_the_reference_run(self):
+        # One step takes no time, but the reference run has 1e7 s of motion to compute.
+        self.end(self.first_frame, time_step=1e7, steps_per_frame=1, reference='always')
+
+    def test_after_a_divergence_with_many_frames(self):
+        self.end(lambda node, _: 'diverged' in node.output(), method='Euler', damping=0, time_step=0.05,
+                 frames=1000000000, at_end='hold')
+
+    def test_paused(self):
+        self.end(lambda node, _: service('pause')(True).success, frames=1000000, real_time_factor=1.0)
+
+    def test_at_the_end(self):
+        self.end(lambda node, _: 'until Ctrl-C' in node.output(), frames=3, at_end='hold')
+
+    def test_following_a_topic_without_messages(self):
+        self.end(self.first_frame, follow='/nobody/state')
+
+
 if __name__ == '__main__':
     rospy.init_node('ends_test')
-    rostest.rosrun('spring_pendulum', 'ends', Ends)
+    rostest.rosrun('spring_pendulum', 'ends', '__main__')

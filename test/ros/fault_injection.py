@@ -1,7 +1,7 @@
 """Programs with failing system calls; see ../support/fault_injection.cpp."""
 import os
 
-from pendulum_process import project
+from pendulum_process import Folder, project
 
 SCENE = project('data/particle.txt')
 INJECTION = os.environ['FAULT_INJECTION']
@@ -17,23 +17,39 @@ def files_in(folder):
     return files
 
 
+def fill(folder, **files):
+    """Writes the particle file and others with this content."""
+    with open(SCENE, 'rb') as scene:
+        files = dict(files, particle_txt=scene.read())
+    for name, content in files.items():
+        with open('%s/%s' % (folder, name.replace('_', '.')), 'wb') as file:
+            file.write(content)
+
+
 def injection(folder, report, call, kind):
-    return {'LD_PRELOAD': INJECTION, 'FAULT_FOLDER': folder, 'FAULT_CALL': str(call),
-            'FAULT_KIND': kind, 'FAULT_REPORT': report}
+    return {'LD_PRELOAD': INJECTION, 'FAULT_FOLDER': folder, 'FAULT_CALL': str(call), 'FAULT_KIND': kind,
+            'FAULT_REPORT': report}
 
 
-def read_report(report):
-    if not os.path.exists(report):
-        return ''
-    with open(report) as file:
-        name = file.read()
-    os.remove(report)
-    return name
-
-
-def fill(folder, bag=b'earlier bag'):
-    with open(SCENE, 'rb') as scene, open(folder + '/particle.txt', 'wb') as particles:
-        particles.write(scene.read())
-    if bag:
-        with open(folder + '/run.bag', 'wb') as file:
-            file.write(bag)
+def disturbed_runs(test, kind, run, files):
+    """Runs a program with a fault of this kind in a folder with files. Of each series of equal calls, the first, the
+    last and one in the middle are disturbed. Yields the call, what run(folder, environment) returns, and the folder."""
+    with Folder() as outside, Folder() as folder:
+        fill(folder, **files)
+        run(folder, injection(folder, outside + '/calls', 0, 'list'))
+        with open(outside + '/calls') as report:
+            names = [''] + report.read().split('\n')
+    begins = [k for k in range(1, len(names)) if names[k] != names[k - 1]]
+    calls = sorted({call for first, end in zip(begins, begins[1:]) for call in (first, (first + end - 1) // 2, end - 1)})
+    test.assertGreater(len(calls), 10)
+    for call in calls:
+        with Folder() as outside, Folder() as folder:
+            fill(folder, **files)
+            result = run(folder, injection(folder, outside + '/call', call, kind))
+            name = ''
+            if os.path.exists(outside + '/call'):  # a program with threads does not always make as many
+                with open(outside + '/call') as report:
+                    name = report.read()
+            with test.subTest(kind=kind, call=call, name=name, result=result):
+                if name:
+                    yield name, result, folder

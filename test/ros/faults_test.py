@@ -13,10 +13,9 @@ import rosgraph
 import rospy
 import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
-from std_srvs.srv import SetBool, Trigger
 
 from pendulum_process import (Folder, Listener, PendulumNode, program, project, read_frames,
-                              run_exercise, wait_until)
+                              run_exercise, service, wait_until)
 
 SCENE = project('data/horizontal_11.txt')
 
@@ -38,16 +37,6 @@ class Master:
     def __exit__(self, *_):
         self.process.kill()
         self.process.wait()
-
-    def nodes(self):
-        publishers, _, services = rosgraph.Master('/test', self.uri).getSystemState()
-        return ({topic for topic, names in publishers if '/pendulum' in names},
-                {service for service, names in services if '/pendulum' in names})
-
-
-    def subscribes(self, topic, node):
-        _, subscribers, _ = rosgraph.Master('/test', self.uri).getSystemState()
-        return node in dict(subscribers).get(topic, [])
 
 
 def free_port():
@@ -132,13 +121,9 @@ class Faults(unittest.TestCase):
         with Folder() as folder, Folder() as expected_folder:
             with PendulumNode(particles=SCENE, frames=40, real_time_factor=20.0, output=folder,
                               at_end='hold') as node:
-                names = {'pause': SetBool, 'step': Trigger, 'reset': Trigger}
-                calls = {}
-                for name, kind in names.items():
-                    rospy.wait_for_service('/pendulum/' + name, timeout=30)
-                    calls[name] = rospy.ServiceProxy('/pendulum/' + name, kind)
+                calls = {name: service(name, True) for name in ('pause', 'step', 'reset')}
                 for _ in range(1000):
-                    name = random.choice(list(names))
+                    name = random.choice(list(calls))
                     arguments = [random.random() < 0.5] if name == 'pause' else []
                     self.assertTrue(calls[name](*arguments).message)
                 calls['pause'](False)

@@ -2,7 +2,6 @@
 """The launch files, without a display."""
 import glob
 import os
-import re
 import shutil
 import subprocess
 import unittest
@@ -10,6 +9,7 @@ import xml.etree.ElementTree
 
 import rosbag
 import rosgraph
+import rospy
 import rostest
 import yaml
 
@@ -207,6 +207,20 @@ class Launch(unittest.TestCase):
         view = yaml.safe_load(done.stdout)['Visualization Manager']['Views']['Current']
         self.assertLess(view['Position']['Y'], -2.0)
         self.assertGreater(view['Position']['Y'], -5.0)  # -2.5 measured
+
+    def test_rviz_shows_nodes_in_namespaces(self):
+        with Folder() as folder, PendulumNode('/left/pendulum', frames=100000, real_time_factor=1.0):
+            rospy.wait_for_service('/left/pendulum/reset', timeout=60)
+            with open(folder + '/rviz', 'w') as file:
+                file.write('#!/bin/sh\ncat "$2"\n')
+            os.chmod(folder + '/rviz', 0o755)
+            done = subprocess.run([project('scripts/view.py'), project('rviz/pendulum.rviz'), 'none'],
+                                  capture_output=True, text=True, check=True,
+                                  env=dict(os.environ, PATH=folder + ':' + os.environ['PATH'], ROS_HOME=folder,
+                                           QT_QPA_PLATFORM='offscreen'))
+        displays = yaml.safe_load(done.stdout)['Visualization Manager']['Displays']
+        topics = [d['Marker Topic'] for d in displays if d['Class'] == 'rviz/MarkerArray']
+        self.assertEqual(topics, ['markers', '/left/markers'])
 
     def test_record_sh_without_topics_shows_its_use(self):
         done = subprocess.run([project('scripts/record.sh'), 'one.bag'], capture_output=True, text=True)

@@ -1,24 +1,18 @@
 // Markers and state of chosen scenes, bags through the rosbag library, parameters.
-#include "ros/bag_recorder.hpp"
-#include "ros/messages/marker_builder.hpp"
-#include "ros/messages/state_builder.hpp"
+#include "ros/markers/markers.hpp"
+#include "ros/messages/run_messages.hpp"
 #include "ros/parameters/color.hpp"
 #include "ros/parameters/parameters.hpp"
 #include "simulation/options/option_set.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/io/particle_file.hpp>
 
 #include <gmock/gmock.h>
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include <algorithm>
 #include <array>
-#include <map>
+#include <tuple>
 
 #include <support/program_run.hpp>
-#include <support/temporary_folder.hpp>
 
 namespace spring_pendulum {
 namespace {
@@ -35,9 +29,9 @@ std::array<float, 4> rgba(const std_msgs::ColorRGBA& color) {
 }
 
 visualization_msgs::MarkerArray markersOf(const Run& run, const NodeOptions& options) {
-  MarkerBuilder builder(run, options);
+  Markers builder(run, options);
   builder.trackTip(run);
-  return builder.build(run, std_msgs::Header(), "");
+  return builder.draw(run, std_msgs::Header(), "");
 }
 
 TEST(Markers, LongChainsAreThinnedAndKeepBothEnds) {
@@ -79,7 +73,7 @@ TEST(Markers, GridIsBoundedAtExtremeLengths) {
   }
 }
 
-TEST(Markers, ADivergedChainInItsOwnColourIsBroken) {
+TEST(Markers, ADivergedChainIsMagentaAndKeepsItsLastShape) {
   Scenario scenario;
   scenario.method = findMethod("Euler");
   scenario.damping = 0.0;
@@ -87,25 +81,24 @@ TEST(Markers, ADivergedChainInItsOwnColourIsBroken) {
   test::ProgramRun run(scenario, horizontal(3), {false, 0.0});
   NodeOptions options;
   options.color = "#ff8000";
-  MarkerBuilder builder(run, options);
+  Markers builder(run, options);
   const std_msgs::Header header;
-  EXPECT_EQ(builder.build(run, header, "").markers[0].points.size(), 4U);
+  const auto before = builder.draw(run, header, "").markers[0];
   while (!run.isOver()) run.advance();
   ASSERT_EQ(run.verdict().kind, VerdictKind::kDiverged);
-  const auto& springs = builder.build(run, header, "").markers[0];
-  ASSERT_EQ(springs.points.size(), 8U);  // each spring in two pieces
-  EXPECT_DOUBLE_EQ(springs.points[1].x, 0.3);
-  EXPECT_DOUBLE_EQ(springs.points[2].x, 0.7);
-  EXPECT_EQ(springs.colors.size(), 8U);
-  for (const auto& color : springs.colors) EXPECT_EQ(rgba(color), rgba(*parseColor("#ff8000")));
+  const auto& springs = builder.draw(run, header, "").markers[0];
+  ASSERT_EQ(springs.points.size(), before.points.size());
+  EXPECT_EQ(springs.points[1].x, before.points[1].x);
+  ASSERT_EQ(springs.colors.size(), 4U);
+  for (const auto& color : springs.colors) EXPECT_EQ(rgba(color), rgba(colorOf(kDivergedColor)));
 }
 
-TEST(Markers, RowsOfTextAreOverEachOtherInTheFrameOfTheCamera) {
+TEST(Markers, LinesOfTextAreOverEachOtherInTheFrameOfTheCamera) {
   const test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
   NodeOptions options;
-  options.text_rows = 2;
-  const auto lower = markersOf(run, options).markers[4];
   options.text_row = 1;
+  const auto lower = markersOf(run, options).markers[4];
+  options.text_row = 2;
   const auto upper = markersOf(run, options).markers[4];
   EXPECT_EQ(lower.header.frame_id, options.camera_frame);
   EXPECT_EQ(lower.pose.position.y, 0.0);
@@ -116,19 +109,20 @@ TEST(Markers, HeldParticlesHaveTheColourOfTheAnchor) {
   spring_pendulum::Run run(Scenario{}, horizontal(3), {false, 0.0});
   run.change(Scenario{}, Drive{{{2, {}}}, {}}, run.state());
   const auto particles = markersOf(run, NodeOptions{}).markers[1];
-  EXPECT_NE(rgba(particles.colors[1]), rgba(anchorColor()));
-  EXPECT_EQ(rgba(particles.colors[2]), rgba(anchorColor()));
+  EXPECT_NE(rgba(particles.colors[1]), rgba(colorOf(kHeldColor)));
+  EXPECT_EQ(rgba(particles.colors[2]), rgba(colorOf(kHeldColor)));
 }
 
-TEST(Markers, OnlyTheFirstRowMovesTheCamera) {
+TEST(Markers, OnlyTheFirstChainHasACamera) {
   const test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
-  NodeOptions options;
-  options.text_rows = 2;
-  for (const int row : {0, 1}) {
+  const std_msgs::Header header;
+  for (const int row : {0, 1, 2}) {
+    NodeOptions options;
     options.text_row = row;
-    MarkerBuilder builder(run, options);
-    builder.build(run, std_msgs::Header(), "");
-    EXPECT_EQ(builder.cameraChanges(), row == 0 ? 1 : 0);
+    Markers markers(run, options);
+    markers.draw(run, header, "");
+    EXPECT_EQ(markers.newCamera(header).has_value(), row < 2);
+    EXPECT_FALSE(markers.newCamera(header)) << "it has not moved";
   }
 }
 
@@ -144,9 +138,9 @@ TEST(Markers, SpringsAreColouredByStrainAndParticlesByMass) {
   EXPECT_LT(springs[2].r, springs[2].b);  // short: bluish
   EXPECT_GT(springs[4].r, springs[4].b);  // long: reddish
   const auto& particles = markers[1].colors;
-  EXPECT_FLOAT_EQ(particles[1].g, massColor(0.0).g);
-  EXPECT_FLOAT_EQ(particles[2].g, massColor(0.5).g);
-  EXPECT_FLOAT_EQ(particles[3].g, massColor(1.0).g);
+  EXPECT_FLOAT_EQ(particles[1].g, massColor(1.0, 1.0, 100.0).g);
+  EXPECT_FLOAT_EQ(particles[2].g, massColor(10.0, 1.0, 100.0).g);
+  EXPECT_FLOAT_EQ(particles[3].g, massColor(100.0, 1.0, 100.0).g);
 }
 
 TEST(Markers, OneColourForTheWholeChainOnRequest) {
@@ -162,17 +156,17 @@ TEST(Markers, TheTrailIsAsLongAsToldAndStartsAnewAfterAReset) {
   test::ProgramRun run(Scenario{}, horizontal(3), {false, 0.0});
   NodeOptions options;
   options.trail = 1.0;
-  MarkerBuilder builder(run, options);
+  Markers builder(run, options);
   for (int i = 0; i < 30; ++i) {
     builder.trackTip(run);
     run.advance();
   }
   const std_msgs::Header header;
-  const auto& trail = builder.build(run, header, "").markers[3];
+  const auto& trail = builder.draw(run, header, "").markers[3];
   EXPECT_EQ(trail.points.size(), 11U);  // 1 s at 0.1 s
   run.reset();
   builder.trackTip(run);
-  EXPECT_EQ(builder.build(run, header, "").markers[3].action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(builder.draw(run, header, "").markers[3].action, visualization_msgs::Marker::DELETE);
 }
 
 TEST(Markers, TheReferenceIsASecondChainOnRequest) {
@@ -192,54 +186,29 @@ TEST(StateMessage, LiesInThePlaneXZ) {
   Scenario scenario;
   test::ProgramRun run(scenario, horizontal(3), {true, 0.0});
   run.advance();
-  const PendulumState message = StateBuilder(0.25).build(run, std_msgs::Header());
+  PendulumState message;
+  setState(message, run, std_msgs::Header());
   EXPECT_EQ(message.positions[2].x, run.state().x()[2]);
-  EXPECT_EQ(message.positions[2].y, 0.25);
+  EXPECT_EQ(message.positions[2].y, 0.0);
   EXPECT_EQ(message.positions[2].z, run.state().y()[2]);
   EXPECT_EQ(message.velocities[2].z, run.state().vy()[2]);
   EXPECT_EQ(message.frame, 1);
   EXPECT_EQ(message.method, "Runge-Kutta-4");
-  EXPECT_EQ(message.largest_stretch, largestStretch(run.chain(), run.state()));
   EXPECT_EQ(message.position_error, run.positionError().now);
   EXPECT_EQ(message.largest_position_error, run.positionError().largest);
   EXPECT_EQ(message.position_error_measured_until, 0.1);
 }
 
 TEST(StateMessage, LargestStretchIsRelativeToTheRestLength) {
-  Scenario scenario;
-  scenario.rest_length = 0.5;
-  const test::ProgramRun run(scenario, horizontal(3), {false, 0.0});
-  EXPECT_DOUBLE_EQ(largestStretch(run.chain(), run.state()), 1.0);
-  scenario.rest_length = 0.0;
-  const test::ProgramRun loose(scenario, horizontal(3), {false, 0.0});
-  EXPECT_DOUBLE_EQ(largestStretch(loose.chain(), loose.state()), 1.0);
-  const test::ProgramRun alone(scenario, horizontal(1), {false, 0.0});
-  EXPECT_EQ(largestStretch(alone.chain(), alone.state()), 0.0);
-}
-
-TEST(Bag, IsReadBackByTheLibrary) {
-  const TemporaryFolder folder;
-  Scenario scenario;
-  scenario.frames = 6;
-  scenario.particles = PROJECT_DIR "/data/particle.txt";
-  BagOptions options;
-  options.path = folder.path() + "/one.bag";
-  spring_pendulum::Run run(scenario, readParticleFile(scenario.particles), {true, 1.0 / 30.0});
-  const std::string output = recordBag(run, nullptr, NodeOptions{}, options);
-  rosbag::Bag bag(options.path);
-  std::map<std::string, int> counts;
-  ros::Time last;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-    ++counts[message.getTopic()];
-    EXPECT_GE(message.getTime(), last);
-    last = message.getTime();
+  for (const auto& [rest_length, particles, stretch] :
+       {std::tuple(0.5, 3, 1.0), std::tuple(0.0, 3, 1.0), std::tuple(0.5, 1, 0.0)}) {
+    Scenario scenario;
+    scenario.rest_length = rest_length;
+    const test::ProgramRun run(scenario, horizontal(particles), {false, 0.0});
+    PendulumState message;
+    setState(message, run, std_msgs::Header());
+    EXPECT_DOUBLE_EQ(message.largest_stretch, stretch);
   }
-  EXPECT_EQ(counts["/markers"], 16);  // 3 states a frame and the start
-  EXPECT_EQ(counts["/state"], 16);
-  EXPECT_EQ(counts["/status"], 2);
-  EXPECT_EQ(counts["/tf_static"], 1);
-  EXPECT_EQ(output.find(", 35 messages, "), 0U) << output;
-  EXPECT_EQ(run.shownFrames(), 6);
 }
 
 TEST(Parameters, RawValuesBecomeTheTextThatWasMeant) {

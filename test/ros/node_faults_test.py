@@ -13,7 +13,7 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import rostest
 
-from fault_injection import (INJECTION, SCENE, files_in, fill, injection, read_report)
+from fault_injection import INJECTION, SCENE, disturbed_runs, files_in, fill
 from pendulum_process import Folder, PendulumNode, program, read_frames, wait_until
 
 
@@ -42,51 +42,31 @@ class MasterThatLoses:
 
 class Node(unittest.TestCase):
 
-    def disturbed_runs(self, kind):
-        """For every call: its name, the folder, the exit status and the output."""
-        call = 0
-        while True:
-            call += 1
-            with Folder() as outside, Folder() as folder:
-                fill(folder, None)
-                with open(folder + '/e.csv', 'wb') as file:
-                    file.write(b'earlier')
-                report = outside + '/call'
-                status, output = self.run_node(folder, injection(folder, report, call, kind))
-                name = read_report(report)
-                if not name:
-                    break
-                with self.subTest(kind=kind, call=call, name=name, output=output):
-                    yield folder, status, output
-        self.assertGreater(call, 30)
-
-    def files_of_a_run(self):
-        with Folder() as folder:
-            self.assertEqual(self.run_node(folder, {})[0], 0)
-            return files_in(folder)
-
-    def test_every_call_fails(self):
-        finished = self.files_of_a_run()
-        for folder, status, output in self.disturbed_runs('fail'):
-            self.check_files(folder, finished, status)
-            if status != 0:
-                self.assertEqual(status, 1)
-                self.assertEqual(output.count('[FATAL]'), 1)
-
-    def test_killed_at_every_call(self):
-        finished = self.files_of_a_run()
-        for folder, status, _ in self.disturbed_runs('kill'):
-            self.assertEqual(status, -signal.SIGKILL)
-            self.check_files(folder, finished, status)
-            self.assertEqual(self.run_node(folder, {})[0], 0)  # as if nothing had happened
-            self.assertEqual(files_in(folder), finished)
-
-    def run_node(self, folder, environment):
-        if not os.path.exists(folder + '/particle.txt'):
-            fill(folder, None)
+    def run_node(self, folder, environment=None):
         with PendulumNode(particles=folder + '/particle.txt', output=folder, frames=2,
                           energy=folder + '/e.csv', env=environment) as node:
             return node.wait(), node.output()
+
+    def check(self, kind):
+        with Folder() as folder:
+            fill(folder)
+            self.assertEqual(self.run_node(folder)[0], 0)
+            finished = files_in(folder)
+        for _, (status, output), folder in disturbed_runs(self, kind, self.run_node, {'e_csv': b'earlier'}):
+            self.check_files(folder, finished, status)
+            if kind == 'kill':
+                self.assertEqual(status, -signal.SIGKILL)
+                self.assertEqual(self.run_node(folder)[0], 0)  # as if nothing had happened
+                self.assertEqual(files_in(folder), finished)
+            elif status != 0:
+                self.assertEqual(status, 1)
+                self.assertEqual(output.count('[FATAL]'), 1)
+
+    def test_every_call_fails(self):
+        self.check('fail')
+
+    def test_killed_at_every_call(self):
+        self.check('kill')
 
     def check_files(self, folder, finished, status):
         files = files_in(folder)

@@ -3,7 +3,6 @@
 import os
 import re
 import subprocess
-import time
 import unittest
 
 import rosgraph
@@ -34,11 +33,8 @@ class Parameters(unittest.TestCase):
         numbers = [5e-324, 1e300]
         counts = ['2147483648', '9223372036854775807']
         extremes = {
-            **{name: numbers for name in ('display_rate', 'trail', 'y_offset', 'real_time_factor',
-                                          'wait_timeout')},
-            **{name: counts for name in ('display_limit', 'text_row', 'text_rows',
-                                         'wait_for_subscribers')},
-            'y_offset': [-1e300, 1e300],
+            **{name: numbers for name in ('display_rate', 'trail', 'real_time_factor', 'wait_timeout')},
+            **{name: counts for name in ('display_limit', 'text_row', 'wait_for_subscribers')},
             'follow': ['no topic', '/', 'a' * 10000],
             'frame_id': ['a' * 10000, '\u00e4'],
             'camera_frame': ['a' * 10000],
@@ -159,7 +155,7 @@ class Parameters(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertEqual(re.findall(r'^  _(\w+):=', done.stdout, re.M), known)
         self.assertRegex(done.stdout, r'_time_step:=SECONDS\n .*fixed-step methods \[0\.01 s\]')
-        self.assertRegex(done.stdout, r'_no_frames:=true\|false\n .* \[false\]')
+        self.assertRegex(done.stdout, r'_no_frames:=true\|false\n +write ')
 
     def test_a_missing_default_file_names_the_parameter(self):
         with Folder() as folder, PendulumNode(particles=None, cwd=folder) as node:

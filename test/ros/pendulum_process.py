@@ -7,11 +7,17 @@ import signal
 import subprocess
 import tempfile
 import time
+import unittest
 
 import rosgraph
 import rospkg
 import rospy
 import roslib.packages
+from geometry_msgs.msg import PoseStamped
+from spring_pendulum.msg import PendulumState
+from spring_pendulum.srv import ApplyForce, Set, SetMethod, StatePath
+from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import InteractiveMarkerFeedback
 
 PATIENCE = 60.0  # s before a test gives up: tests share a slow computer with others
 
@@ -143,6 +149,82 @@ class Listener:
 
     def close(self):
         self.subscriber.unregister()
+
+
+SERVICES = {'pause': SetBool, 'step': Trigger, 'reset': Trigger, 'set': Set, 'set_method': SetMethod,
+            'apply_force': ApplyForce, 'clear_forces': Trigger, 'at_rest': Trigger, 'save_state': StatePath,
+            'load_state': StatePath}
+
+
+def service(name, persistent=False, node='/pendulum'):
+    rospy.wait_for_service('%s/%s' % (node, name), timeout=PATIENCE)
+    return rospy.ServiceProxy('%s/%s' % (node, name), SERVICES[name], persistent=persistent)
+
+
+def connected(topic, kind):
+    """A publisher to which the node listens."""
+    publisher = rospy.Publisher(topic, kind, queue_size=100)
+    wait_until(lambda: publisher.get_num_connections() > 0, 'a subscriber of ' + topic)
+    return publisher
+
+
+def feedback(particle, event, x=0.0, z=0.0, frame='world', menu=0):
+    """What rviz says about the mouse."""
+    message = InteractiveMarkerFeedback(client_id='test', marker_name='particle_%d' % particle,
+                                        event_type=event, menu_entry_id=menu)
+    message.header.frame_id = frame
+    message.pose.position.x, message.pose.position.z = x, z
+    message.pose.orientation.w = 1.0
+    return message
+
+
+def pose(x, z, stamp=None, frame='world', y=0.0):
+    """Where a holder is."""
+    message = PoseStamped()
+    message.header.frame_id, message.header.stamp = frame, stamp or rospy.Time.now()
+    message.pose.position.x, message.pose.position.y, message.pose.position.z = x, y, z
+    message.pose.orientation.w = 1.0
+    return message
+
+
+class NodeTest(unittest.TestCase):
+    """Tests of a node at /pendulum, which plays for hours unless told otherwise."""
+    PARAMETERS = dict(particles=project('data/horizontal_11.txt'), frames=100000, real_time_factor=1.0,
+                      at_end='hold', wait_for_subscribers=1)
+
+    def setUp(self):
+        self.listeners = []
+        self.state = self.listen('state', PendulumState, keep=500)
+
+    def tearDown(self):
+        for listener in self.listeners:
+            listener.close()
+
+    def listen(self, topic, kind, keep=None):
+        self.listeners.append(Listener(topic, kind, keep))
+        return self.listeners[-1]
+
+    def node(self, **parameters):
+        return PendulumNode(**dict(self.PARAMETERS, **parameters))
+
+    def call(self, name, *arguments, success=True):
+        """Calls a service, which answers with a sentence."""
+        answer = service(name)(*arguments)
+        self.assertRegex(answer.message, r'\w+ .*\w')
+        self.assertNotIn('\n', answer.message)
+        self.assertEqual(answer.success, success, (name, arguments, answer.message))
+        return answer.message
+
+    def last(self):
+        return self.state.messages[-1]
+
+    def wait_state(self, condition, what):
+        return wait_until(lambda: condition(self.last()) and self.last(), what)
+
+    def assert_increasing(self, messages):
+        stamps = [m.header.stamp.to_nsec() for m in messages]
+        self.assertGreater(stamps[0], 0)
+        self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])), stamps)
 
 
 def standing(states):

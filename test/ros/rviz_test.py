@@ -276,8 +276,8 @@ class Rviz(unittest.TestCase):
             for row, (name, color) in enumerate(colors.items()):
                 subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '60', '--bag', bag,
                                 *(['--append'] if row else []), '--namespace', name,
-                                '--color', '#%02x%02x%02x' % color, '--text-row', str(row),
-                                '--text-rows', '2', '--gravity', str(9 - row), '--particles',
+                                '--color', '#%02x%02x%02x' % color, '--text-row', str(row + 1),
+                                '--gravity', str(9 - row), '--particles',
                                 project('data/particle.txt')], check=True,
                                stdout=subprocess.DEVNULL)
             with Viewer(display, 'replay.launch', 'bag:=' + bag) as viewer:

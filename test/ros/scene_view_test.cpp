@@ -1,5 +1,5 @@
 // The visible part of a scene, for scenes of any size.
-#include "ros/messages/scene_view.hpp"
+#include "ros/markers/scene_view.hpp"
 
 #include <spring_pendulum/io/particle_file.hpp>
 
@@ -19,9 +19,9 @@ Particles horizontal(Eigen::Index particles, double spacing) {
 }
 
 bool shows(const SceneView& view, const State& state) {
-  const Box& box = view.box();
-  return state.x().minCoeff() >= box.left && state.x().maxCoeff() <= box.right &&
-         state.y().minCoeff() >= box.bottom && state.y().maxCoeff() <= box.top;
+  const auto low = view.box().min(), high = view.box().max();
+  return state.x().minCoeff() >= low.x() && state.x().maxCoeff() <= high.x() &&
+         state.y().minCoeff() >= low.y() && state.y().maxCoeff() <= high.y();
 }
 
 TEST(SceneView, ShowsTheWholeMotionOfEveryShippedScene) {
@@ -31,7 +31,7 @@ TEST(SceneView, ShowsTheWholeMotionOfEveryShippedScene) {
     const Scenario scenario;
     test::ProgramRun run(scenario,
                          readParticleFile(std::string(PROJECT_DIR "/data/") + name + ".txt"));
-    SceneView view(run, true, 3);
+    SceneView view(run, true);
     int widened = 0;
     while (!run.isOver()) {
       run.advance();
@@ -44,8 +44,8 @@ TEST(SceneView, ShowsTheWholeMotionOfEveryShippedScene) {
 
 TEST(SceneView, IsFilledByACableBetweenTwoHolders) {
   const test::ProgramRun run(Scenario{}, horizontal(11, 1.0));
-  const SceneView view(run, false, 3);
-  EXPECT_GT(10.0 / view.box().width(), 0.85);  // 0.91
+  const SceneView view(run, false);
+  EXPECT_GT(10.0 / view.box().sizes().x(), 0.85);  // 0.91
 }
 
 TEST(SceneView, ScalesWithTheScene) {
@@ -55,7 +55,7 @@ TEST(SceneView, ScalesWithTheScene) {
   for (const double spacing : {1e-3, 1.0, 1e3}) {
     scenario.rest_length = spacing;
     const test::ProgramRun run(scenario, horizontal(11, spacing), {false, 0.0});
-    const SceneView view(run, true, 3);
+    const SceneView view(run, true);
     EXPECT_NEAR(view.cameraDistance(), 20.0 * spacing, 0.1 * spacing);
     EXPECT_NEAR(view.gridDistance(), 2.0 * spacing, 1e-9 * spacing);
     EXPECT_GT(view.textHeight(), last);
@@ -65,14 +65,14 @@ TEST(SceneView, ScalesWithTheScene) {
 
 TEST(SceneView, OneParticleHasAPicture) {
   const test::ProgramRun run(Scenario{}, horizontal(1, 1.0), {false, 0.0});
-  const SceneView view(run, true, 3);
+  const SceneView view(run, true);
   EXPECT_GT(view.size(), 0.5);
   EXPECT_LT(view.size(), 2.0);
 }
 
 TEST(SceneView, WidensForAMotionThatLeavesItButNotForEver) {
   const test::ProgramRun run(Scenario{}, horizontal(6, 1.0), {false, 0.0});
-  SceneView view(run, true, 3);
+  SceneView view(run, true);
   State state = run.start();
   EXPECT_FALSE(view.widenFor(state));
   state.x()[5] = 30.0;

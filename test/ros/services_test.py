@@ -1,53 +1,22 @@
 #!/usr/bin/python3
-"""~pause, ~step and ~reset each answer with a sentence and do not change any frame."""
-import unittest
+"""Each service acts, or is refused, and answers with a sentence."""
+import math
+import os
+import random
+import subprocess
 
 import rospy
 import rostest
-from spring_pendulum.msg import PendulumState, PendulumStatus
-from std_srvs.srv import SetBool, Trigger
+from geometry_msgs.msg import Vector3
+from spring_pendulum.msg import PendulumStatus
 
-from pendulum_process import (Folder, Listener, PendulumNode, project, read_frames, run_exercise,
+from pendulum_process import (Folder, NodeTest, PendulumNode, program, project, read_frames, run_exercise, service,
                               standing, wait_until)
 
 SCENE = project('data/horizontal_11.txt')
 
 
-class Services(unittest.TestCase):
-
-    def setUp(self):
-        self.state = Listener('state', PendulumState)
-
-    def tearDown(self):
-        self.state.close()
-
-    def call(self, name, kind, *arguments):
-        rospy.wait_for_service('/pendulum/' + name, timeout=30)
-        answer = rospy.ServiceProxy('/pendulum/' + name, kind)(*arguments)
-        self.assertRegex(answer.message, r'\w+ .*\w')
-        return answer
-
-    def last(self):
-        return self.state.messages[-1]
-
-    def test_pause_step_reset_resume_and_still_the_same_frames(self):
-        with Folder() as folder, Folder() as expected_folder:
-            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', SCENE,
-                                    '--frames', '31')
-            with PendulumNode(particles=SCENE, frames=31, output=folder, real_time_factor=1.0,
-                              wait_for_subscribers=1) as node:
-                self.state.wait_for(5)
-                self.assertFalse(self.call('step', Trigger).success)
-                self.assertTrue(self.call('pause', SetBool, True).success)
-                self.assertIn('already paused', self.call('pause', SetBool, True).message)
-                self.check_stands_still()
-                self.check_steps()
-                self.check_reset()
-                self.assertIn('running', self.call('pause', SetBool, False).message)
-                self.assertEqual(node.wait(), 0, node.output())
-            self.assertEqual(read_frames(folder), expected)
-        seconds = [m.header.stamp.to_nsec() for m in self.state.messages]
-        self.assertTrue(all(a < b for a, b in zip(seconds, seconds[1:])))
+class Playing(NodeTest):
 
     def check_stands_still(self):
         paused_at = wait_until(lambda: standing(self.state.messages), 'the pause').time
@@ -55,64 +24,233 @@ class Services(unittest.TestCase):
         self.state.wait_for(count + 2)
         self.assertEqual({m.time for m in self.state.messages[count:]}, {paused_at})
 
-    def check_steps(self):
-        for _ in range(3):
-            frame = self.last().frame
-            self.assertEqual(self.call('step', Trigger).message, 'advancing to frame %d' % (frame + 1))
-            message = self.state.wait_for_any(lambda m, f=frame: m.frame == f + 1)
-            self.assertTrue(message.at_frame)
-
-    def check_reset(self):
-        before = len(self.state.messages)
-        self.assertTrue(self.call('reset', Trigger).success)
-        wait_until(lambda: any(m.time == 0 for m in self.state.messages[before:]), 'frame 0')
-        self.check_stands_still()
-        self.assertEqual(self.last().frame, 0)
+    def test_pause_step_reset_resume_and_still_the_same_frames(self):
+        with Folder() as folder, Folder() as expected_folder:
+            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '31')
+            with self.node(frames=31, output=folder, at_end='exit') as node:
+                self.state.wait_for(5)
+                self.call('step', success=False)
+                self.call('pause', True)
+                self.assertIn('already paused', self.call('pause', True))
+                self.check_stands_still()
+                for _ in range(3):
+                    frame = self.last().frame
+                    self.assertEqual(self.call('step'), 'advancing to frame %d' % (frame + 1))
+                    message = self.state.wait_for_any(lambda m, f=frame: m.frame == f + 1)
+                    self.assertTrue(message.at_frame)
+                self.call('reset')
+                self.wait_state(lambda m: m.time == 0, 'frame 0')
+                self.check_stands_still()
+                self.assertEqual(self.last().frame, 0)
+                self.assertIn('running', self.call('pause', False))
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(read_frames(folder), expected)
+        self.assert_increasing(self.state.messages)
 
     def test_a_pause_at_the_last_frame_of_a_loop_is_kept(self):
-        with PendulumNode(particles=SCENE, frames=3, at_end='loop', wait_for_subscribers=1):
-            self.state.wait_for_any(lambda m: m.frame == 2)
-            wait_until(lambda: self.last().frame == 2 and self.call('pause', SetBool, True), 'the pause')
+        with self.node(frames=3, at_end='loop', real_time_factor=0.0):
+            wait_until(lambda: self.state.messages and self.last().frame == 2 and self.call('pause', True), 'the pause')
             frame, count = self.last().frame, len(self.state.messages)
             self.state.wait_for(count + 4)  # 2 s, a loop would start after 1 s
             self.assertEqual({m.frame for m in self.state.messages[count + 1:]}, {frame})
 
-    def test_resets_and_rests_need_no_memory(self):
+    def test_step_at_the_end_is_refused_and_reset_plays_again(self):
+        status = self.listen('status', PendulumStatus)
+        with self.node(frames=3, real_time_factor=0.0, wait_for_subscribers=2):
+            status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
+            for name, *arguments in (('step',), ('pause', True), ('pause', False)):
+                self.assertIn('ended at frame 2', self.call(name, *arguments, success=False))
+            self.call('reset')
+            wait_until(lambda: sum(m.code == PendulumStatus.FINISHED for m in status.messages) >= 2, 'a second end')
+
+    def test_resets_rests_and_forces_need_no_memory(self):
         with Folder() as folder:
             scene = folder + '/chain.txt'
             with open(scene, 'w') as file:
                 file.writelines('0 %g 1\n' % -i for i in range(10000))
-            with PendulumNode(particles=scene, frames=1000, real_time_factor=1.0, at_end='hold') as node:
-                self.call('pause', SetBool, True)
-                calls = [rospy.ServiceProxy('/pendulum/' + name, Trigger, persistent=True) for name in ('reset', 'at_rest')]
+            with self.node(particles=scene, wait_for_subscribers=0) as node:
+                self.call('pause', True)
+                reset, rest, force = (service(name, True) for name in ('reset', 'at_rest', 'apply_force'))
                 before = 0
-                for k in range(1000):
-                    for call in calls:
-                        call()
+                for k in range(600):
+                    reset()
+                    rest()
+                    force(9, '', Vector3(1, 0, 0), 0.0, -1.0)
                     if k == 99:
                         before = node.resident_bytes()
                 # The first hundred fill the 32 MB of inputs that are kept. Measured: below 1 MB.
                 self.assertLess(node.resident_bytes() - before, 50e6)
 
-    def test_step_at_the_end_is_refused_and_reset_plays_again(self):
-        status = Listener('status', PendulumStatus)
-        with PendulumNode(particles=SCENE, frames=3, at_end='hold', wait_for_subscribers=2) as node:
-            status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
-            answer = self.call('step', Trigger)
-            self.assertFalse(answer.success)
-            self.assertIn('ended at frame 2', answer.message)
-            for pause in (True, False):
-                answer = self.call('pause', SetBool, pause)
-                self.assertFalse(answer.success)
-                self.assertIn('ended at frame 2', answer.message)
-            self.call('reset', Trigger)
-            wait_until(lambda: sum(m.code == PendulumStatus.FINISHED for m in status.messages) >= 2,
-                       'a second end')
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
-        status.close()
+    def test_loops_need_no_memory(self):
+        with Folder() as folder:
+            scene = folder + '/chain.txt'
+            with open(scene, 'w') as file:
+                file.writelines('0 %g 1\n' % -i for i in range(10000))
+            with self.node(particles=scene, frames=1, at_end='loop', wait_for_subscribers=0) as node:
+                wait_until(lambda: 'verdict' in node.output(), 'the first loop')
+                rospy.sleep(2.0)
+                before = node.resident_bytes()
+                rospy.sleep(10.0)
+                self.assertLess(node.resident_bytes() - before, 50e6)
+
+
+class Changing(NodeTest):
+
+    def test_constants_change(self):
+        with self.node(method='Auto') as node:
+            self.state.wait_for(5)
+            for name, value in (('stiffness', 200), ('damping', 0.2), ('gravity', -3), ('rest_length', 0.5),
+                                ('real_time_factor', 2)):
+                self.call('set', name, value)
+                rospy.sleep(0.2)
+            self.call('set_method', 'Dormand-Prince-5')
+            self.wait_state(lambda m: m.method == 'Dormand-Prince-5', 'the method')
+            self.assertLess(abs(self.last().energy_error), 1e-4)
+            for name, value in (('stiffness', -1), ('stifness', 1), ('frames', 3), ('gravity', math.nan),
+                                ('method', 1), ('real_time_factor', -1)):
+                self.call('set', name, value, success=False)
+            self.call('set_method', 'Eular', success=False)
+            for name, value in (('gravity', -1e9), ('rest_length', 1e9)):  # the run would refuse them
+                self.assertIn('tolerance: must be at least', self.call('set', name, value, success=False))
+            rospy.sleep(0.3)
+            self.assertFalse([line for line in node.lines('ERROR') if 'refused' in line])
+
+    def test_forces_push(self):
+        with self.node(method='Auto', gravity=0.0):
+            self.state.wait_for(5)
+            self.call('apply_force', 11, '', Vector3(0.0, 7.0, 20.0), 0.0, 0.5)
+            self.wait_state(lambda m: m.velocities[10].z > 1.0, 'the push')
+            self.assertLess(abs(self.last().energy_error), 1e-4)
+            self.call('apply_force', 5, '', Vector3(5.0, 0.0, 0.0), 0.0, -1.0)
+            self.assertRegex(self.call('clear_forces'), '^[12] forces? cleared')
+            for particle, force, frame in ((1, 1.0, ''), (12, 1.0, ''), (0, 1.0, ''), (3, math.nan, ''),
+                                           (3, 1.0, 'nowhere')):
+                self.call('apply_force', particle, frame, Vector3(force, 0.0, 0.0), 0.0, 1.0, success=False)
+
+    def test_it_comes_to_rest(self):
+        with self.node():
+            self.state.wait_for(5)
+            self.call('at_rest')
+            self.wait_state(lambda m: m.tip_speed < 1e-9, 'the rest')
+            rospy.sleep(0.5)
+            self.assertLess(self.last().tip_speed, 1e-9)
+            self.assertEqual(len(self.last().tensions), 10)
+            for i, tension in enumerate(self.last().tensions):
+                self.assertAlmostEqual(tension, 9.81 * (10 - i), places=6)
+
+    def test_after_any_services_it_comes_to_rest(self):
+        dice = random.Random(5)
+        with self.node(method='Auto'):
+            self.state.wait_for(5)
+            for _ in range(12):
+                for _ in range(dice.randint(0, 3)):
+                    name, *arguments = dice.choice((
+                        ('set', 'stiffness', dice.uniform(30, 300)), ('set', 'gravity', dice.uniform(1, 20)),
+                        ('set', 'damping', dice.uniform(0, 2)), ('set', 'rest_length', dice.uniform(0.5, 1.5)),
+                        ('set_method', dice.choice(('Auto', 'Taylor-8', 'Radau-9'))), ('reset',), ('pause', True),
+                        ('clear_forces',)))
+                    self.call(name, *arguments)
+                self.call('at_rest')
+                self.call('pause', False)
+                self.wait_state(lambda m: m.tip_speed < 1e-9, 'the rest')
+                del self.state.messages[:]
+                fastest = max(math.hypot(v.x, v.z) for m in self.state.wait_for(10) for v in m.velocities)
+                self.assertLess(fastest, 1e-6)
+
+
+class States(NodeTest):
+
+    def play(self, folder, **parameters):
+        return self.node(**dict(dict(frames=60, real_time_factor=5.0, display_rate=0.0, cwd=folder), **parameters))
+
+    def test_saves_and_loads(self):
+        with Folder() as folder, self.play(folder):
+            frames = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')
+            self.state.wait_for_any(lambda m: m.frame >= 20)
+            path = os.path.join(folder, 'pendulum_state.txt')
+            self.assertIn(path, self.call('save_state', ''))
+            with open(path) as saved:
+                frame = int(saved.readline().split('frame ')[1].split(',')[0])
+            self.assertGreaterEqual(frame, 20)
+            self.state.wait_for_any(lambda m: m.frame == 59)
+            del self.state.messages[:]
+            self.call('load_state', path)
+            self.state.wait_for_any(lambda m: m.frame == frame)
+            self.state.wait_for_any(lambda m: m.frame == 59)
+            at = [m.frame for m in self.state.messages].index(frame)
+            for state in self.state.messages[at:]:
+                expected = frames['frame_%04d.txt' % state.frame].decode().splitlines()
+                self.assertEqual([(p.x, p.z) for p in state.positions],
+                                 [tuple(map(float, line.split())) for line in expected])
+            # Exercise3 goes on from it as well.
+            os.mkdir(os.path.join(folder, 'resumed'))
+            resumed = run_exercise(os.path.join(folder, 'resumed'), 'Runge-Kutta-4', path, '--resume',
+                                   '--frames', '60')
+            self.assertEqual(sorted(resumed), sorted(frames)[frame:])
+            self.assertTrue(all(frames[name] == text for name, text in resumed.items()))
+
+    def test_loads_what_it_saved_after_any_changes(self):
+        dice = random.Random(3)
+        with Folder() as folder, self.play(folder, frames=100000, time_step=0.02, real_time_factor=10.0):
+            self.state.wait_for(3)
+            for _ in range(25):
+                self.call('set_method', dice.choice(('Auto', 'Runge-Kutta-4', 'Velocity-Verlet', 'Taylor-8')))
+                self.call('set', dice.choice(('damping', 'gravity')), dice.uniform(0.5, 2))
+                rospy.sleep(dice.uniform(0.0, 0.2))
+                self.call('pause', True)
+                rospy.sleep(0.1)
+                self.call('save_state', '')
+                self.wait_state(lambda m: m.at_frame, 'a state at a frame')
+                saved = self.last()
+                self.call('pause', False)
+                rospy.sleep(dice.uniform(0.0, 0.2))
+                self.call('pause', True)
+                self.call('load_state', '')
+                loaded = self.wait_state(lambda m: m.time <= saved.time + 1e-9, 'the saved time')
+                self.assertEqual((loaded.frame, loaded.positions), (saved.frame, saved.positions))
+                self.assertAlmostEqual(loaded.time, saved.time, places=9)
+                self.call('pause', False)
+
+    def test_writes_the_frames_that_a_jump_left_out_when_it_reaches_them(self):
+        with Folder() as folder:
+            expected = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')
+            state_file, written = os.path.join(folder, 'state.txt'), os.path.join(folder, 'written')
+            subprocess.run([program('Exercise3'), 'Runge-Kutta-4', '--particles', SCENE, '--frames', '31', '--no-frames',
+                            '--save-state', state_file], capture_output=True, check=True)
+            with self.node(frames=60, output=written, real_time_factor=2.0):
+                self.state.wait_for(2)
+                self.call('load_state', state_file)
+                self.state.wait_for_any(lambda m: m.frame >= 31)
+                self.assertLess(len(read_frames(written)), 30)
+                self.call('reset')  # the end of the run ends the files
+                wait_until(lambda: len(read_frames(written)) == 60, 'all frames')
+                self.assertTrue(read_frames(written) == expected)
+
+    def test_a_run_that_has_not_started_has_no_state(self):
+        with Folder() as folder, PendulumNode(particles=SCENE, wait_for_subscribers=9, wait_timeout=100):
+            for name in ('save_state', 'load_state'):
+                self.assertEqual(self.call(name, folder + '/state.txt', success=False), 'the run has not started yet')
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_refuses_what_is_no_state(self):
+        with Folder() as folder, self.play(folder):
+            self.state.wait_for(3)
+            other = os.path.join(folder, 'other.txt')
+            with open(other, 'w') as file:
+                file.write('# state of 11 particles at frame 0, t = 0 s\n' +
+                           ''.join('%d 0 2 0 0\n' % i for i in range(11)))
+            for path, says in (('nothing.txt', 'nothing.txt'), (SCENE, 'must be'), (folder, folder),
+                               (other, 'masses differ')):
+                self.assertIn(says, self.call('load_state', path, success=False))
+            for path, says in (('/proc/nowhere/state.txt', 'could not be'), (folder, 'is a folder'),
+                               (os.path.dirname(SCENE), 'is a folder'), (SCENE, 'is an input')):
+                message = self.call('save_state', path, success=False)
+                self.assertIn(path.replace('/state.txt', ''), message)
+                self.assertIn(says, message)
+            del self.state.messages[:]
+            self.state.wait_for(3)
 
 
 if __name__ == '__main__':
     rospy.init_node('services_test')
-    rostest.rosrun('spring_pendulum', 'services', Services)
+    rostest.rosrun('spring_pendulum', 'services', '__main__')

@@ -13,8 +13,8 @@ from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
-from pendulum_process import Folder, Listener, PendulumNode, project, read_frames, run_exercise, \
-    wait_until
+from pendulum_process import (Folder, Listener, NodeTest, PendulumNode, methods, project, read_frames, run_exercise,
+                              wait_until)
 
 HORIZONTAL = project('data/horizontal_11.txt')
 
@@ -23,22 +23,10 @@ def stamps(messages):
     return [m.header.stamp.to_nsec() for m in messages]
 
 
-class Topics(unittest.TestCase):
+class Topics(NodeTest):
 
     def setUp(self):
-        self.listeners = []
-
-    def tearDown(self):
-        for listener in self.listeners:
-            listener.close()
-
-    def listen(self, topic, message_type, keep=None):
-        self.listeners.append(Listener(topic, message_type, keep))
-        return self.listeners[-1]
-
-    def assert_increasing(self, numbers):
-        self.assertGreater(numbers[0], 0)
-        self.assertTrue(all(a < b for a, b in zip(numbers, numbers[1:])), numbers)
+        self.listeners = []  # a message without listeners is not built
 
     def test_one_stamp_a_state_on_every_topic_and_nothing_lost(self):
         markers, state, status = (self.listen('markers', MarkerArray), self.listen('state', PendulumState),
@@ -53,7 +41,7 @@ class Topics(unittest.TestCase):
         self.assertEqual([m.frame for m in state.messages if m.at_frame and m.frame < 19],
                          list(range(19)))
         self.assertEqual(state.messages[-1].frame, 19)
-        self.assert_increasing(stamps(state.messages))
+        self.assert_increasing(state.messages)
         self.assertEqual(stamps(state.messages), [m.markers[0].header.stamp.to_nsec()
                                                   for m in markers.messages])
         for message in markers.messages:
@@ -125,7 +113,7 @@ class Topics(unittest.TestCase):
                                   '--energy', folder + '/energy.csv')
             with open(folder + '/energy.csv') as file:
                 row = list(csv.reader(file))[-1]
-        with PendulumNode(particles=HORIZONTAL, frames=31, at_end='hold', y_offset=0.5) as node:
+        with PendulumNode(particles=HORIZONTAL, frames=31, at_end='hold') as node:
             status = self.listen('status', PendulumStatus)
             status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
             last = self.listen('state', PendulumState).wait_for(1)[0]
@@ -134,7 +122,7 @@ class Topics(unittest.TestCase):
         lines = frames['frame_0030.txt'].decode().splitlines()
         self.assertEqual([(p.x, p.z) for p in last.positions],
                          [tuple(map(float, line.split())) for line in lines])
-        self.assertEqual({p.y for p in last.positions}, {0.5})
+        self.assertEqual({p.y for p in last.positions}, {0.0})
         self.assertEqual((last.tip_position.x, last.tip_position.z),
                          (last.positions[-1].x, last.positions[-1].z))
         self.assertAlmostEqual(last.tip_speed, math.hypot(last.velocities[-1].x,
@@ -233,7 +221,7 @@ class Topics(unittest.TestCase):
             node.interrupt()
             self.assertEqual(node.wait(), 0, node.output())
         seconds = [m.clock.to_nsec() for m in clock.messages]
-        self.assert_increasing(seconds)
+        self.assertTrue(all(a < b for a, b in zip(seconds, seconds[1:])))
         for message in state.messages:
             self.assertAlmostEqual(message.header.stamp.to_sec(), 1.0 + message.time, places=6)
 
@@ -259,6 +247,41 @@ class Topics(unittest.TestCase):
         self.assertEqual(len(positions), 100000)
 
 
+class Frames(unittest.TestCase):
+    """The node's frame files are those of Exercise3, byte for byte."""
+
+    def test_all_methods_with_and_without_states_in_between(self):
+        self.assertGreaterEqual(len(methods()), 3)
+        for method, error_controlled in methods():
+            with self.subTest(method=method), Folder() as expected_folder:
+                expected = run_exercise(expected_folder, method, '--particles', HORIZONTAL, '--frames', '21')
+                self.assertEqual(len(expected), 21)
+                self.check_plain(method, expected)
+                self.check_displayed(method, error_controlled, expected)
+
+    def check_plain(self, method, expected):
+        with Folder() as folder:
+            with PendulumNode(method=method, particles=HORIZONTAL, frames=21, output=folder) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(read_frames(folder), expected)
+
+    def check_displayed(self, method, error_controlled, expected):
+        state = Listener('state', PendulumState)
+        with Folder() as folder:
+            with PendulumNode(method=method, particles=HORIZONTAL, frames=21, output=folder,
+                              real_time_factor=5.0, display_rate=350.0,
+                              wait_for_subscribers=1) as node:
+                self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(read_frames(folder), expected)
+        state.wait_for_any(lambda m: m.frame == 20)
+        state.close()
+        in_between = [m for m in state.messages if not m.at_frame]
+        self.assertGreater(len(in_between), 3, 'states in between were to be shown')
+        part = 0.1 / 8 if error_controlled else 0.01
+        for message in in_between:
+            self.assertAlmostEqual(message.time / part, round(message.time / part), places=6)
+
+
 if __name__ == '__main__':
     rospy.init_node('topics_test')
-    rostest.rosrun('spring_pendulum', 'topics', Topics)
+    rostest.rosrun('spring_pendulum', 'topics', '__main__')

@@ -240,9 +240,33 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   scenario.rest_length = 0.5;
   const double time = pair.run.time();
   pair.run.change(scenario, {}, state);
-  EXPECT_EQ(pair.run.time(), time);
+  EXPECT_NEAR(pair.run.time(), time, 1e-12);
   pair.run.advance();
   EXPECT_NEAR(pair.run.time(), time + kInterval, 1e-12);
+}
+
+// So a saved state has the time of its frame, whatever methods have computed it.
+TEST(DrivenRun, KeepsTheIntervalOfItsFrames) {
+  const Scene scene = test::horizontalChain("horizontal", 3, 1.0);
+  Scenario scenario = scenarioOf("Runge-Kutta-4", scene);
+  scenario.time_step = 0.007;
+  scenario.steps_per_frame = 10;
+  DrivenPair pair(scenario, scene);
+  for (const char* method : {"Auto", "Velocity-Verlet", "Taylor-8", "Euler"}) {
+    scenario.method = findMethod(method);
+    pair.run.change(scenario, {}, pair.run.state());
+    pair.run.advance();
+    pair.run.advance();
+    EXPECT_NEAR(pair.run.time(), 0.07 * static_cast<double>(pair.run.frame()), 1e-14) << method;
+  }
+  Scenario uneven = scenarioOf("Auto", scene);
+  uneven.frame_interval = 0.1;
+  uneven.time_step = 0.03;
+  DrivenPair other(uneven, scene);
+  uneven.method = findMethod("Euler");
+  other.run.change(uneven, {}, other.run.state());
+  EXPECT_EQ(other.run.scenario().steps_per_frame, 4);
+  EXPECT_EQ(other.run.scenario().time_step, 0.025);
 }
 
 TEST(DrivenRun, ReturnsToAMeasuredStart) {

@@ -5,7 +5,8 @@
 //   FAULT_CALL    number of the call, counted from 1
 //   FAULT_KIND    fail: this call fails; broken: this and all later calls fail; kill: the program
 //                 ends before the call; short: a read or write transfers half of its bytes; again:
-//                 a signal interrupts a read or write. The last two count only reads and writes.
+//                 a signal interrupts a read or write. The last two count only reads and writes. list:
+//                 nothing fails, and the names of all calls are reported.
 //   FAULT_REPORT  file outside the folder to which the name of the call is written
 //   FAULT_THREAD  number of the thread that can't be created, counted from 1; with the kind broken, no
 //                 later one either
@@ -65,7 +66,7 @@ std::string pathOf(int folder, const char* path) {
 
 void report(const char* call) {
   const std::string path(setting("FAULT_REPORT"));
-  const long file = syscall(SYS_openat, AT_FDCWD, path.c_str(), O_WRONLY | O_CREAT, 0600);
+  const long file = syscall(SYS_openat, AT_FDCWD, path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
   syscall(SYS_write, file, call, std::strlen(call));
   syscall(SYS_close, file);
 }
@@ -78,6 +79,10 @@ Fault faultOf(const char* call, const std::string& path, bool moves_data = false
   const std::string_view folder = setting("FAULT_FOLDER");
   const std::string_view kind = setting("FAULT_KIND");
   if (folder.empty() || path.compare(0, folder.size(), folder) != 0) return Fault::kNone;
+  if (kind == "list") {
+    report((std::string(call) + "\n").c_str());
+    return Fault::kNone;
+  }
   const bool needs_data = kind == "short" || kind == "again";
   if (needs_data && !moves_data) return Fault::kNone;
   const long wanted = numberIn("FAULT_CALL");

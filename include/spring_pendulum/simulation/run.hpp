@@ -74,7 +74,7 @@ class Run {
 
   /// Continues from another state, with other constants and another drive. The energy balance counts
   /// the difference of the energies before and after as supplied. The reference run ends.
-  /// \param scenario   its method, tolerance and constants of the chain replace those of the run
+  /// \param scenario its method, tolerance and constants replace those of the run; the frame interval stays
   /// \param state      the current one, or one that differs from it
   /// \throws InputError for a value out of its range, a drive or a state that the chain cannot have,
   ///   and a change between fixed steps and error control inside a frame; nothing has changed then
@@ -180,8 +180,6 @@ class Run {
   bool stopped_ = false;
   bool asleep_ = false;
   bool changed_ = false;                 ///< since construction or the last reset
-  double time_origin_ = 0.0;             ///< s, of frame `frame_origin_`
-  std::int64_t frame_origin_ = 0;        ///< first frame of the current `frame_steps_`
   double dissipated_before_ = 0.0;       ///< J, before the current integrator started
   double dissipated_ = 0.0;              ///< J, until the current state
   double supplied_before_ = 0.0;         ///< J, as above

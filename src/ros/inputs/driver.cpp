@@ -22,9 +22,8 @@ namespace {
 /// A held particle nearer to its target than this, m and m/s, is at rest.
 constexpr double kSettled = 1e-9;
 /// Constants that change while the chain moves. The node itself changes real_time_factor.
-const std::vector<std::string> kLive = {"method",   "tolerance",       "stiffness",
-                                        "damping",  "rest_length",     "gravity",
-                                        "air_drag", "real_time_factor"};
+const std::vector<std::string> kLive = {"tolerance", "stiffness", "damping",         "rest_length",
+                                        "gravity",   "air_drag",  "real_time_factor"};
 /// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
 /// the range of double, or takes hours per frame.
 constexpr double kLargest = 1e9;
@@ -34,19 +33,16 @@ constexpr std::size_t kMostForces = 1000;
 /// Largest speed of a particle on the way to its target, in lengths of the chain per second.
 constexpr double kLengthsPerSecond = 5.0;
 
-bool isSame(const Drive& a, const Drive& b) {
-  const auto same_vector = [](const PlaneVector<double>& p, const PlaneVector<double>& q) {
-    return p.x == q.x && p.y == q.y;
-  };
-  return std::equal(a.held.begin(), a.held.end(), b.held.begin(), b.held.end(),
-                    [&](const HeldParticle& p, const HeldParticle& q) {
-                      return p.particle == q.particle &&
-                             same_vector(p.acceleration, q.acceleration);
-                    }) &&
-         std::equal(a.forces.begin(), a.forces.end(), b.forces.begin(), b.forces.end(),
-                    [&](const AppliedForce& p, const AppliedForce& q) {
-                      return p.particle == q.particle && same_vector(p.force, q.force);
-                    });
+/// Returns all numbers of a drive.
+std::vector<double> numbersOf(const Drive& drive) {
+  std::vector<double> numbers{static_cast<double>(drive.held.size())};
+  for (const auto& [particle, acceleration] : drive.held) {
+    numbers.insert(numbers.end(), {static_cast<double>(particle), acceleration.x, acceleration.y});
+  }
+  for (const auto& [particle, force] : drive.forces) {
+    numbers.insert(numbers.end(), {static_cast<double>(particle), force.x, force.y});
+  }
+  return numbers;
 }
 
 bool isSame(const Scenario& a, const Scenario& b) {
@@ -65,7 +61,7 @@ Driver::Driver(const Run& run, InputLog* log)
 
 std::string Driver::on(const SetConstant& request) {
   const std::string& name = request.name;
-  if (std::find(kLive.begin(), kLive.end(), name) == kLive.end()) {
+  if (name != "method" && std::find(kLive.begin(), kLive.end(), name) == kLive.end()) {
     throw InputError(unknownName("live constant", name, kLive));
   }
   Scenario wanted = wanted_;
@@ -205,13 +201,14 @@ void Driver::apply(Run& run, double next_time, bool paused) {
     drive = {};
   }
   const Scenario scenario = possible();
-  const bool same = isSame(drive, run.chain().drive()) && isSame(scenario, run.scenario()) &&
-                    state.values() == run.state().values();
+  const bool same = numbersOf(drive) == numbersOf(run.chain().drive()) &&
+                    isSame(scenario, run.scenario()) && state.values() == run.state().values();
   if (same) return;
   try {
     const State before = run.state();
+    const double time = run.time();
     run.change(scenario, drive, state);
-    if (log_ != nullptr) log_->changed(run, before);
+    if (log_ != nullptr) log_->changed(run, before, time);
   } catch (...) {
     wanted_ = run.scenario();
     forces_.clear();

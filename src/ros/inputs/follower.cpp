@@ -18,72 +18,56 @@ constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in larges
 
 }  // namespace
 
-InputCheck::Answer InputCheck::refuse(const std::string& why) {
-  if (!said_) say(" " + why + ": the particle is held where it is");
-  said_ = true;
-  return Answer::kRefused;
+bool Follower::refuse(const std::string& why) {
+  if (!std::exchange(said_, true)) {
+    say(" " + why + ": the particle is held where it is until the input is steady");
+  }
+  return false;
 }
 
-bool InputCheck::follows(const Seen& before, const Seen& input) const {
-  const double distance =
-      std::hypot(input.position.x - before.position.x, input.position.y - before.position.y);
-  return input.stamp >= before.stamp && distance <= longest_;
+bool Follower::isNext(const Sample& before, const Sample& input) const {
+  const PlaneVector<double>&from = before.holder.position, &to = input.holder.position;
+  return input.stamp >= before.stamp && std::hypot(to.x - from.x, to.y - from.y) <= longest_;
 }
 
-InputCheck::Answer InputCheck::check(const PlaneVector<double>& position,
-                                     const PlaneVector<double>& velocity, double stamp,
-                                     double now) {
-  if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(velocity.x) ||
-      !std::isfinite(velocity.y)) {
+bool Follower::isBelievable(const Sample& input) {
+  const auto& [position, velocity, acceleration] = input.holder;
+  if (!std::isfinite(position.x + position.y + velocity.x + velocity.y)) {
     return refuse("has numbers that are not finite");
   }
   const double fastest = kJumpsPerSecond * longest_;
   if (!(std::hypot(velocity.x, velocity.y) <= fastest)) {
     return refuse(fmt::format("moves at more than {:.3g} m/s", fastest));
   }
-  const Seen input{position, stamp, now};
-  bool returns = !last_ || now - last_->time >= kSilence;
-  if (last_ && !follows(*last_, input)) {
-    if (!refused_ || !follows(*refused_, input)) steady_since_ = now;
-    refused_ = input;
-    returns = now - steady_since_ >= kSilence;
-    if (!returns) {
-      return refuse(stamp < last_->stamp ? "runs backwards in time"
-                                         : fmt::format("jumps by more than {:.3g} m", longest_));
-    }
+  if (samples_.empty() || isNext(samples_.back(), input)) return true;
+  if (!refused_ || !isNext(*refused_, input)) steady_since_ = input.time;
+  refused_ = input;
+  if (input.time - steady_since_ >= kSilence) {
+    samples_.clear();
+    return true;
   }
-  if (said_ || silent_) say(" is followed again");
-  said_ = silent_ = false;
-  refused_.reset();
-  last_ = input;
-  return returns ? Answer::kReturns : Answer::kFollows;
-}
-
-bool InputCheck::isAlive(double now) {
-  if (!last_ || now - last_->time < kSilence) return last_.has_value();
-  if (!silent_ && !said_) say(" has stopped: the particle is held where it is");
-  silent_ = true;
-  return false;
+  return refuse(
+      input.stamp < samples_.back().stamp
+          ? "runs backwards in time"
+          : fmt::format("jumps by more than {:.3g} m (check its frame and unit)", longest_));
 }
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
-  const InputCheck::Answer answer = check_.check(input.position, input.velocity, stamp, now);
-  if (answer == InputCheck::Answer::kRefused) return false;
-  if (answer == InputCheck::Answer::kReturns) {
+  Sample sample{input, stamp, now};
+  if (!isBelievable(sample)) return false;
+  if (std::exchange(said_, false)) say(" is followed again");
+  refused_.reset();
+  if (samples_.empty() || isSilent(now)) {
     samples_.clear();
     met_ = false;
     left_ = 0.0;
-  }
-  // Differences of stamps have no jitter; but they may come from another clock.
-  double time = now;
-  if (!samples_.empty()) {
+  } else if (stamp > samples_.back().stamp) {
+    // Differences of stamps have no jitter; but they may come from another clock.
     const double expected = samples_.back().time + (stamp - samples_.back().stamp);
-    if (stamp > samples_.back().stamp && std::abs(now - expected) < kJitter) {
-      time = std::min(now, expected);
-    }
+    if (std::abs(now - expected) < kJitter) sample.time = std::min(now, expected);
   }
-  samples_.push_back({input, stamp, time});
-  while (samples_.front().time < time - kHistory) samples_.pop_front();
+  samples_.push_back(sample);
+  while (samples_.front().time < sample.time - kHistory) samples_.pop_front();
   estimateMotion(has_velocity);
   return true;
 }
@@ -122,10 +106,12 @@ void Follower::estimateMotion(bool has_velocity) {
 
 std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& here,
                                          double interval) {
-  const bool alive = check_.isAlive(now);
   if (samples_.empty()) return std::nullopt;
   Target target = samples_.back().holder;
-  if (!alive) return Target{target.position, {}, {}};
+  if (isSilent(now)) {
+    if (!std::exchange(said_, true)) say(" has stopped: the particle is held where it is");
+    return Target{target.position, {}, {}};
+  }
   const double age = now - samples_.back().time - interval;
   const auto move = [age](double& position, double& velocity, double acceleration) {
     position += age * (velocity + 0.5 * age * acceleration);
@@ -145,11 +131,11 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
   if (left_ == 0.0) {
     left_ = now;
     expected_ = now + 2.0 * distance / kApproachSpeed + 1.0;
-    check_.say(fmt::format(": the particle comes to it from {:.3g} m away", distance));
+    say(fmt::format(": the particle comes to it from {:.3g} m away", distance));
   } else if (now > expected_) {
     expected_ = std::numeric_limits<double>::infinity();
-    check_.say(fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away",
-                           now - left_, distance));
+    say(fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away", now - left_,
+                    distance));
   }
   const double step = 2.0 * kApproachSpeed * std::max(interval, 1e-3);
   if (distance <= step) return;
@@ -159,14 +145,11 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
 }
 
 bool Follower::isSilent(double now) const {
-  return samples_.empty() || now - samples_.back().time > kSilence;
+  return samples_.empty() || now - samples_.back().time >= kSilence;
 }
 
 void Follower::restart() {
-  samples_.clear();
-  met_ = false;
-  left_ = 0.0;
-  check_.restart();
+  *this = Follower(name_, longest_);
 }
 
 }  // namespace spring_pendulum

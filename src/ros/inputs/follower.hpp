@@ -10,52 +10,15 @@
 
 namespace spring_pendulum {
 
-/// Validates the pose stream of one holder and logs each problem once.
-class InputCheck {
+/// Turns the inputs of one holder into targets of its particle, and says each problem once. The particle
+/// follows an input that is believable. At the start, after a silence of half a second and after a
+/// jump it first comes to its holder. A lasting jump, or a clock that starts again, is believed once the
+/// input has been steady for half a second.
+class Follower {
  public:
   /// \param name    of the input, for messages
   /// \param longest largest believable jump, m
-  InputCheck(std::string name, double longest) : name_(std::move(name)), longest_(longest) {}
-
-  enum class Answer { kRefused, kFollows, kReturns };
-
-  /// Returns whether the particle may follow an input, or first has to come to it again: the first input,
-  /// and one after a silence. A lasting jump, or a clock that starts again, is believed once the input has
-  /// been steady for half a second.
-  /// \param stamp of the input, s; not compared with a clock
-  Answer check(const PlaneVector<double>& position, const PlaneVector<double>& velocity,
-               double stamp, double now);
-  /// Whether the last input came less than half a second ago.
-  bool isAlive(double now);
-  void say(const std::string& what) { message_ = name_ + what; }
-  /// What is wrong, said once; empty if nothing new.
-  std::string takeMessage() { return std::exchange(message_, {}); }
-  /// Accepts the next input wherever and whenever it is.
-  void restart() { last_.reset(); }
-
- private:
-  struct Seen {
-    PlaneVector<double> position;  ///< m
-    double stamp;                  ///< s
-    double time;                   ///< s, steady clock
-  };
-  bool follows(const Seen& before, const Seen& input) const;
-  Answer refuse(const std::string& why);
-
-  std::string name_;
-  double longest_;
-  std::optional<Seen> last_;     ///< accepted
-  std::optional<Seen> refused_;  ///< the last one, since the last accepted one
-  double steady_since_ = 0.0;    ///< s, of the refused ones
-  bool said_ = false;
-  bool silent_ = false;
-  std::string message_;
-};
-
-/// Turns the inputs of one holder into targets of its particle.
-class Follower {
- public:
-  explicit Follower(InputCheck check) : check_(std::move(check)) {}
+  Follower(std::string name, double longest) : name_(std::move(name)), longest_(longest) {}
 
   /// Takes an input that is believable.
   /// \param has_velocity otherwise, the velocity follows from earlier inputs
@@ -70,8 +33,8 @@ class Follower {
   std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
   /// Whether no input came for half a second.
   bool isSilent(double now) const;
-  /// See InputCheck.
-  std::string takeMessage() { return check_.takeMessage(); }
+  /// What is new about the input; empty: nothing.
+  std::string takeMessage() { return std::exchange(message_, {}); }
   /// Forgets the inputs, after a reset.
   void restart();
 
@@ -81,17 +44,26 @@ class Follower {
     double stamp;  ///< s
     double time;   ///< s, steady clock
   };
+  void say(const std::string& what) { message_ = name_ + what; }
+  bool isNext(const Sample& before, const Sample& input) const;
+  bool isBelievable(const Sample& input);
+  bool refuse(const std::string& why);
   /// The last input that is at least this much older than the newest one; null: none.
   const Sample* before(double seconds) const;
   void estimateMotion(bool has_velocity);
   void approach(Target& target, const PlaneVector<double>& here, double distance, double now,
                 double interval);
 
-  InputCheck check_;
-  std::deque<Sample> samples_;  ///< the newest last
-  bool met_ = false;            ///< whether the particle has reached its holder
-  double left_ = 0.0;           ///< s, when it began to come to its holder; 0: not yet
-  double expected_ = 0.0;       ///< s, when it should have met it
+  std::string name_;
+  double longest_;
+  std::deque<Sample> samples_;     ///< since the particle began to come to its holder, newest last
+  std::optional<Sample> refused_;  ///< the last one, since the last accepted one
+  double steady_since_ = 0.0;      ///< s, of the refused ones
+  bool said_ = false;              ///< that the input is refused, or silent
+  std::string message_;
+  bool met_ = false;       ///< whether the particle has reached its holder
+  double left_ = 0.0;      ///< s, when it began to come to its holder; 0: not yet
+  double expected_ = 0.0;  ///< s, when it should have met it
 };
 
 }  // namespace spring_pendulum

@@ -33,49 +33,40 @@ class Handles {
   /// Moves the handles to the particles. Costs nothing without rviz.
   void show();
   /// Lets go of all particles.
-  void reset();
-
-  static constexpr std::size_t kMost = 20;
-  /// Returns the particles with handles, evenly chosen, with the first and the last one.
-  static std::vector<std::ptrdiff_t> chosen(std::ptrdiff_t particles);
+  void reset() { drags_.clear(); }
 
  private:
   using Feedback = visualization_msgs::InteractiveMarkerFeedbackConstPtr;
-  using Entry = interactive_markers::MenuHandler::EntryHandle;
-
   struct Drag {
     ros::SteadyTime heard;  ///< last feedback
     bool was_held;          ///< whether the particle was held before
   };
+  using Drags = std::map<std::ptrdiff_t, Drag>;
 
   void insert(std::ptrdiff_t particle, double size);
   geometry_msgs::Pose poseOf(std::ptrdiff_t particle) const;
   void makeMenu();
+  void addSwitch(const std::string& title, double Scenario::*constant, double launched);
   /// Asks the node, and logs a refusal.
   void ask(const Request& request);
-  /// \param request makes the request for a particle
-  void addEntry(const std::string& title, std::function<Request(std::ptrdiff_t)> request);
-  void addSwitch(const std::string& title, const std::string& name, double Scenario::*constant,
-                 double on);
-  /// Checks the entries of what is in effect, unless a hand would lose its particle by that.
-  void checkMenu();
+  /// Returns an entry of the menu that asks for the request of a particle.
+  interactive_markers::MenuHandler::FeedbackCallback asks(
+      std::function<Request(std::ptrdiff_t)> request);
   void onFeedback(std::ptrdiff_t particle, const Feedback& feedback);
-  /// Returns a position in the plane; nothing if it cannot be used.
-  std::optional<PlaneVector<double>> planePosition(const Feedback& feedback);
+  /// Returns where the mouse is in the plane; nothing if it cannot be followed.
+  std::optional<Target> targetOf(std::ptrdiff_t particle, const Feedback& feedback);
+  Drags::iterator release(Drags::iterator drag);
 
   const Run& run_;
   const Driver& driver_;
   Frames& frames_;
   RequestHandler take_;
   std::string frame_id_;
-  double y_;
   double farthest_;  ///< m from the particle, of a believable hand
   interactive_markers::InteractiveMarkerServer server_;
   interactive_markers::MenuHandler menu_;
-  std::map<Entry, std::function<bool()>> checks_;
-  std::map<Entry, bool> checked_;
   std::vector<std::ptrdiff_t> particles_;
-  std::map<std::ptrdiff_t, Drag> drags_;  ///< by dragged particle
+  Drags drags_;  ///< by dragged particle
   Throttle warnings_;
   ros::Publisher updates_;  ///< counts the subscribers of the server
 };

@@ -8,14 +8,12 @@
 
 #include <fmt/format.h>
 
-#include <rosbag/bag.h>
 #include <rosbag/view.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <map>
 #include <utility>
 
 namespace spring_pendulum {
@@ -111,8 +109,8 @@ void InputLog::started(const Run& run, double time) {
   sink_(message);
 }
 
-void InputLog::changed(const Run& run, const State& before) {
-  PendulumInput message = messageOf(run, run.time());
+void InputLog::changed(const Run& run, const State& before, double time) {
+  PendulumInput message = messageOf(run, time);
   for (Eigen::Index i = 0; i < before.size(); ++i) {
     for (Eigen::Index c = 0; c < 4; ++c) {  // also another sign of 0 is another state
       const double old = before.values()(i, c), now = run.state().values()(i, c);
@@ -131,37 +129,63 @@ void InputLog::ended(const Run& run) {
 }
 
 Replay::Replay(const std::string& path) : path_(path) {
-  std::map<std::uint32_t, PendulumInput::ConstPtr>
-      inputs;  // by number: a late recorder gets some twice
   std::int64_t size = 0;
   openTextFile(path, size);  // refuses pipes, which would block
   try {
-    const rosbag::Bag bag(path, rosbag::bagmode::Read);
-    std::string topic;
-    rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<PendulumInput>()));
-    for (const rosbag::MessageInstance& message : view) {
-      const auto input = message.instantiate<PendulumInput>();
-      if (!input) throw InputError(fmt::format("{}: has inputs of another version", path));
-      if (topic.empty()) topic = message.getTopic();
-      if (message.getTopic() != topic) {
-        throw InputError(fmt::format("{}: has the inputs of several runs: {} and {}", path, topic,
-                                     message.getTopic()));
-      }
-      if (!inputs.empty() && input->began < inputs.begin()->second->began) continue;
-      if (!inputs.empty() && input->began > inputs.begin()->second->began) inputs.clear();
-      inputs.emplace(input->number, input);
-    }
+    bag_.open(path, rosbag::bagmode::Read);
+    find();
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {  // a damaged bag; rosbag throws many kinds
     throw FileError(fmt::format("{}: cannot be read as a bag: {}", path, error.what()));
   }
-  for (const auto& [number, input] : inputs) {
-    check(*input);
-    inputs_.push_back(*input);
-  }
-  if (inputs_.empty()) {
+  if (places_.empty()) {
     throw InputError(fmt::format("{}: has no inputs; record the topic inputs of a node", path));
+  }
+  std::uint32_t number = 0;
+  for (const auto& place : places_) {
+    if (place.first == number++) continue;
+    throw InputError(fmt::format("{}: input {} is missing; record from the start of the node on",
+                                 path, number - 1));
+  }
+  if (end_ && *end_ + 1 != number) {
+    throw InputError(fmt::format("{}: input {}: comes after the end", path, *end_ + 1));
+  }
+  place_ = places_.begin();
+  first_ = read();
+  next_ = read();
+}
+
+void Replay::find() {
+  ros::Time began;
+  std::string topic;
+  rosbag::View view(bag_, rosbag::TypeQuery(ros::message_traits::datatype<PendulumInput>()));
+  for (const rosbag::MessageInstance& message : view) {
+    const auto input = message.instantiate<PendulumInput>();
+    if (!input) throw InputError(fmt::format("{}: has inputs of another version", path_));
+    if (topic.empty()) topic = message.getTopic();
+    if (message.getTopic() != topic) {
+      throw InputError(fmt::format("{}: has the inputs of several runs: {} and {}", path_, topic,
+                                   message.getTopic()));
+    }
+    if (input->began < began) continue;
+    if (input->began > began) {
+      places_.clear();
+      end_.reset();
+    }
+    began = input->began;
+    check(*input);
+    places_.emplace(input->number, message);
+    if (input->end != 0) end_ = input->number;
+  }
+}
+
+PendulumInput::ConstPtr Replay::read() {
+  if (place_ == places_.end()) return nullptr;
+  try {
+    return (place_++)->second.instantiate<PendulumInput>();
+  } catch (const std::exception& error) {
+    throw FileError(fmt::format("{}: cannot be read as a bag: {}", path_, error.what()));
   }
 }
 
@@ -170,84 +194,72 @@ void Replay::refuse(const PendulumInput& input, const std::string& reason) const
 }
 
 void Replay::check(const PendulumInput& input) const {
-  if (input.number != inputs_.size()) {
-    throw InputError(fmt::format("{}: input {} is missing; record from the start of the node on",
-                                 path_, inputs_.size()));
-  }
   bool complete = (input.number > 0 || input.start != 0) && std::isfinite(input.time) &&
                   input.display_interval >= 0.0 &&
                   input.accelerations.size() == 2 * input.held.size() &&
                   input.forces.size() == 2 * input.pushed.size() &&
                   input.states.size() == 4 * input.placed.size();
   if (input.start != 0) {  // has all particles
-    complete = complete && input.masses.size() == input.placed.size() &&
-               (input.number == 0 || input.masses == inputs_.front().masses);
+    complete = complete && input.masses.size() == input.placed.size();
     for (std::size_t i = 0; i < input.placed.size(); ++i) {
       complete = complete && input.placed[i] == i + 1;
     }
   }
   if (!complete) refuse(input, "is not complete");
-  if (!inputs_.empty() && inputs_.back().end != 0) refuse(input, "comes after the end");
 }
 
 Particles Replay::begin(Scenario& scenario) const {
-  const PendulumInput& first = inputs_.front();
   try {
     scenario.start = Start::kFile;
-    setScenario(scenario, first);
-    const auto size = static_cast<std::ptrdiff_t>(first.masses.size());
-    Particles particles{AlignedNumbers(size), State(size), first.frame};
-    std::copy(first.masses.begin(), first.masses.end(), particles.masses.data());
-    setStates(particles.state, first);
+    setScenario(scenario, *first_);
+    const auto size = static_cast<std::ptrdiff_t>(first_->masses.size());
+    Particles particles{AlignedNumbers(size), State(size), first_->frame};
+    std::copy(first_->masses.begin(), first_->masses.end(), particles.masses.data());
+    setStates(particles.state, *first_);
     Scenario copy = scenario;
     copy.reference = ReferenceUse::kNever;
     const Run run(copy, particles);  // refuses what no run can start with
     return particles;
   } catch (const InputError& error) {
-    refuse(first, error.what());
+    refuse(*first_, error.what());
   }
 }
 
 bool Replay::apply(Run& run) {
-  for (; next_ < inputs_.size() && inputs_[next_].time <= run.time(); ++next_) {
-    const PendulumInput& input = inputs_[next_];
-    if (input.end != 0) return false;
+  while (next_ && next_->end == 0 && next_->time <= run.time()) {
+    const PendulumInput::ConstPtr input = std::exchange(next_, read());
     try {
-      if (input.time != run.time()) {
-        throw InputError(
-            fmt::format("acted at t = {} s, where this run has no state", numberText(input.time)));
-      }
-      Scenario scenario = run.scenario();
-      setScenario(scenario, input);
-      State state = run.state();
-      setStates(state, input);
-      run.change(scenario, driveOf(input), state);
-      if (input.start != 0) run.goTo(input.frame, state);
+      act(*input, run);
     } catch (const InputError& error) {
-      refuse(input, error.what());
+      refuse(*input, error.what());
     }
-    if (input.start != 0) {
-      ++next_;
-      return true;
-    }
+    if (input->start != 0) return true;
   }
   return false;
 }
 
-bool Replay::isOver(const Run& run) const {
-  return next_ + 1 == inputs_.size() && inputs_.back().end != 0 &&
-         inputs_.back().time <= run.time();
+void Replay::act(const PendulumInput& input, Run& run) const {
+  if (input.time != run.time()) {
+    throw InputError(
+        fmt::format("acted at t = {} s, where this run has no state", numberText(input.time)));
+  }
+  if (input.start != 0 && input.masses != first_->masses) throw InputError("has other masses");
+  Scenario scenario = run.scenario();
+  setScenario(scenario, input);
+  State state = run.state();
+  setStates(state, input);
+  run.change(scenario, driveOf(input), state);
+  if (input.start != 0) run.goTo(input.frame, state);
 }
 
 std::string Replay::missing() const {
-  if (inputs_.back().end != 0) return "";
-  return path_ + ": has no closing input, so the last inputs may be missing";
+  return end_ ? "" : path_ + ": has no closing input, so the last inputs may be missing";
 }
 
 std::string Replay::unreached() const {
-  if (next_ == inputs_.size() || inputs_[next_].end != 0) return "";
-  return fmt::format("{}: the run ended before input {} at t = {} s", path_, next_,
-                     numberText(inputs_[next_].time));
+  if (!next_ || next_->end != 0) return "";
+  return fmt::format("{}: the run ended before input {} at t = {} s", path_, next_->number,
+                     numberText(next_->time));
 }
 
 }  // namespace spring_pendulum

@@ -5,13 +5,16 @@
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <ros/time.h>
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace spring_pendulum {
 
@@ -30,7 +33,8 @@ class InputLog {
   void started(const Run& run, double time);
   /// Must be called after every Run::change.
   /// \param before the state until then
-  void changed(const Run& run, const State& before);
+  /// \param time   at it, s: another method may round it differently
+  void changed(const Run& run, const State& before, double time);
   /// Must be called at the end of the node.
   void ended(const Run& run);
 
@@ -43,16 +47,16 @@ class InputLog {
   std::uint32_t count_ = 0;
 };
 
-/// Repeats a run from its inputs.
+/// Repeats a run from its inputs, which are read from the bag when they act.
 class Replay {
  public:
-  /// Reads all inputs of a bag; those of the last run count.
+  /// Opens a bag; the inputs of its last run count.
   /// \throws FileError, InputError naming the bag
   explicit Replay(const std::string& path);
 
   /// Sets the options of the run, apart from files, and returns its particles.
   Particles begin(Scenario& scenario) const;
-  double displayInterval() const { return inputs_.front().display_interval; }
+  double displayInterval() const { return first_->display_interval; }
 
   /// Changes the run as the inputs did at its current time. Must be called after every state.
   /// \returns whether the run has gone to another frame
@@ -60,19 +64,32 @@ class Replay {
   bool apply(Run& run);
 
   /// Whether the node had ended at the current time of the run.
-  bool isOver(const Run& run) const;
+  bool isOver(const Run& run) const {
+    return next_ && next_->end != 0 && next_->time <= run.time();
+  }
   /// A sentence if the last inputs may be missing; else empty.
   std::string missing() const;
   /// A sentence if the run ended before all inputs acted; else empty.
   std::string unreached() const;
 
  private:
+  /// Where the inputs are, by number: a recorder that comes late gets some twice.
+  using Places = std::map<std::uint32_t, rosbag::MessageInstance>;
+
+  void find();
   void check(const PendulumInput& input) const;
+  /// Reads the input after the last one that was read; null at the end.
+  PendulumInput::ConstPtr read();
+  void act(const PendulumInput& input, Run& run) const;
   [[noreturn]] void refuse(const PendulumInput& input, const std::string& reason) const;
 
   std::string path_;
-  std::vector<PendulumInput> inputs_;
-  std::size_t next_ = 1;  ///< the first is the start
+  rosbag::Bag bag_;
+  Places places_;
+  Places::const_iterator place_;
+  PendulumInput::ConstPtr first_;     ///< the start
+  PendulumInput::ConstPtr next_;      ///< null: none is left
+  std::optional<std::uint32_t> end_;  ///< number of the closing input
 };
 
 }  // namespace spring_pendulum

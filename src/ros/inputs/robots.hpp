@@ -2,16 +2,17 @@
 #pragma once
 
 #include "ros/inputs/driver.hpp"
+#include "ros/inputs/follower.hpp"
 #include "ros/inputs/frames.hpp"
+#include "ros/messages/throttle.hpp"
 #include "ros/parameters/node_options.hpp"
 
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/Point.h>
 #include <ros/node_handle.h>
+#include <std_msgs/Header.h>
 
 #include <cstddef>
-#include <memory>
-#include <nav_msgs/Odometry.h>
+#include <list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,6 @@ class Robots {
   /// \throws InputError for a list of particles that the chain does not have
   Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Driver& driver,
          Frames& frames);
-  ~Robots();
 
   /// Reads tf and stops particles whose input is silent. Must be called before every state.
   /// \param real_time_factor simulated seconds per second; 0: unknown
@@ -41,19 +41,29 @@ class Robots {
   void reset();
 
  private:
-  struct Robot;
+  struct Robot {
+    std::ptrdiff_t particle;
+    std::string name;   ///< "held_3"
+    std::string frame;  ///< empty: topics
+    Follower follower;
+    double stamp = -1.0;  ///< s, of the last transform
+    Throttle warnings{};
+    bool warned = false;  ///< of a position out of the plane
+    ros::Subscriber odometry{}, pose{};
+    ros::Publisher wrench{};
+  };
 
-  void take(Robot& robot, const std_msgs::Header& header, const geometry_msgs::Vector3& position,
-            const std::optional<geometry_msgs::Vector3>& velocity);
+  void connect(ros::NodeHandle& node, Robot& robot);
+  void take(Robot& robot, const StampedTransform& transform, const geometry_msgs::Point& point,
+            const std::optional<tf2::Vector3>& velocity);
+  void receive(Robot& robot, const std_msgs::Header& header, const geometry_msgs::Point& point,
+               const std::optional<tf2::Vector3>& velocity);
   void lookUp(Robot& robot, double now);
-  static void say(Robot& robot);
-  void addWeight(std::ptrdiff_t particle, geometry_msgs::Vector3& force) const;
 
   const Run& run_;
   Driver& driver_;
   Frames& frames_;
-  double y_;
-  std::vector<std::unique_ptr<Robot>> robots_;
+  std::list<Robot> robots_;  ///< at addresses that stay
   std::vector<std::ptrdiff_t> tf_particles_;
   ros::Publisher tf_;
 };

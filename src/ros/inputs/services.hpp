@@ -3,7 +3,6 @@
 
 #include "ros/inputs/frames.hpp"
 #include "ros/inputs/requests.hpp"
-#include <spring_pendulum/ApplyForce.h>
 
 #include <ros/node_handle.h>
 
@@ -11,19 +10,8 @@
 
 namespace spring_pendulum {
 
-class Services {
- public:
-  /// \param frames must outlive the services
-  Services(ros::NodeHandle& private_node, Frames& frames, RequestHandler take);
-
- private:
-  template <typename Service, typename MakeRequest>
-  void advertise(ros::NodeHandle& node, const char* name, MakeRequest make_request);
-  Request forceRequest(const ApplyForce::Request& call);
-
-  Frames& frames_;
-  RequestHandler take_;
-  std::vector<ros::ServiceServer> servers_;
-};
+/// \param frames must outlive the services
+std::vector<ros::ServiceServer> advertiseServices(ros::NodeHandle& private_node, Frames& frames,
+                                                  const RequestHandler& take);
 
 }  // namespace spring_pendulum

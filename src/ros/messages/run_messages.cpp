@@ -1,16 +1,57 @@
 #include "ros/messages/run_messages.hpp"
 
 #include "base/numbers.hpp"
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace spring_pendulum {
 namespace {
 
+/// Sets the four fields for the position error of the messages `state` and `status`.
+template <typename Message>
+void setPositionError(Message& message, const PositionError& error) {
+  message.position_error = error.now;
+  message.largest_position_error = error.largest;
+  message.largest_position_error_time = error.largest_time;
+  message.position_error_measured_until = error.measured_until;
+}
+
+void setParticles(PendulumState& message, const State& state) {
+  const auto particles = static_cast<std::size_t>(state.size());
+  message.positions.resize(particles);
+  message.velocities.resize(particles);
+  for (std::size_t n = 0; n < particles; ++n) {
+    const auto i = static_cast<Eigen::Index>(n);
+    message.positions[n] = pointOf(state, i);
+    message.velocities[n].x = state.vx()[i];
+    message.velocities[n].z = state.vy()[i];
+  }
+}
+
+/// Sets the tensions and the largest stretch.
+void setSprings(PendulumState& message, const Chain& chain, const State& state) {
+  double longest = 0.0;
+  message.tensions.resize(static_cast<std::size_t>(state.size() - 1));
+  for (Eigen::Index i = 0; i + 1 < state.size(); ++i) {
+    const double length = springLength(state, i);
+    const PlaneVector<double> force = springForceOn(chain, state, i);  // 0 without a direction
+    const double along =
+        force.x * (state.x()[i + 1] - state.x()[i]) + force.y * (state.y()[i + 1] - state.y()[i]);
+    message.tensions[static_cast<std::size_t>(i)] = length > 0.0 ? along / length : 0.0;
+    longest = std::max(longest, length);
+  }
+  message.largest_stretch = state.size() > 1 ? strainOf(longest, chain.spring().rest_length) : 0.0;
+}
+
 PendulumStatus statusOf(const Run& run, bool paused) {
   PendulumStatus status;
   const Verdict& verdict = run.verdict();
-  setPositionError(run, status);
+  setPositionError(status, run.positionError());
   if (!run.isShown()) {
     status.code = PendulumStatus::DIVERGED;
     status.text = verdict.text;
@@ -35,12 +76,31 @@ PendulumStatus statusOf(const Run& run, bool paused) {
 
 }  // namespace
 
+void setState(PendulumState& message, const Run& run, const std_msgs::Header& header) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const EnergyEntry entry = run.energyEntry();
+  message.header = header;
+  message.method = run.scenario().method.get().name;
+  message.frame = run.frame();
+  message.at_frame = run.isAtFrame() ? 1 : 0;
+  message.time = run.time();
+  message.kinetic_energy = entry.energy.kinetic;
+  message.gravity_energy = entry.energy.gravity;
+  message.spring_energy = entry.energy.spring;
+  message.dissipated_energy = entry.dissipated.value_or(kUnknown);
+  message.total_energy = entry.energy.total() + message.dissipated_energy;
+  message.energy_error = entry.relative_residual.value_or(kUnknown);
+  message.supplied_energy = entry.supplied;
+  message.verdict = std::string(toString(run.verdict().kind));
+  setPositionError(message, run.positionError());
+  setParticles(message, run.state());
+  setSprings(message, run.chain(), run.state());
+  message.tip_position = message.positions.back();
+  message.tip_speed = std::hypot(message.velocities.back().x, message.velocities.back().z);
+}
+
 RunMessages::RunMessages(const Run& run, const NodeOptions& options, bool simulated)
-    : frame_id_(options.frame_id),
-      has_camera_(!options.camera_frame.empty()),
-      stamps_(simulated),
-      markers_(run, options),
-      state_(options.y_offset) {
+    : frame_id_(options.frame_id), stamps_(simulated), markers_(run, options) {
   const Scenario& scenario = run.scenario();
   if (simulated) Stamps(true).next(frameSteps(scenario).timeOfFrame(scenario.frames - 1));
 }
@@ -52,19 +112,32 @@ std_msgs::Header RunMessages::header(double simulated_time) {
   return header;
 }
 
-std::optional<tf2_msgs::TFMessage> RunMessages::newCamera(const std_msgs::Header& header) {
-  if (!has_camera_ || markers_.cameraChanges() == camera_changes_) return std::nullopt;
-  camera_changes_ = markers_.cameraChanges();
-  tf2_msgs::TFMessage message;
-  message.transforms = {markers_.camera(header)};
-  return message;
-}
-
-std::optional<PendulumStatus> RunMessages::newStatus(const Run& run, bool paused) {
-  PendulumStatus status = statusOf(run, paused);
-  if (status.text == last_status_) return std::nullopt;
+std::optional<std_msgs::Header> RunMessages::send(const Run& run, const Showing& showing,
+                                                  Outlet& outlet) {
+  PendulumStatus status = statusOf(run, showing.paused);
+  const bool has_changed = status.text != last_status_;
+  if (!showing.due && !has_changed) return std::nullopt;
+  const std_msgs::Header now = header(run.time());
+  outlet.start(now);
+  markers_.trackTip(run);
+  if (outlet.wantsMarkers()) {
+    const visualization_msgs::MarkerArray& markers = markers_.draw(run, now, showing.pace);
+    if (const auto camera = markers_.newCamera(now)) {
+      tf2_msgs::TFMessage message;
+      message.transforms = {*camera};
+      outlet.put(message);
+    }
+    outlet.put(markers);
+  }
+  if (outlet.wantsState()) {
+    setState(state_, run, now);
+    outlet.put(state_);
+  }
+  if (!has_changed) return now;
   last_status_ = status.text;
-  return status;
+  status.header = now;
+  outlet.put(status);
+  return now;
 }
 
 }  // namespace spring_pendulum

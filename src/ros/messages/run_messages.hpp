@@ -1,10 +1,10 @@
 // The messages about a run, for the topics of a node and for bags.
 #pragma once
 
-#include "ros/messages/marker_builder.hpp"
+#include "ros/markers/markers.hpp"
 #include "ros/messages/stamps.hpp"
-#include "ros/messages/state_builder.hpp"
 #include "ros/parameters/node_options.hpp"
+#include <spring_pendulum/PendulumState.h>
 #include <spring_pendulum/PendulumStatus.h>
 #include <spring_pendulum/simulation/run.hpp>
 
@@ -14,7 +14,31 @@
 
 namespace spring_pendulum {
 
-/// A state has the same header in every message. References are valid until the next call.
+/// Sets all fields of the message of a state.
+void setState(PendulumState& message, const Run& run, const std_msgs::Header& header);
+
+/// Where the messages of a run go: the topics of a node, or a bag.
+class Outlet {
+ public:
+  virtual ~Outlet() = default;
+  /// Called before the messages of a state.
+  virtual void start(const std_msgs::Header& header) = 0;
+  /// Messages that nobody wants are not built.
+  virtual bool wantsMarkers() const { return true; }
+  virtual bool wantsState() const { return true; }
+  virtual void put(const tf2_msgs::TFMessage& camera) = 0;
+  virtual void put(const visualization_msgs::MarkerArray& markers) = 0;
+  virtual void put(const PendulumState& state) = 0;
+  virtual void put(const PendulumStatus& status) = 0;
+};
+
+/// How to show a state.
+struct Showing {
+  bool paused = false;    ///< whether the user has paused the run
+  std::string pace = {};  ///< speed of the run, for the text
+  bool due = true;        ///< false: send nothing but a changed status
+};
+
 class RunMessages {
  public:
   /// \param simulated stamp with simulated time instead of ROS time
@@ -23,30 +47,18 @@ class RunMessages {
 
   /// Returns the header of the next messages, with a new stamp.
   std_msgs::Header header(double simulated_time);
-
-  /// Adds the tip to the trail, also of a state without markers.
-  void trackTip(const Run& run) { markers_.trackTip(run); }
   void freezeCamera(bool freeze) { markers_.freezeCamera(freeze); }
-  const visualization_msgs::MarkerArray& markers(const Run& run, const std_msgs::Header& header,
-                                                 const std::string& pace = "") {
-    return markers_.build(run, header, pace);
-  }
-  /// Returns the transform of the camera if `markers` has moved it since the last call.
-  std::optional<tf2_msgs::TFMessage> newCamera(const std_msgs::Header& header);
-  const PendulumState& state(const Run& run, const std_msgs::Header& header) {
-    return state_.build(run, header);
-  }
-  /// Returns the status, without a header, if it differs from the last one.
-  /// \param paused whether the user has paused the run
-  std::optional<PendulumStatus> newStatus(const Run& run, bool paused = false);
+
+  /// Sends the state in all messages that are wanted, with the same header, and the status and the
+  /// camera if they have changed.
+  /// \returns the header; nothing if nothing was sent
+  std::optional<std_msgs::Header> send(const Run& run, const Showing& showing, Outlet& outlet);
 
  private:
   std::string frame_id_;
-  bool has_camera_;
   Stamps stamps_;
-  MarkerBuilder markers_;
-  StateBuilder state_;
-  int camera_changes_ = 0;
+  Markers markers_;
+  PendulumState state_;  ///< kept, so that its arrays are allocated once
   std::string last_status_;
 };
 

@@ -59,7 +59,8 @@ Node::Node(ros::NodeHandle& node, ros::NodeHandle& private_node,
       handles_(node, run_, options_, driver_, frames_,
                [this](const Request& request) { return take(request); }),
       robots_(node, run_, options_, driver_, frames_),
-      services_(private_node, frames_, [this](const Request& request) { return take(request); }),
+      services_(advertiseServices(private_node, frames_,
+                                  [this](const Request& request) { return take(request); })),
       files_(run_),
       log_(run_, files_, publisher_, options_.at_end == AtEnd::kHold),
       values_(configuration.values) {
@@ -186,7 +187,6 @@ void Node::finishState() {
   if (run_.isAtFrame() && run_.isShown() && run_.isFinite()) {
     last_frame_ = run_.state();
     last_frame_number_ = run_.frame();
-    last_frame_time_ = run_.time();
   }
   files_.write(run_);
   if (run_.isOver()) {
@@ -269,9 +269,10 @@ std::string Node::on(const SaveState& request) {
   TouchedFiles touched = touchedFiles(run_.scenario(), "");
   touched.outputs.push_back(path);
   checkTouchedFiles(touched);
-  writeStateFile(path, run_.chain(), last_frame_, last_frame_number_, last_frame_time_);
-  std::string sentence = fmt::format("frame {}, t = {:.6g} s, is in {}", last_frame_number_,
-                                     last_frame_time_, fullPath(path));
+  const double time = frameSteps(run_.scenario()).timeOfFrame(last_frame_number_);
+  writeStateFile(path, run_.chain(), last_frame_, last_frame_number_, time);
+  std::string sentence =
+      fmt::format("frame {}, t = {:.6g} s, is in {}", last_frame_number_, time, fullPath(path));
   ROS_INFO_STREAM(sentence);
   return sentence;
 }
@@ -309,7 +310,7 @@ std::string Node::on(const SetConstant& request) {
 }
 
 void Node::onLeaderState(const PendulumState::ConstPtr& state) {
-  const bool went_back = state->time < leader_time_;
+  const bool went_back = state->time < (1.0 - 1e-9) * leader_time_;
   leader_time_ = state->time;
   if (went_back && !ended_) goTo(nullptr);
 }

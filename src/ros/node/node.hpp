@@ -72,7 +72,7 @@ class Node {
   Frames frames_;
   Handles handles_;
   Robots robots_;
-  Services services_;
+  std::vector<ros::ServiceServer> services_;
   ros::Subscriber leader_;
   RunFiles files_;
   RunLog log_;
@@ -87,7 +87,6 @@ class Node {
   Throttle refusals_;
   State last_frame_;  ///< for SaveState
   std::int64_t last_frame_number_ = 0;
-  double last_frame_time_ = 0.0;  ///< s
 };
 
 }  // namespace spring_pendulum

@@ -27,9 +27,11 @@ bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {
   return factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > 0.5 * kLateness;
 }
 
-bool Pacer::isShown(double simulated_time) {
+bool Pacer::isShown(double simulated_time, bool must) {
   // The states before and after a due time may be unequally far from it: the nearer one is shown.
-  if (simulated_time < next_shown_ - 0.5 * shown_interval_) return false;
+  const bool is_due = simulated_time >= next_shown_ - 0.5 * shown_interval_;
+  if (!is_due && !must) return false;
+  if (!is_due) next_shown_ = simulated_time;
   next_shown_ += shown_interval_;
   if (next_shown_ <= simulated_time) next_shown_ = simulated_time + shown_interval_;
   return true;

@@ -17,16 +17,15 @@ class Pacer {
   /// Makes `simulated_time` due now.
   void start(double simulated_time, ros::SteadyTime now);
 
-  bool isStarted() const { return !start_.isZero(); }
-
   ros::SteadyTime dueTime(double simulated_time) const;
   /// Must be called when `simulated_time` is reached.
   void reached(double simulated_time, ros::SteadyTime now);
   /// Whether states between the frames should be left out to keep up.
   bool isLate(double simulated_time, ros::SteadyTime now) const;
 
-  /// Whether a state is one of those that `display_rate` asks for. Must be called once per state.
-  bool isShown(double simulated_time);
+  /// Whether a state is one of those that `display_rate` asks for, or must be shown. Must be called once
+  /// per state.
+  bool isShown(double simulated_time, bool must = false);
 
   /// Measured simulated seconds per second; 0 before the first measurement.
   double speed() const { return speed_; }

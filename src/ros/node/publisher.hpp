@@ -1,6 +1,4 @@
 // The topics of a node: markers, state, status, the transform of the camera, and optionally /clock.
-//
-// Messages without subscribers are not built. A state has the same stamp on every topic.
 #pragma once
 
 #include "ros/messages/run_messages.hpp"
@@ -13,41 +11,36 @@
 
 namespace spring_pendulum {
 
-/// How to show a state.
-struct Showing {
-  bool paused = false;  ///< whether the user has paused the run
-  std::string pace;     ///< speed of the run, for the text
-  bool due = true;      ///< false: publish nothing but a changed status
-};
-
-class Publisher {
+class Publisher : private Outlet {
  public:
   Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options);
 
   /// Whether a topic that shows states between the frames has subscribers.
-  bool isWatched() const;
-
+  bool isWatched() const { return publishes_clock_ || wantsMarkers() || wantsState(); }
   /// Serves callbacks until `wait_for_subscribers` is reached, or `wait_timeout` has passed.
   void waitForSubscribers(const NodeOptions& options);
-
-  /// Keeps the camera where it is, see MarkerBuilder.
-  void freezeCamera(bool freeze) { build_.freezeCamera(freeze); }
-
-  /// Publishes the state on all topics with subscribers, and the status if it has changed.   /// \returns the header of the messages; nothing if the state was not due
-  std::optional<std_msgs::Header> publish(const Run& run, const Showing& showing);
-
+  /// Keeps the camera where it is, see Markers.
+  void freezeCamera(bool freeze) { messages_.freezeCamera(freeze); }
+  /// See RunMessages.
+  std::optional<std_msgs::Header> publish(const Run& run, const Showing& showing) {
+    return messages_.send(run, showing, *this);
+  }
   /// Removes the markers from rviz, which keeps them when the node has ended.
   void clear();
-
-  std::int64_t markersBuilt() const { return markers_built_; }
-  std::int64_t statesBuilt() const { return states_built_; }
+  /// Returns for the closing line: "12 marker and 30 state messages built".
+  std::string numbers() const;
 
  private:
-  std::uint32_t subscribers() const;
-  void publishMarkers(const Run& run, const std_msgs::Header& header, const std::string& pace);
+  bool wantsMarkers() const override { return markers_.getNumSubscribers() > 0; }
+  bool wantsState() const override { return state_.getNumSubscribers() > 0; }
+  void start(const std_msgs::Header& header) override;
+  void put(const tf2_msgs::TFMessage& camera) override { tf_static_.publish(camera); }
+  void put(const visualization_msgs::MarkerArray& markers) override;
+  void put(const PendulumState& state) override;
+  void put(const PendulumStatus& status) override { status_.publish(status); }
 
   bool publishes_clock_;
-  RunMessages build_;
+  RunMessages messages_;
   std::int64_t markers_built_ = 0;
   std::int64_t states_built_ = 0;
   ros::Publisher markers_;

@@ -19,25 +19,6 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr int kMostChoices = 5;  ///< number of logged choices of Auto
-
-/// Logs if the display rate exceeds the number of states per second that a fixed step gives.
-void logDisplayRate(const Run& run, const NodeOptions& options) {
-  if (!run.scenario().method.get().hasFixedStep() || options.real_time_factor <= 0.0) return;
-  const double states = options.real_time_factor / run.scenario().time_step;
-  if (options.display_rate <= states * (1.0 + 1e-9)) return;
-  ROS_INFO_STREAM(fmt::format(
-      "display_rate is {:g} Hz, but a time step of {:g} s gives only {:.3g} states per second at "
-      "real_time_factor {:g}",
-      options.display_rate, run.scenario().time_step, states, options.real_time_factor));
-}
-
-/// Returns the end of a report of Auto, such as "1 switch", which changes with every choice.
-std::string switchesOf(const std::string& report) {
-  const std::size_t comma = report.rfind(", ");
-  return comma == std::string::npos ? report : report.substr(comma + 2);
-}
-
 /// Whether lines logged with ROS still appear.
 bool rosLogs() {
   return ros::ok() && !ros::isShuttingDown();
@@ -71,7 +52,6 @@ void logStart(const Run& run, const NodeOptions& options, const RunFiles& files)
   if (!memory.empty()) ROS_INFO_STREAM(memory);
   const std::string remark = remarkOn(scenario);
   if (!remark.empty()) ROS_INFO_STREAM(remark);
-  logDisplayRate(run, options);
   if (!options.follow.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name << ": waiting for states of another node on "
                                                << options.follow << " (follow)");
@@ -79,18 +59,16 @@ void logStart(const Run& run, const NodeOptions& options, const RunFiles& files)
 }
 
 std::string RunLog::closingLine() const {
-  return run_.closingLine(fmt::format("{}, {} marker and {} state messages built",
-                                      files_.closingText(), publisher_.markersBuilt(),
-                                      publisher_.statesBuilt()));
+  return run_.closingLine(fmt::format("{}, {}", files_.closingText(), publisher_.numbers()));
 }
 
 void RunLog::update() {
-  if (continues_ && run_.time() < last_time_) {  // after a reset
+  if (continues_ && run_.frame() < last_frame_) {  // after a reset
     said_verdict_ = VerdictKind::kOk;
     said_frames_ = 0;
     said_tolerance_.clear();
   }
-  last_time_ = run_.time();
+  last_frame_ = run_.frame();
   const Verdict& verdict = run_.verdict();
   const std::string& method = run_.scenario().method.get().name;
   if (verdict.kind > said_verdict_) {
@@ -109,7 +87,6 @@ void RunLog::update() {
     ROS_WARN_STREAM(method << ": " << remark);
     said_tolerance_ = std::move(remark);
   }
-  sayChoice();
   if (!run_.isOver() || said_frames_ != 0) return;
   said_frames_ = run_.shownFrames();
   ROS_INFO_STREAM(closingLine());
@@ -121,16 +98,6 @@ void RunLog::update() {
 void RunLog::finish() const {
   if (said_frames_ == run_.shownFrames()) return;
   logInfo(closingLine());
-}
-
-void RunLog::sayChoice() {
-  if (choices_said_ == kMostChoices || run_.frame() == 0) return;
-  const std::string report = run_.integrator().report();
-  const std::string choice = switchesOf(report);
-  if (choice.empty() || choice == said_choice_) return;
-  said_choice_ = choice;
-  ++choices_said_;
-  ROS_INFO_STREAM(run_.scenario().method.get().name << " chose " << report);
 }
 
 }  // namespace spring_pendulum

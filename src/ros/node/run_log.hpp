@@ -35,18 +35,15 @@ class RunLog {
 
  private:
   std::string closingLine() const;
-  void sayChoice();
 
   const Run& run_;
   const RunFiles& files_;
   const Publisher& publisher_;
   bool continues_;
   VerdictKind said_verdict_ = VerdictKind::kOk;
-  double last_time_ = 0.0;        ///< s, of the last action
+  std::int64_t last_frame_ = 0;   ///< at the last action
   std::int64_t said_frames_ = 0;  ///< number of frames at the closing line; 0: not logged yet
-  std::string said_choice_;
   std::string said_tolerance_;
-  int choices_said_ = 0;
 };
 
 }  // namespace spring_pendulum

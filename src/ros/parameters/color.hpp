@@ -3,10 +3,14 @@
 
 #include <std_msgs/ColorRGBA.h>
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
 namespace spring_pendulum {
+
+/// \param rgb 0xrrggbb
+std_msgs::ColorRGBA colorOf(std::uint32_t rgb, float opacity = 1.0F);
 
 /// Parses "#rrggbb" as an opaque colour; nothing for any other text.
 std::optional<std_msgs::ColorRGBA> parseColor(std::string_view text);
@@ -15,19 +19,16 @@ std::optional<std_msgs::ColorRGBA> parseColor(std::string_view text);
 /// \param strain -1 and below: full blue; 0: white; 1: full red; 8 and above: dark red
 std_msgs::ColorRGBA strainColor(double strain);
 
-/// From pale yellow (light) to violet (heavy).
-/// \param weight 0 for the lightest particle, 1 for the heaviest
-std_msgs::ColorRGBA massColor(double weight);
+/// From pale yellow (light) to violet (heavy), on a logarithmic scale.
+std_msgs::ColorRGBA massColor(double mass, double lightest, double heaviest);
 
 /// Half-way to white, so that particles stand out from springs of the same colour.
 std_msgs::ColorRGBA lighter(const std_msgs::ColorRGBA& color);
 
-std_msgs::ColorRGBA anchorColor();
-std_msgs::ColorRGBA gridColor();
-std_msgs::ColorRGBA textColor();
-/// Colour of the springs if the verdict is bad but the motion has not diverged.
-std_msgs::ColorRGBA doubtColor();
-/// Colour of the whole chain after a divergence.
-std_msgs::ColorRGBA divergedColor();
+constexpr std::uint32_t kTextColor = 0xe6e9ee;
+constexpr std::uint32_t kGridColor = 0x788291;
+constexpr std::uint32_t kHeldColor = 0x9aa4b2;      ///< of held particles
+constexpr std::uint32_t kDoubtColor = 0xffb000;     ///< of springs if the verdict is bad
+constexpr std::uint32_t kDivergedColor = 0xff2fd0;  ///< of the whole chain
 
 }  // namespace spring_pendulum

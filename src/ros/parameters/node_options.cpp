@@ -32,9 +32,9 @@ std::vector<Option> displayOptions(NodeOptions& o) {
       {"frame_id", Text{&o.frame_id, "NAME", "a name without a leading '/'", isFrameName}, "",
        "tf frame of all messages; the chain moves in its x-z plane"},
       {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
-       "states published per second, also between frames (a method with error control divides a "
-       "frame by a power of two); the frame files do not "
-       "change; 0: frames only"},
+       "states published per second on average, also between frames; the frame files do not "
+       "change; "
+       "0: frames only"},
       {"track_dissipation", Flag{&o.track_dissipation}, "",
        "always integrate the dissipated energy; false: only where it is cheap, as in Exercise3"},
       {"trail", Number{&o.trail, Range::atLeast(0)}, "s", "length of the tip's trail; 0: none"},
@@ -45,13 +45,9 @@ std::vector<Option> displayOptions(NodeOptions& o) {
        "largest number of particles drawn; a longer chain is thinned, in the markers only"},
       {"show_reference", Flag{&o.show_reference}, "",
        "draw the true motion, from the reference run, as a pale second chain"},
-      {"y_offset", Number{&o.y_offset, Range::any()}, "m", "y coordinate of the plane of motion"},
       {"text_row", Count{&o.text_row, Range::atLeast(0)}, "",
-       "row of the text, counted upwards; row 0 draws the grid and sets the camera, and a higher "
-       "row "
-       "draws its chain wider and behind the others"},
-      {"text_rows", Count{&o.text_rows, Range::atLeast(1)}, "",
-       "number of chains that share the picture; with several, each has one line of text"},
+       "0: the only chain in the picture; else its line of text, counted upwards from 1: the first "
+       "chain draws the grid and sets the camera, and the others are behind it and wider"},
       {"camera_frame",
        Text{&o.camera_frame, "NAME", "a name without a leading '/', or empty for none",
             isCameraFrame},

@@ -28,9 +28,7 @@ struct NodeOptions {
   std::string color;                   ///< "#rrggbb"; empty: by strain and mass
   std::int64_t display_limit = 10000;  ///< largest number of drawn particles
   bool show_reference = false;         ///< draw the reference run as a pale second chain
-  double y_offset = 0.0;               ///< m, y of the plane of the motion
-  std::int64_t text_row = 0;           ///< row of the text, counted upwards
-  std::int64_t text_rows = 1;          ///< number of rows of text in the picture
+  std::int64_t text_row = 0;           ///< line of text, counted upwards; 0: the only chain
   std::string held;                    ///< particles that robots hold: "1, last"
   std::map<std::int64_t, std::string> held_frames;  ///< tf frames of their holders, by particle
   std::string tf_particles;                         ///< particles with a tf frame

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <optional>
+#include <regex>
 
 namespace spring_pendulum {
 namespace {
@@ -29,22 +30,13 @@ void refuseGuess(XmlRpc::XmlRpcValue& value, const std::string& text, const Opti
       option.key));
 }
 
-}  // namespace
-
-namespace {
-
-/// Reads `held_<i>_frame`.
+/// Reads the tf frame of a holder, `held_<i>_frame`.
 /// \returns whether the key is of this kind
-bool takeHeldFrame(const std::string& key, XmlRpc::XmlRpcValue& value, const std::string& where,
+bool takeHeldFrame(const std::string& key, XmlRpc::XmlRpcValue& value, const std::string& place,
                    NodeOptions& options) {
-  const std::string_view prefix = "held_", suffix = "_frame";
-  if (key.size() <= prefix.size() + suffix.size() || key.compare(0, prefix.size(), prefix) != 0 ||
-      key.compare(key.size() - suffix.size(), suffix.size(), suffix) != 0) {
-    return false;
-  }
-  const std::string number = key.substr(prefix.size(), key.size() - prefix.size() - suffix.size());
-  const std::optional<double> particle = parseNumber(number);
-  const std::string place = fmt::format("{}: {}", where, key);
+  std::smatch match;
+  if (!std::regex_match(key, match, std::regex("held_(.+)_frame"))) return false;
+  const std::optional<double> particle = parseNumber(match[1].str());
   if (!particle || *particle < 1.0 || *particle > 1e15 || *particle != std::floor(*particle)) {
     throw InputError(place + ": write the number of a held particle: held_1_frame");
   }
@@ -96,23 +88,14 @@ std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& place) 
   }
 }
 
-/// A node that follows itself would wait for ever.
-void refuseToFollowItself(const std::string& follow, const std::string& where) {
-  const std::string own = ros::names::resolve("state");
-  if (follow.empty() || ros::names::resolve(follow) != own) return;
-  throw InputError(
-      fmt::format("{}: follow: {} is the topic of this node; give the state topic of another node",
-                  where, own));
-}
-
 NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where) {
   NodeConfiguration configuration;
   OptionSet options = nodeOptions(configuration);
   if (parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
     for (auto& [key, value] : parameters) {
-      if (takeHeldFrame(key, value, where, configuration.options)) continue;
-      if (key == "held" || key == "tf_particles") joinList(value);
       const std::string place = fmt::format("{}: {}", where, key);
+      if (takeHeldFrame(key, value, place, configuration.options)) continue;
+      if (key == "held" || key == "tf_particles") joinList(value);
       const Option& option = options.find(key, where);
       const std::string text = parameterText(value, place);
       refuseGuess(value, text, option, place);
@@ -124,7 +107,12 @@ NodeConfiguration readParameters(XmlRpc::XmlRpcValue& parameters, const std::str
     }
   }
   checkScenario(configuration.scenario);
-  refuseToFollowItself(configuration.options.follow, where);
+  const std::string own = ros::names::resolve("state"), &follow = configuration.options.follow;
+  if (!follow.empty() && ros::names::resolve(follow) == own) {  // it would wait for ever
+    throw InputError(fmt::format(
+        "{}: follow: {} is the topic of this node; give the state topic of another node", where,
+        own));
+  }
   for (const std::string_view key : unusedKeys(configuration.scenario, options)) {
     configuration.unused.emplace_back(key);
   }

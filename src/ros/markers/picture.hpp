@@ -1,0 +1,99 @@
+// What the markers of a chain draw from. Each kind of marker is a file of its own.
+//
+// rviz draws a list of points in one batch; with one marker per particle it is unusable.
+#pragma once
+
+#include "ros/markers/scene_view.hpp"
+#include "ros/parameters/node_options.hpp"
+#include <spring_pendulum/simulation/run.hpp>
+
+#include <visualization_msgs/Marker.h>
+
+#include <algorithm>
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace spring_pendulum {
+
+using visualization_msgs::Marker;
+
+/// A state of a run with its view. Sizes are relative to the view, so that scenes of any size look
+/// alike.
+struct Picture {
+  const Run& run;
+  const NodeOptions& options;
+  const SceneView& view;
+  const std::vector<Eigen::Index>& drawn;  ///< indices of the drawn particles
+  const std::string& pace;                 ///< speed of the run: "1.00 x real time"
+
+  /// Whether the state can be drawn; if not, the chain keeps its last shape.
+  bool isDrawable() const { return run.isFinite() && run.isShown() && drawn.size() > 1; }
+  bool isDiverged() const { return run.verdict().kind == VerdictKind::kDiverged; }
+
+  /// Diameter of a particle, m.
+  double diameter() const {
+    return view.size() * std::clamp(0.35 / static_cast<double>(drawn.size()), 0.009, 0.036);
+  }
+  /// Width of a spring, m.
+  double width() const { return std::max(0.35 * diameter(), 0.0035 * view.size()); }
+  /// y of the springs, the trail and the anchor behind the particles, m: rviz draws a particle as a
+  /// disc that faces the camera, so it is tilted by up to 28 degrees.
+  double depth() const { return 0.3 * diameter(); }
+  /// Number of chains in front of this one.
+  double chainsInFront() const {
+    return static_cast<double>(std::max<std::int64_t>(options.text_row - 1, 0));
+  }
+};
+
+inline geometry_msgs::Point pointAt(double x, double y, double z) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+/// Returns the position of particle i, counted from 0.
+inline geometry_msgs::Point pointOf(const State& state, Eigen::Index i, double y = 0.0) {
+  return pointAt(state.x()[i], y, state.y()[i]);
+}
+
+/// Returns the strain of a spring, length/rest length - 1, or its length in m if the rest length is 0.
+inline double strainOf(double length, double rest_length) {
+  return rest_length > 0.0 ? length / rest_length - 1.0 : length;
+}
+
+inline void setScale(Marker& marker, double size) {
+  marker.scale.x = marker.scale.y = marker.scale.z = size;
+}
+
+/// Blue for short springs, white for springs without force, red for stretched ones; amber if the
+/// verdict is bad, magenta if the motion has diverged.
+void drawSprings(const Picture& picture, Marker& springs);
+/// From light ones in yellow to heavy ones in violet; held ones are grey.
+void drawParticles(const Picture& picture, Marker& particles);
+/// A square behind P_1.
+void drawAnchor(const Picture& picture, Marker& anchor);
+/// Method, time, errors and verdict above the scene.
+void drawText(const Picture& picture, Marker& text);
+void drawGrid(const Picture& picture, Marker& grid);
+/// The state of the reference run, on request.
+void drawReference(const Picture& picture, Marker& reference);
+
+/// The last positions of the tip.
+class Trail {
+ public:
+  /// Adds the tip; a time before the last one starts a new trail.
+  void track(const Run& run, double duration);
+  void draw(const Picture& picture, Marker& marker) const;
+
+ private:
+  struct TrailPoint {
+    double time;
+    geometry_msgs::Point point;
+  };
+  std::deque<TrailPoint> points_;
+};
+
+}  // namespace spring_pendulum

@@ -1,0 +1,67 @@
+#include "ros/markers/picture.hpp"
+#include "ros/parameters/color.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr double kRowHeight = 0.8;  ///< of the text if several chains are shown
+
+/// Joins the texts that are not empty with commas.
+std::string joined(std::initializer_list<std::string> texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    if (!all.empty() && !text.empty()) all += ", ";
+    all += text;
+  }
+  return all;
+}
+
+std::string label(const Picture& picture) {
+  const Run& run = picture.run;
+  const Scenario& scenario = run.scenario();
+  const Verdict& verdict = run.verdict();
+  const std::string clock = fmt::format("t = {:.2f} s", run.time());
+  const auto residual = run.energyEntry().relative_residual;
+  const std::string energy = residual ? fmt::format("energy error {:.1e}", *residual) : "";
+  const double error = run.positionError().now;
+  const std::string position =
+      std::isnan(error) ? "" : fmt::format("position error {:.1e} m", error);
+  const std::string judged =
+      fmt::format("{}{}", toString(verdict.kind),
+                  isBad(verdict.kind) ? fmt::format(" at {:.4g} s", verdict.time) : "");
+  if (picture.options.text_row > 0) {
+    return joined(
+        {scenario.method.get().name + ": " + clock, position.empty() ? energy : position, judged});
+  }
+  const std::string control = scenario.method.get().hasFixedStep()
+                                  ? fmt::format("time step {:.3g} s", scenario.time_step)
+                                  : fmt::format("tolerance {:.3g} m", scenario.tolerance);
+  const auto drawn = static_cast<Eigen::Index>(picture.drawn.size()), all = run.chain().size();
+  return joined({scenario.method.get().name, control, clock}) + "\n" +
+         joined({position, energy, judged}) + "\n" +
+         joined({picture.pace, fmt::format("grid {:g} m", picture.view.gridDistance()),
+                 drawn < all ? fmt::format("{} of {} particles drawn", drawn, all) : ""});
+}
+
+}  // namespace
+
+void drawText(const Picture& picture, Marker& text) {
+  const SceneView& view = picture.view;
+  const std::int64_t row = picture.options.text_row;
+  text.text = label(picture);
+  setScale(text, view.textHeight() * (row > 0 ? kRowHeight : 1.0));
+  if (!picture.options.color.empty()) text.color = *parseColor(picture.options.color);
+  const double line = row > 0 ? static_cast<double>(row) - 0.5 : 0.5 * SceneView::kTextLines;
+  const double z = view.box().max().y() + line * view.lineDistance();
+  text.pose.position = pointAt(view.box().center().x(), 0.0, z);
+  // Rows of several nodes keep their distance, also when the camera of one of them moves.
+  if (row == 0 || picture.options.camera_frame.empty()) return;
+  text.header.frame_id = picture.options.camera_frame;
+  text.pose.position = pointAt(view.cameraDistance(), 0.0, z - view.cameraHeight());
+}
+
+}  // namespace spring_pendulum
