@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Derives the polynomials in src/integration/taylor/stabilized_polynomials.cpp.
+"""Derives the polynomials in src/integration/taylor/stabilized_polynomials.hpp.
 
 A method that sums the Taylor series of K terms with term j weighted by w_j has the stability
 polynomial

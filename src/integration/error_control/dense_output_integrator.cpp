@@ -57,7 +57,7 @@ DenseOutputIntegrator::Energies DenseOutputIntegrator::energiesOf(double fractio
     energy_flow_.add(kernels_, chain, stepper_->stateAt(0.5 * fraction * (1.0 + node)),
                      half_time * weight, half_time * chain.spring.damping * weight);
   }
-  return {energy_flow_.dissipated().total(), energy_flow_.supplied()};
+  return {energy_flow_.dissipated(), energy_flow_.supplied()};
 }
 
 void DenseOutputIntegrator::takeStep() {

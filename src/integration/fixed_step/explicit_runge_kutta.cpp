@@ -38,7 +38,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
           options.kernels != nullptr ? *options.kernels : fastestChainKernels(chain.size())),
       options_(options),
       stages_(tableau.stages),
-      track_dissipation_(dissipated().data() != nullptr),
+      track_dissipation_(dissipated() != nullptr),
       tableau_(tableau),
       kernel_(findAdvanceKernel(
           kernels(), tableau,
@@ -88,8 +88,7 @@ void ExplicitRungeKutta::integrate(State& state, double time_step, std::int64_t 
 void ExplicitRungeKutta::stepWhole(State& state, std::int64_t steps) {
   Share& share = shares_.front();
   share.block.values() = state.values();
-  kernel_(chain(), weights_, steps, share.block.data(), dissipated().data(),
-          share.workspace.data());
+  kernel_(chain(), weights_, steps, share.block.data(), dissipated(), share.workspace.data());
   state.values() = share.block.values();
 }
 
@@ -138,11 +137,11 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
   }
   double* const in_block = share.dissipated.data();
   if (track_dissipation_)
-    std::copy_n(dissipated().data() + begin, end - begin, in_block + (begin - first));
+    std::copy_n(dissipated() + begin, end - begin, in_block + (begin - first));
   const KernelChain piece = constants().piece(first, last, share.block.pitch());
   kernel_(piece, weights_, pass_.steps, share.block.data(), in_block, share.workspace.data());
   if (track_dissipation_)
-    std::copy_n(in_block + (begin - first), end - begin, dissipated().data() + begin);
+    std::copy_n(in_block + (begin - first), end - begin, dissipated() + begin);
   const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
   state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);
 }

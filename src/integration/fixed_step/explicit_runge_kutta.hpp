@@ -37,7 +37,6 @@ class ExplicitRungeKutta final : public FixedStepIntegrator {
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                      const EngineOptions& options = {});
 
-
  private:
   void integrate(State& state, double time_step, std::int64_t steps) override;
   /// Workspace of a thread that integrates the particles begin <= i < end.

@@ -22,15 +22,12 @@ class FixedStepIntegrator : public Integrator {
     return kFixedStepTime.of(chain().size) * static_cast<double>(force_evaluations_);
   }
   std::int64_t forceEvaluations() const final { return force_evaluations_; }
-  double dissipatedEnergy() const final { return energy_flow_.dissipated().total(); }
+  double dissipatedEnergy() const final { return energy_flow_.dissipated(); }
   double suppliedEnergy() const final { return energy_flow_.supplied(); }
   void restart() override {
     energy_flow_.reset();
     held_.restart();
   }
-
-  /// Empty if the energy is not tracked.
-  DissipatedEnergy& dissipated() { return energy_flow_.dissipated(); }
 
  protected:
   FixedStepIntegrator(const Chain& chain, bool track_dissipation, const ChainKernels& kernels)
@@ -44,6 +41,8 @@ class FixedStepIntegrator : public Integrator {
   const ChainKernels& kernels() const { return kernels_; }
 
   HeldMotion& held() { return held_; }
+  /// Column of the energies that the dashpots dissipate, J; null if not tracked.
+  double* dissipated() { return energy_flow_.ofSprings(); }
   void countEvaluations(std::int64_t count) { force_evaluations_ += count; }
   /// Computes F of a state.
   void evaluate(const StateBuffer& state, StateBuffer& slope) {
