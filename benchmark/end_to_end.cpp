@@ -1,8 +1,8 @@
 // The complete run of the exercise, 500 frames of 11 particles, divided into integrating,
 // formatting numbers and writing files, compared with a typical student solution: one object per
 // particle and one std::ofstream per frame.
+#include "io/formats/frame_writer.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <fmt/compile.h>
@@ -74,7 +74,7 @@ class Runs {
   }
 
   void ownWriting() const {
-    FrameWriter writer(folder_.string(), kDefaults.frames);
+    FrameWriter writer(folder_.string());
     own([&](std::int64_t frame, const State& state) { writer.write(frame, state); });
     writer.finish();
   }

@@ -1,7 +1,7 @@
 // Time saved by each skip: a scene that does not need some work, and one that does.
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
+#include "io/formats/frame_writer.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <fmt/format.h>
@@ -125,7 +125,7 @@ Pair timeFramesSkip(Eigen::Index size, const std::string& folder, int rounds) {
   const auto timings = timeInTurns({{"with", [&] { carried.reset(); }, [&] { carried.run(); }},
                                     {"without", [&] { carried.reset(); },
                                      [&] {
-                                       FrameWriter writer(frames, carried.calls());
+                                       FrameWriter writer(frames);
                                        for (std::int64_t call = 0; call < carried.calls(); ++call) {
                                          carried.frame();
                                          writer.write(call, carried.state());

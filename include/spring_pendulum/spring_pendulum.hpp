@@ -7,7 +7,6 @@
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/integration/smallest_tolerance.hpp>
-#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>

@@ -138,29 +138,6 @@ TEST(Misuse, StatesThatAreNotFinite) {
   }
 }
 
-TEST(Misuse, FrameWriters) {
-  const TemporaryFolder folder;
-  EXPECT_THROW(FrameWriter("", 1), FileError);
-  EXPECT_THROW(FrameWriter(folder.path(), -1), InputError);
-  FrameWriter source(folder.path(), 2);
-  FrameWriter writer(std::move(source));
-  // NOLINTBEGIN(bugprone-use-after-move)
-  EXPECT_THROW(source.write(0, horizontal()), InputError);
-  EXPECT_THROW(source.finish(), InputError);
-  EXPECT_THROW(static_cast<void>(source.folder()), InputError);
-  EXPECT_THROW(static_cast<void>(source.earlierFrames()), InputError);
-  // NOLINTEND(bugprone-use-after-move)
-  for (const std::int64_t index : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1},
-                                   std::int64_t{2}, std::numeric_limits<std::int64_t>::max()}) {
-    EXPECT_THROW(writer.write(index, horizontal()), InputError) << index;
-  }
-  writer.write(1, State(0));
-  writer.finish();
-  writer.finish();
-  EXPECT_THROW(writer.write(0, horizontal()), InputError);
-  EXPECT_EQ(listFolder(folder.path()), std::vector<std::string>{"frame_0001.txt"});
-}
-
 TEST(Misuse, Files) {
   const TemporaryFolder folder;
   for (const std::string& path : {std::string(), folder.path(), folder.path("absent")}) {

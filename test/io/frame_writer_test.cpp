@@ -1,7 +1,7 @@
 // Frame files: their names and numbers, and what happens when one cannot be written.
-#include "io/files/frame_folder.hpp"
+#include "io/formats/frame_writer.hpp"
+
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/io/frame_writer.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,12 +22,12 @@ TEST(FrameWriter, NamesGrowAboveFourDigits) {
 
 TEST(FrameWriter, TellsTheWholePathOfItsFolder) {
   const TemporaryFolder folder;
-  EXPECT_EQ(FrameWriter(folder.path("a/./b/"), 1).folder(), folder.path("a/b"));
+  EXPECT_EQ(FrameWriter(folder.path("a/./b/")).folder(), folder.path("a/b"));
 }
 
 std::string textOfFrame(const State& state) {
   const TemporaryFolder folder;
-  FrameWriter writer(folder.path(), 1);
+  FrameWriter writer(folder.path());
   writer.write(0, state);
   writer.finish();
   return readFile(folder.path("frame_0000.txt"));
@@ -57,7 +57,7 @@ class FrameWriterThread : public testing::TestWithParam<Eigen::Index> {
 };
 
 TEST_P(FrameWriterThread, WritesFramesInOrder) {
-  FrameWriter writer(folder_.path(), kFrames);
+  FrameWriter writer(folder_.path());
   for (int i = 0; i < kFrames; ++i) {
     State state = frame(i);
     writer.write(i, state);
@@ -72,7 +72,7 @@ TEST_P(FrameWriterThread, WritesFramesInOrder) {
 
 // Frame 2 can't be renamed to its name, as a folder is in its way.
 TEST_P(FrameWriterThread, FailedFrameIsNamedAndNothingIsWrittenAfterIt) {
-  FrameWriter writer(folder_.path(), kFrames);
+  FrameWriter writer(folder_.path());
   std::filesystem::create_directory(folder_.path(frameName(2)));
   std::string message;
   try {
@@ -87,7 +87,7 @@ TEST_P(FrameWriterThread, FailedFrameIsNamedAndNothingIsWrittenAfterIt) {
 }
 
 TEST_P(FrameWriterThread, FailureOfTheLastFrameIsToldByFinish) {
-  FrameWriter writer(folder_.path(), 1);
+  FrameWriter writer(folder_.path());
   std::filesystem::create_directory(folder_.path(frameName(0)));
   const auto write_and_finish = [&] {
     writer.write(0, frame(0));
@@ -97,7 +97,7 @@ TEST_P(FrameWriterThread, FailureOfTheLastFrameIsToldByFinish) {
 }
 
 TEST_P(FrameWriterThread, FrameHandedOverIsWrittenThoughTheRunIsGivenUp) {
-  FrameWriter(folder_.path(), 1).write(0, frame(0));
+  FrameWriter(folder_.path()).write(0, frame(0));
   EXPECT_TRUE(std::filesystem::exists(folder_.path(frameName(0))));
 }
 

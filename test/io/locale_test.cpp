@@ -1,6 +1,6 @@
 // Numbers have a point in files, also in a program that has switched to a decimal comma.
+#include "io/formats/frame_writer.hpp"
 #include "simulation/options/scenario_options.hpp"
-#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/scenario_file.hpp>
 
@@ -30,7 +30,7 @@ TEST_F(DecimalComma, DoesNotChangeWhatIsReadAndWritten) {
   const Particles particles =
       readParticleFile(folder.write("particle.txt", "0.5 0 1\n1234.25 0.5 1\n"));
   EXPECT_EQ(particles.state.x()[1], 1234.25);
-  FrameWriter(folder.path(), 1).write(0, particles.state);
+  FrameWriter(folder.path()).write(0, particles.state);
   EXPECT_EQ(readFile(folder.path("frame_0000.txt")), "0.5 0\n1234.25 0.5\n");
 }
 

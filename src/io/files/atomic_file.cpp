@@ -88,8 +88,9 @@ bool AtomicFile::takeLock() {
   return true;
 }
 
-AtomicFile::~AtomicFile() {
+void AtomicFile::discard() {
   if (file_.isOpen()) ::unlinkat(folder_.descriptor(), hidden_.c_str(), 0);
+  file_.close();
 }
 
 void AtomicFile::write(std::string_view text) {

@@ -41,8 +41,7 @@ class AtomicFile {
   /// \param path   for messages
   /// \throws FileError naming the path
   AtomicFile(const OutputFolder& folder, std::string name, std::string path, Lock lock);
-  /// Removes the file if it is not finished.
-  ~AtomicFile();
+  ~AtomicFile() { discard(); }
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -50,6 +49,8 @@ class AtomicFile {
   /// \throws FileError naming the path
   void write(std::string_view text);
   void finish();
+  /// Removes the file if it is not finished.
+  void discard();
   [[noreturn]] void refuse(const std::string& reason) const;
   [[noreturn]] void refuseForErrno() const;
 

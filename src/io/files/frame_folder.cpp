@@ -66,6 +66,11 @@ void FrameFolder::removeEarlier(std::int64_t first) {
   }
 }
 
+void FrameFolder::close() {
+  lock_.discard();
+  folder_.checkPath();
+}
+
 AtomicFile FrameFolder::begin(std::int64_t index) const {
   const std::string name = frameName(index);
   return {folder_, name, path() + "/" + name, AtomicFile::Lock::kNone};

@@ -32,8 +32,9 @@ class FrameFolder {
   /// \throws FileError naming the file
   AtomicFile begin(std::int64_t index) const;
 
-  /// \throws FileError if the path no longer leads to the folder
-  void checkPath() const { folder_.checkPath(); }
+  /// Releases the folder.
+  /// \throws FileError if the path no longer leads to it
+  void close();
   /// Absolute path.
   const std::string& path() const { return folder_.path(); }
   /// Number of removed frames of an earlier run.

@@ -2,8 +2,8 @@
 
 #include "base/numbers.hpp"
 #include "io/formats/energy_file.hpp"
+#include "io/formats/frame_writer.hpp"
 #include "io/formats/state_file.hpp"
-#include <spring_pendulum/io/frame_writer.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ RunFiles::RunFiles(const Run& run, const std::string& config) : files_(new Files
   if (!scenario.energy.empty()) files_->energy.emplace(scenario.energy, run.firstFrame());
   if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);
   if (writesFrames(scenario)) {
-    files_->frames.emplace(scenario.output, scenario.frames, run.firstFrame());
+    files_->frames.emplace(scenario.output, run.firstFrame());
   }
 }
 

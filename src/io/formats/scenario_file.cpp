@@ -1,5 +1,5 @@
 #include "io/files/text_file.hpp"
-#include "io/formats/option_file.hpp"
+#include "io/formats/yaml_tree.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/io/scenario_file.hpp>
 

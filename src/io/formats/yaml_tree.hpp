@@ -1,5 +1,7 @@
-// A YAML file of a few nested levels as a tree, with the lines for error messages.
+// YAML files: a tree of a few nested levels with the lines for error messages, and options.
 #pragma once
+
+#include "simulation/options/option_set.hpp"
 
 #include <string>
 #include <string_view>
@@ -25,5 +27,10 @@ struct YamlTree {
 /// \param name name of the text in error messages
 /// \throws InputError with file and line for invalid YAML, deep nesting, aliases or a key given twice
 YamlTree parseYamlTree(std::string_view text, std::string_view name);
+
+/// Sets the options that a text has in lines `key: value`; the others keep their values.
+/// \param name name of the text in error messages
+/// \throws InputError with name and line for invalid YAML, an unknown key or a wrong value
+void parseOptions(std::string_view text, std::string_view name, OptionSet& options);
 
 }  // namespace spring_pendulum

@@ -4,7 +4,7 @@
 #include "base/spelling.hpp"
 #include "io/files/paths.hpp"
 #include "io/files/text_file.hpp"
-#include "io/formats/option_file.hpp"
+#include "io/formats/yaml_tree.hpp"
 #include "io/program/arguments.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
