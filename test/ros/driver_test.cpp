@@ -60,20 +60,6 @@ TEST(Driver, BringAParticleToRestAtItsTarget) {
   EXPECT_FALSE(isBad(live.run.verdict().kind)) << live.run.verdict().text;
 }
 
-TEST(Driver, FollowAMovingTargetWithoutLag) {
-  Live live;
-  double time = 0.0;
-  for (int k = 0; k < 60; ++k) {
-    time = live.run.time();
-    live.driver.on(Hold{0, Target{{0.5 * time, 0.2 * time}, {0.5, 0.2}}});
-    live.driver.apply(live.run, live.run.nextTime(), false);
-    live.run.advancePart();
-  }
-  time = live.run.time();
-  EXPECT_NEAR(live.run.state().x()[0], 0.5 * time, 1e-9);
-  EXPECT_NEAR(live.run.state().y()[0], 0.2 * time, 1e-9);
-}
-
 TEST(Driver, LeaveAFreeRunAlone) {
   Live live;
   live.go(2.0);

@@ -184,6 +184,17 @@ class Robots(LiveTest):
             self.assertAlmostEqual(self.last().positions[10].z, place.z, places=6)
             self.check_energy()
 
+    def test_two_holders_of_a_cable_at_rest_carry_its_weight(self):
+        wrenches = [self.listen('held_%d/wrench' % i, WrenchStamped) for i in (1, 11)]
+        with self.node(held='1, last', start='at_rest'):
+            left, right = (listener.wait_for(3)[-1].wrench.force for listener in wrenches)
+            self.assertAlmostEqual(left.z + right.z, -10 * 9.81, places=6)  # P_1 itself does not count
+            self.assertAlmostEqual(left.z, right.z + 9.81, places=6)
+            self.assertAlmostEqual(left.x, -right.x, places=6)
+            self.assertGreater(left.x, 1.0)
+            tip = self.last().positions[10]
+            self.assertLess(math.hypot(tip.x - 10.0, tip.z), 1e-9)
+
     def test_transforms_that_start_again_an_hour_earlier_are_followed(self):
         self.start = 3600.0
 
