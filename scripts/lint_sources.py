@@ -153,7 +153,7 @@ BUDGETS = {
     'io': (2776, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),
     'ros': (4310, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),
     'check': (1790, 'src/check', 'src/check_frames.cpp'),
-    'sweep': (1741, 'src/sweep', 'src/sweep.cpp'),
+    'sweep': (1699, 'src/sweep', 'src/sweep.cpp'),
     'src, include': (22730, 'src', 'include'),
     'web': (3000, 'web'),
     'python': (1003, 'python'),

@@ -24,8 +24,6 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr unsigned kLineLength = 90;
-
 struct CommandLine {
   std::string answer;  ///< text to print instead of a sweep: --help, --version
   std::string study;
@@ -78,14 +76,16 @@ void setShard(CommandLine& line) {
 CommandLine parseCommandLine(int argc, const char* const* argv) {
   CommandLine line;
   OptionSet options(optionsOf(line));
-  po::options_description description("Options", kLineLength, kLineLength / 2);
+  po::options_description description("Options", 90, 45);
   for (const Option& option : options.options()) {
     const std::string name = option.key == "output" ? "output,o" : std::string(option.key);
     const std::string meaning(option.meaning);
-    if (option.isFlag()) description.add_options()(name.c_str(), meaning.c_str());
-    if (option.isFlag()) continue;
-    description.add_options()(
-        name.c_str(), po::value<std::string>()->value_name(option.placeholder()), meaning.c_str());
+    if (option.isFlag()) {
+      description.add_options()(name.c_str(), meaning.c_str());
+      continue;
+    }
+    const auto* const value = po::value<std::string>()->value_name(option.placeholder());
+    description.add_options()(name.c_str(), value, meaning.c_str());
   }
   description.add_options()("version", "show the version")("help,h", "show this help");
   for (const po::option& argument : splitArguments(argc, argv, description)) {
@@ -198,15 +198,15 @@ int run(int argc, const char* const* argv) {
     printCase(readCheckedStudy(line), line.only_case, line.sweep.output);
   }
   if (!line.answer.empty() || line.only_case >= 0) return kDone;
-  CaseCounter counter;
+  const std::unique_ptr<CaseCounter> counter = makeCaseCounter();
   try {
     // Rank 0 checks everything first, so each error is reported once.
-    if (counter.rank() > 0) counter.largest(0);
-    return runSweep(readCheckedStudy(line), line.sweep, counter);
+    if (counter->rank() > 0) counter->largest(0);
+    return runSweep(readCheckedStudy(line), line.sweep, *counter);
   } catch (const std::exception& error) {  // a failure of one rank ends all of them
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");
-    counter.abort(failure.status);
+    counter->abort(failure.status);
     return failure.status;
   }
 }

@@ -5,23 +5,17 @@
 #include <filesystem>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <system_error>
 #include <unistd.h>
 #include <vector>
 
 #include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
-namespace {
-
-constexpr const char* kPython = "/usr/bin/python3";  // the one that has matplotlib from Debian
-
-}  // namespace
 
 int drawPlot(const Study& study, const std::string& table, const std::string& picture,
              bool only_try) {
-  std::error_code ignored;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  constexpr const char* kPython = "/usr/bin/python3";  // the one that has matplotlib from Debian
+  const auto program = std::filesystem::read_symlink("/proc/self/exe");
   std::vector<std::string> arguments{kPython,      "-B",    program.parent_path() / "plot_table.py",
                                      "/dev/stdin", picture, "--title=" + study.name};
   arguments.insert(arguments.end(), study.plot.begin(), study.plot.end());

@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -21,7 +20,6 @@
 #include <mutex>
 #include <optional>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "sweep/journal.hpp"
@@ -80,22 +78,17 @@ class Sweep {
       : study_(study),
         options_(options),
         counter_(counter),
-        threads_(options.threads > 0
-                     ? options.threads
-                     : std::max<std::int64_t>(1, std::thread::hardware_concurrency())),
         rows_(static_cast<std::size_t>(study.cases())) {}
 
   /// Finds out before the first case what would prevent the last line of the table, and the picture.
   /// \returns the exit status
   int prepare() {
-    checkCases(study_, threads_);
+    checkCases(study_, options_.threads);
     if (options_.shards > 1 && std::filesystem::exists(options_.output)) {
       throw InputError(options_.output + ": exists; remove it to run its shards anew");
     }
-    if (counter_.rank() == 0) {
-      const int status = tryOutputs();
-      if (status != kDone) return status;
-    }
+    const int status = counter_.rank() == 0 ? tryOutputs() : kDone;
+    if (status != kDone) return status;
     journal_.emplace(options_.output + ".journal", study_.hash);
     readJournal();
     return kDone;
@@ -124,7 +117,7 @@ class Sweep {
       counter_.poll();
       if (counter_.rank() == 0) progress.show(std::min<std::int64_t>(reached, study_.cases()));
     };
-    forEachCase(study_, threads_, next, run, meanwhile);
+    forEachCase(study_, options_.threads, next, run, meanwhile);
   }
 
   /// Writes the table, or says why it is not complete.
@@ -206,7 +199,6 @@ class Sweep {
   const Study& study_;
   const SweepOptions& options_;
   CaseCounter& counter_;
-  std::int64_t threads_;
   std::optional<Journal> journal_;
   std::vector<std::string> rows_;  ///< columns of the finished cases
   std::mutex mutex_;

@@ -1,8 +1,10 @@
 // Runs the cases of a study on threads and ranks and writes their table.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <thread>
 
 #include "sweep/case_counter.hpp"
 #include "sweep/study/study.hpp"
@@ -10,9 +12,9 @@
 namespace spring_pendulum::sweep {
 
 struct SweepOptions {
-  std::string output;        ///< the table
-  std::int64_t threads = 0;  ///< of this process; 0: one per processor core
-  std::int64_t shard = 1;    ///< counted from 1
+  std::string output;                                                        ///< the table
+  std::int64_t threads = std::max(1U, std::thread::hardware_concurrency());  ///< of this process
+  std::int64_t shard = 1;                                                    ///< counted from 1
   std::int64_t shards = 1;
   bool plot = false;
 };

@@ -68,8 +68,7 @@ const std::vector<Column>& allColumns() {
        nullptr, [](const Run& run) { return numberText(run.positionError().bound); }},
       {"measured_until", "s", "time until which the position error is known", nullptr,
        [](const Run& run) { return numberText(run.positionError().measured_until); }},
-      {"energy_error", "1", "largest residual of the energy balance, in energy scales",
-       energyError},
+      {"energy_error", "", "largest residual of the energy balance, in energy scales", energyError},
       {"largest_stretch", "m", "largest elongation of a spring at the frames", largestStretch},
       {"tip_x", "m", "position of the last particle at the end", nullptr,
        [](const Run& run) { return numberText(run.state().x()[run.chain().size() - 1]); }},
@@ -79,7 +78,7 @@ const std::vector<Column>& allColumns() {
        [](const Run& run) { return numberText(divergenceTime(run)); }},
       {"seconds", "s", "nominal computing time of the method, counted and not measured", nullptr,
        [](const Run& run) { return roundedText(run.integrator().work(), 6); }},
-      {"force_evaluations", "1", "evaluations of the forces on the whole chain", nullptr,
+      {"force_evaluations", "", "evaluations of the forces on the whole chain", nullptr,
        [](const Run& run) { return std::to_string(run.integrator().forceEvaluations()); }},
       {"largest_stable_step", "s", "largest stable step size of a fixed-step method, by trial runs",
        nullptr, [](const Run& run) { return numberText(largestStableStep(run)); }},
@@ -101,8 +100,7 @@ const Column& findColumn(std::string_view name, std::string_view place) {
 std::string tableHeader(const Study& study) {
   std::string header = "case";
   const auto add = [&](std::string_view name, std::string_view unit) {
-    const bool has_unit = !unit.empty() && unit != "1";
-    header += has_unit ? fmt::format(",{} [{}]", name, unit) : fmt::format(",{}", name);
+    header += fmt::format(unit.empty() ? ",{}" : ",{} [{}]", name, unit);
   };
   for (const Axis& axis : study.axes) add(axis.key, axis.unit);
   if (study.samples > 0) add("sample", "");
@@ -113,9 +111,7 @@ std::string tableHeader(const Study& study) {
 std::string rowStart(const Study& study, std::int64_t index) {
   std::string row = std::to_string(index);
   const Place place = study.placeOf(index);
-  for (std::size_t i = 0; i < study.axes.size(); ++i) {
-    row += ',' + field(study.axes[i].values[place.values[i]]);
-  }
+  for (const std::string& value : place.values) row += ',' + field(value);
   if (study.samples > 0) row += ',' + std::to_string(place.sample);
   return row;
 }

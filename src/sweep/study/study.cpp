@@ -110,32 +110,30 @@ double fittedTimeStep(const Settings& settings, double time_step) {
 }
 
 std::vector<Option> caseOptions(Settings& s) {
-  std::vector<Option> options = scenarioOptions(s.scenario);
-  const auto of_one_run = [](const Option& option) {
-    return std::find(std::begin(kOfOneRun), std::end(kOfOneRun), option.key) != std::end(kOfOneRun);
-  };
-  options.erase(std::remove_if(options.begin(), options.end(), of_one_run), options.end());
-  const Option own[] = {{"duration", Number{&s.duration, Range::atLeast(0)}, "s",
-                         "simulated time, in frames of frame_interval; 0: given by frames"},
-                        {"mass_factor", Number{&s.mass_factor, Range::above(0)}, "",
-                         "factor for the masses of the particle file"}};
-  options.insert(options.end(), std::begin(own), std::end(own));
+  std::vector<Option> options{{"duration", Number{&s.duration, Range::atLeast(0)}, "s",
+                               "simulated time, in frames of frame_interval; 0: given by frames"},
+                              {"mass_factor", Number{&s.mass_factor, Range::above(0)}, "",
+                               "factor for the masses of the particle file"}};
+  for (const Option& option : scenarioOptions(s.scenario)) {
+    const auto* const found = std::find(std::begin(kOfOneRun), std::end(kOfOneRun), option.key);
+    if (found == std::end(kOfOneRun)) options.push_back(option);
+  }
   return options;
 }
 
 std::int64_t Study::cases() const {
-  std::int64_t cases = std::max<std::int64_t>(samples, 1);
+  double cases = std::max(1.0, static_cast<double>(samples));
   for (const Axis& axis : axes) {
-    if (!axis.is_joined) cases *= static_cast<std::int64_t>(axis.values.size());
+    if (!axis.is_joined) cases *= static_cast<double>(axis.values.size());
   }
-  return cases;
+  return static_cast<std::int64_t>(std::min(cases, 2.0 * kMostCases));
 }
 
 Place Study::placeOf(std::int64_t index) const {
-  Place place{std::vector<std::size_t>(axes.size()), 0};
+  Place place{std::vector<std::string>(axes.size()), 0};
   auto left = static_cast<std::size_t>(index);
   for (std::size_t i = axes.size(); i-- > 0;) {
-    place.values[i] = left % axes[i].values.size();
+    place.values[i] = axes[i].values[left % axes[i].values.size()];
     if (!axes[i].is_joined) left /= axes[i].values.size();
   }
   place.sample = static_cast<std::int64_t>(left);
@@ -152,8 +150,7 @@ Case caseOf(const Study& study, std::int64_t index) {
   Case made{place.sample, study.base, {}};
   const OptionSet options(caseOptions(made.settings));
   for (std::size_t i = 0; i < study.axes.size(); ++i) {
-    const Axis& axis = study.axes[i];
-    options.find(axis.key, "").assign(axis.values[place.values[i]]);
+    options.find(study.axes[i].key, "").assign(place.values[i]);
   }
   setFrames(made.settings);
   setParticles(study, made);

@@ -52,7 +52,7 @@ struct Axis {
 
 /// Where a case is in a study.
 struct Place {
-  std::vector<std::size_t> values;  ///< which value of each axis
+  std::vector<std::string> values;  ///< of the axes
   std::int64_t sample = 0;
 };
 

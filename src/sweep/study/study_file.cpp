@@ -20,6 +20,7 @@ namespace spring_pendulum::sweep {
 namespace {
 
 using Kind = YamlTree::Kind;
+using Entries = decltype(YamlTree::entries);
 
 /// Significant digits of the values of `linear` and `log`.
 constexpr int kDigits = 12;
@@ -39,8 +40,7 @@ const std::string& textOf(const YamlTree& tree, std::string_view key) {
   return tree.text;
 }
 
-/// Sets an option.
-void assign(OptionSet& options, const Option& option, const YamlTree& tree) {
+void setOption(const YamlTree& tree, const Option& option, OptionSet& options) {
   const bool is_text = option.isText();
   if (tree.kind != Kind::kScalar || (tree.is_quoted && !is_text)) {
     refuse(tree, option.key,
@@ -63,13 +63,9 @@ void checkKeys(const YamlTree& map, std::string_view what, const std::vector<std
   }
 }
 
-std::vector<YamlTree> listOf(const YamlTree& tree, std::string_view key) {
-  if (tree.kind != Kind::kList || tree.entries.empty()) {
-    refuse(tree, key, "must be a list with at least one value");
-  }
-  std::vector<YamlTree> values;
-  for (const auto& entry : tree.entries) values.push_back(entry.second);
-  return values;
+const Entries& listOf(const YamlTree& tree, std::string_view key) {
+  if (tree.kind == Kind::kList && !tree.entries.empty()) return tree.entries;
+  refuse(tree, key, "must be a list with at least one value");
 }
 
 /// \param wanted for the message
@@ -80,14 +76,13 @@ std::vector<double> numbersOf(const YamlTree& tree, std::string_view key, std::s
   for (const auto& entry : tree.entries) {
     double& number = numbers.emplace_back();
     OptionSet options({{key, Number{&number, Range::any()}, "", ""}});
-    assign(options, options.options().front(), entry.second);
+    setOption(entry.second, options.options().front(), options);
   }
   return numbers;
 }
 
 /// The values `{linear: [first, last, number]}` or `{log: ...}`. Time steps end at the duration of `base`.
-std::vector<YamlTree> scale(const YamlTree& tree, const Option& option, bool is_log,
-                            const Settings& base) {
+Entries scale(const YamlTree& tree, const Option& option, bool is_log, const Settings& base) {
   const std::vector<double> numbers =
       numbersOf(tree, option.key, 3, "must be [first, last, number of values]");
   const double first = numbers[0], last = numbers[1], count = numbers[2];
@@ -97,7 +92,7 @@ std::vector<YamlTree> scale(const YamlTree& tree, const Option& option, bool is_
   if (is_log && !(first > 0.0 && last > 0.0)) {
     refuse(tree, option.key, "the first and the last value of log must be above 0");
   }
-  std::vector<YamlTree> values;
+  Entries values;
   for (double i = 0.0; i < count; ++i) {
     const double share = i / (count - 1.0);
     const double value =
@@ -107,24 +102,24 @@ std::vector<YamlTree> scale(const YamlTree& tree, const Option& option, bool is_
     if (option.key == "time_step" && base.duration > 0.0) {
       text = numberText(fittedTimeStep(base, parseNumber(text).value_or(value)));
     }
-    values.push_back({Kind::kScalar, tree.place, text, false, {}});
+    values.push_back({"", {Kind::kScalar, tree.place, text, false, {}}});
   }
   return values;
 }
 
 /// `all`, `fixed-step` or `error-controlled` instead of a list of methods.
-std::vector<YamlTree> methodsOf(const YamlTree& tree) {
-  std::vector<YamlTree> names;
+Entries methodsOf(const YamlTree& tree) {
+  Entries names;
   for (const Method& method : methodTable()) {
     const char* const group = method.hasFixedStep() ? "fixed-step" : "error-controlled";
     if (tree.text != "all" && tree.text != group) continue;
-    names.push_back({Kind::kScalar, tree.place, method.name, false, {}});
+    names.push_back({"", {Kind::kScalar, tree.place, method.name, false, {}}});
   }
   if (!names.empty()) return names;
   refuse(tree, "method", "must be a list, all, fixed-step or error-controlled");
 }
 
-std::vector<YamlTree> valuesOf(const YamlTree& tree, const Option& option, const Settings& base) {
+Entries valuesOf(const YamlTree& tree, const Option& option, const Settings& base) {
   if (tree.kind == Kind::kScalar && option.key == "method") return methodsOf(tree);
   if (tree.kind == Kind::kList) return listOf(tree, option.key);
   checkKeys(tree, option.key, {"list", "linear", "log", "with"});
@@ -171,11 +166,9 @@ class StudyReader {
     readRandom();
     readColumns();
     readPlot();
-    double cases = static_cast<double>(std::max<std::int64_t>(study_.samples, 1));
-    for (const Axis& axis : study_.axes) {
-      if (!axis.is_joined) cases *= static_cast<double>(axis.values.size());
+    if (static_cast<double>(study_.cases()) > kMostCases) {
+      refuse(tree_, "study", "there are more than 1e9 cases");
     }
-    if (cases > kMostCases) refuse(tree_, "study", "there are more than 1e9 cases");
     if (options_.isGiven("duration") &&
         (options_.isGiven("frames") || options_.isGiven("steps_per_frame"))) {
       throw InputError(tree_.place + ": duration sets frames and steps_per_frame; leave them out");
@@ -189,7 +182,7 @@ class StudyReader {
     if (const YamlTree* const base = tree_.find("base")) {
       requireMap(*base, "base");
       for (const auto& [key, value] : base->entries) {
-        assign(options_, options_.find(key, value.place, "key"), value);
+        setOption(value, options_.find(key, value.place, "key"), options_);
       }
     }
     const YamlTree* const axes = tree_.find("axes");
@@ -205,8 +198,8 @@ class StudyReader {
       if (options_.isGiven(key)) refuse(value, key, "stands in base, too");
       const Option& option = options_.find(key, value.place, "key");
       Axis axis{key, std::string(option.unit), {}};
-      for (const YamlTree& one : valuesOf(value, option, study_.base)) {
-        assign(options_, option, one);
+      for (const auto& [unnamed, one] : valuesOf(value, option, study_.base)) {
+        setOption(one, option, options_);
         if (key == "particles") load(one);
         axis.values.push_back(option.text());
       }
@@ -255,7 +248,7 @@ class StudyReader {
     OptionSet counts({{"seed", Count{&study_.seed, Range::atLeast(0)}, "", ""},
                       {"samples", Count{&study_.samples, Range::between(1, 1e9)}, "", ""}});
     for (const auto& [key, value] : random->entries) {
-      if (key == "seed" || key == "samples") assign(counts, counts.find(key, ""), value);
+      if (key == "seed" || key == "samples") setOption(value, counts.find(key, ""), counts);
       if (key == "mass_factor") study_.mass_factor = distributionOf(value, key);
       if (key == "displacement") study_.displacement = distributionOf(value, key);
       if (key == "velocity") study_.velocity = distributionOf(value, key);
@@ -272,7 +265,7 @@ class StudyReader {
     static const YamlTree kDefault =
         parseYamlTree("[verdict, position_error, energy_error]", "columns");
     const YamlTree* const given = tree_.find("columns");
-    for (const YamlTree& name : listOf(given != nullptr ? *given : kDefault, "columns")) {
+    for (const auto& [unnamed, name] : listOf(given != nullptr ? *given : kDefault, "columns")) {
       const Column* const column = &findColumn(textOf(name, "columns"), name.place);
       auto& known = study_.columns;
       if (std::find(known.begin(), known.end(), column) != known.end()) {
