@@ -109,11 +109,11 @@ class ProgramMotion : public Motion {
     const bool is_implicit = program_.implicit != Implicit::kNone;
     const auto size = static_cast<double>(state_.cols());
     // Relative to a kernel of the library.
-    const double work_of_spring = is_implicit ? 200.0 * size : 10.0;
+    const double work_of_spring = is_implicit ? (200.0 + 3.0 * size) * size : 10.0;
     limit.done += static_cast<double>(target - step_) * work_of_spring * size *
                   static_cast<double>(slopes_.size());
     for (; step_ < target; ++step_) {
-      if (limit.isStopped()) return false;
+      if (limit.isOver()) return false;
       is_implicit ? stepImplicitly() : step();
     }
     return true;

@@ -38,7 +38,7 @@ class Motion {
   Motion& operator=(const Motion&) = delete;
 
   /// Moves on to a frame and counts the work. Frames must not decrease.
-  /// \returns false if `limit` was stopped on the way, after which the motion is of no use
+  /// \returns false if `limit` ended it on the way, after which the motion is of no use
   virtual bool advanceTo(std::int64_t frame, WorkLimit& limit) = 0;
   /// N×2 positions as the program prints them, m.
   virtual Eigen::ArrayX2d positions() const = 0;
