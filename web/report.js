@@ -112,7 +112,7 @@ const meanings = {
 /** What happened, why, and what to do about it, from what the library measured. */
 export function sentences() {
   const ended = settings.runs.map((run, i) => ({run, track: tracks[i], method: methodOf(run.method)}))
-      .filter(({track}) => track?.end);
+      .filter(({track, method}) => track?.end && method);
   if (ended.length === 0 || scene.failure) return [];
   const diverged = ended.filter(({track}) => track.diverged);
   const others = ended.filter(({track}) => !track.diverged);

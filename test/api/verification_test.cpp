@@ -15,7 +15,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kG = 9.81;  // m/s²
 
 Chain chainOf(Eigen::Index size, double mass, const SpringLaw& spring) {
-  return Chain(Eigen::VectorXd::Constant(size, mass), spring, kG);
+  return {Eigen::VectorXd::Constant(size, mass), spring, kG};
 }
 
 /// A chain hanging straight down from the origin with springs of their rest length.
