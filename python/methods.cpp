@@ -39,8 +39,7 @@ const Method& addMethod(const std::string& name, const py::sequence& a, const py
   if (Computation::running > 0) {
     throw InputError("register methods while no other thread integrates");
   }
-  const ButcherTableau tableau = toTableau(a, b);
-  Method method = methodOfTableau(name, tableau);
+  Method method = methodOfTableau(name, toTableau(a, b));
   method.reference = reference;
   method.use = use;
   registerMethod(method);

@@ -169,12 +169,12 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
 py::tuple check(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
   const Particles start = particlesOf(particles, scenario);
-  const Chain chain = scenario.chainOf(start.masses);
   Interruption interruption;
   StabilityReport report;
   {
     const Computation computation;
-    report = checkStability(chain, start.state, scenario, [&] { return interruption(); });
+    report = checkStability(scenario.chainOf(start.masses), start.state, scenario,
+                            [&] { return interruption(); });
   }
   interruption.raise();
   return py::make_tuple(report.text, report.tried ? tupleOf(report.verdict) : py::tuple(),

@@ -1,6 +1,7 @@
 """Lifetime, copies, threads and interruptions of the objects."""
 import copy
 import gc
+import os
 import pickle
 import signal
 import threading
@@ -107,6 +108,22 @@ class Threads(unittest.TestCase):
         self.assertGreater(ticks, 10)
         self.assertGreater(refusals, 10)
         integrator.advance(state, 1e-6, 1)
+
+
+    def test_start_anew_in_a_forked_process(self):
+        chain, state = long_chain(20000)
+        integrator = sp.make_integrator('Runge-Kutta-4', chain, threads=3)
+
+        def positions():
+            moved = copy.copy(state)
+            integrator.advance(moved, 1e-3, 20)
+            return moved.positions.tobytes()
+
+        expected = positions()
+        child = os.fork()
+        if child == 0:
+            os._exit(0 if positions() == expected else 1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
 
 
 class CtrlC(unittest.TestCase):
