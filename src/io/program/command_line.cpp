@@ -136,9 +136,8 @@ std::vector<std::string> positionals(const std::vector<po::option>& given,
 }
 
 /// Sets METHOD and FILE, which is short for --particles FILE.
-void setPositional(const std::vector<po::option>& given, const ProgramText& program,
-                   OptionSet& options) {
-  const std::vector<std::string> texts = positionals(given, options);
+void setPositional(const std::vector<std::string>& texts, const std::vector<po::option>& given,
+                   const ProgramText& program, OptionSet& options) {
   if (texts.empty()) return;
   if (texts.size() == 2 && !isMethod(texts[0]) && isMethod(texts[1])) {
     throw InputError(fmt::format("{}: METHOD comes first: {} {} {}", inQuotes(texts[1]),
@@ -156,39 +155,31 @@ void setPositional(const std::vector<po::option>& given, const ProgramText& prog
   }
 }
 
-std::vector<std::string> foldersIn(const std::vector<po::option>& given,
-                                   const ProgramText& program) {
-  std::vector<std::string> folders;
-  for (const po::option& argument : given) {
-    if (!argument.string_key.empty()) continue;
-    folders.push_back(argument.value.front());
-    if (folders.back().empty()) throw InputError("DIR: must be a folder, got ''");
+void checkFolders(const std::vector<std::string>& folders, const ProgramText& program) {
+  if (folders.empty()) {
+    throw InputError(fmt::format("a folder is missing; try: {} {} (--help lists the options)",
+                                 program.name, program.example));
   }
-  if (!folders.empty()) return folders;
-  throw InputError(fmt::format("a folder is missing; try: {} {} (--help lists the options)",
-                               program.name, program.example));
+  for (const std::string& folder : folders) {
+    if (folder.empty()) throw InputError("DIR: must be a folder, got ''");
+  }
 }
 
-/// \returns the keys that were set
-std::vector<std::string_view> setOptions(const std::vector<po::option>& given, OptionSet& options) {
-  std::vector<std::string_view> keys;
+void setOptions(const std::vector<po::option>& given, OptionSet& options) {
   for (const po::option& argument : given) {
     for (const Option& option : options.options()) {
       if (optionName(option.key) != argument.string_key) continue;
       options.set(option, argument.value.empty() ? "true" : argument.value.front(),
                   "--" + argument.string_key);
-      keys.push_back(option.key);
     }
   }
-  return keys;
 }
 
 /// On the command line, unlike in a file, an option without effect is an error.
-void refuseUnused(const std::vector<std::string_view>& keys, const OptionSet& options,
+void refuseUnused(const std::vector<po::option>& given, const OptionSet& options,
                   const Scenario& scenario) {
-  const std::vector<std::string_view> unused = unusedKeys(scenario, options);
-  for (const std::string_view key : keys) {
-    if (std::find(unused.begin(), unused.end(), key) == unused.end()) continue;
+  for (const std::string_view key : unusedKeys(scenario, options)) {
+    if (!has(given, optionName(key))) continue;
     throw InputError(fmt::format(
         "--{}: {}", optionName(key),
         whyUnused(scenario.method, [](std::string_view name) { return "--" + optionName(name); })));
@@ -232,12 +223,14 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
     switches.given.insert(one.name);
   }
   switches.config = readConfig(given, options);
+  const std::vector<std::string> texts = positionals(given, options);
   if (program.takesFolders()) {
-    switches.folders = foldersIn(given, program);
+    checkFolders(texts, program);
+    switches.folders = texts;
   } else {
-    setPositional(given, program, options);
+    setPositional(texts, given, program, options);
   }
-  const std::vector<std::string_view> keys = setOptions(given, options);
+  setOptions(given, options);
   const bool knows_method = program.takesFolders() || options.isGiven(kMethodKey) ||
                             (!program.method_from.empty() && options.isGiven(program.method_from));
   if (!knows_method) {
@@ -245,7 +238,7 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
                                  program.name, program.example));
   }
   checkScenario(scenario);
-  if (options.isGiven(kMethodKey)) refuseUnused(keys, options, scenario);
+  if (options.isGiven(kMethodKey)) refuseUnused(given, options, scenario);
   return switches;
 }
 
