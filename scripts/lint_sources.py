@@ -148,7 +148,7 @@ def folder_errors(files):
 # A change that does not fit takes something else out; a budget only falls.
 BUDGETS = {
     'base, model': (1500, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
-    'integration': (6410, 'src/integration', 'include/spring_pendulum/integration'),
+    'integration': (6395, 'src/integration', 'include/spring_pendulum/integration'),
     'simulation': (2868, 'src/simulation', 'include/spring_pendulum/simulation'),
     'io': (2763, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),
     'ros': (4310, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),

@@ -1,4 +1,3 @@
-#include "integration/order_conditions.hpp"
 #include "integration/tableau.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>

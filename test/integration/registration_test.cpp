@@ -1,5 +1,5 @@
 // Methods that a program registers.
-#include "integration/order_conditions.hpp"
+#include "integration/tableau.hpp"
 #include "io/program/command_line.hpp"
 #include "simulation/options/scenario_options.hpp"
 

@@ -114,6 +114,7 @@ class StagePipeline {
     double* workspace;  ///< where the first column would have block 0
   };
 
+  /// \tparam kUnaligned whether left neighbours are loaded from memory; else they are shuffled
   template <bool kUnaligned, std::size_t... kStage>
   [[gnu::always_inline]] void longSteps(std::ptrdiff_t steps,
                                         std::index_sequence<kStage...> /*stages*/) {

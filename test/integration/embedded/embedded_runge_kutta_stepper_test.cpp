@@ -1,6 +1,6 @@
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
 
-#include "integration/order_conditions.hpp"
+#include "integration/tableau.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 
 #include <gtest/gtest.h>

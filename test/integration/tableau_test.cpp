@@ -1,4 +1,4 @@
-#include "integration/order_conditions.hpp"
+#include "integration/tableau.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>
 
