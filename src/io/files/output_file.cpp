@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// Returns the path behind symbolic links.
 /// \throws InputError, FileError if an output must not be written there
 std::string targetOf(const std::string& path) {
-  const std::string target = followLinks(path);
+  std::string target = followLinks(path);
   const std::string name = fs::path(target).filename().string();
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
@@ -53,8 +53,8 @@ OutputFile::OutputFile(const std::string& path)
       folder_(folderOf(target_)),
       file_(folder_, fs::path(target_).filename().string(), path_, AtomicFile::Lock::kOneWriter) {
   struct stat earlier {};
-  if (::stat(target_.c_str(), &earlier) != 0) return;
-  ::fchmod(file_.descriptor(), earlier.st_mode & 0777U);  // not every file system has permissions
+  const bool exists = ::stat(target_.c_str(), &earlier) == 0;
+  if (exists) ::fchmod(file_.descriptor(), earlier.st_mode & 0777U);  // not all file systems can
 }
 
 bool OutputFile::copyEarlier() {

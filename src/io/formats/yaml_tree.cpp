@@ -101,10 +101,11 @@ void refuseControlCharacters(std::string_view text, std::string_view name) {
   const auto is_control = [](unsigned char c) {
     return c < 0x20 && c != '\t' && c != '\n' && c != '\r';
   };
-  const auto found = std::find_if(text.begin(), text.end(), is_control);
-  if (found == text.end()) return;
+  const char* const end = text.data() + text.size();
+  const char* const found = std::find_if(text.data(), end, is_control);
+  if (found == end) return;
   throw InputError(fmt::format("{}:{}: has a control character; must be UTF-8 text", name,
-                               1 + std::count(text.begin(), found, '\n')));
+                               1 + std::count(text.data(), found, '\n')));
 }
 
 }  // namespace

@@ -20,7 +20,6 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 namespace spring_pendulum {
 namespace {
