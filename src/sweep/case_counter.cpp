@@ -3,6 +3,7 @@
 #include "base/numbers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #ifdef SPRING_PENDULUM_MPI
 #include <mpi.h>
@@ -76,11 +77,11 @@ class MpiCounter : public CaseCounter {
 
 /// Whether mpirun or srun has started several processes. Without MPI, each would run all cases.
 bool isOneOfSeveral() {
-  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
+  const auto counts = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
+  return std::any_of(counts.begin(), counts.end(), [](const char* name) {
     const char* const text = std::getenv(name);
-    if (text != nullptr && parseInteger(text).value_or(1) > 1) return true;
-  }
-  return false;
+    return text != nullptr && parseInteger(text).value_or(1) > 1;
+  });
 }
 
 }  // namespace

@@ -130,8 +130,7 @@ class Sweep {
       return kDone;
     }
     readJournal();
-    const std::int64_t missing =
-        std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return row.empty(); });
+    const std::int64_t missing = std::count(rows_.begin(), rows_.end(), std::string());
     const std::string done =
         fmt::format("{} of {} cases are done", study_.cases() - missing, study_.cases());
     if (missing > 0 && signal != 0) {
