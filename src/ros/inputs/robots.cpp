@@ -119,7 +119,8 @@ void Robots::receive(Robot& robot, const std_msgs::Header& header,
                      const geometry_msgs::Point& point,
                      const std::optional<tf2::Vector3>& velocity) {
   try {
-    take(robot, {frames_.from(header.frame_id).transform, header.stamp.toSec()}, point, velocity);
+    take(robot, {frames_.from(header.frame_id).transform, header.stamp.toSec()}, point, velocity,
+         steadySeconds());
   } catch (const InputError& error) {
     if (robot.warnings.isDue()) ROS_WARN_STREAM(robot.name << ": " << error.what());
   }
@@ -133,7 +134,9 @@ void Robots::lookUp(Robot& robot, double now) {
       return;
     }
     robot.stamp = found.stamp;
-    take(robot, found, {}, std::nullopt);
+    // It came when tf received it, not when it is looked up, unless its clock is another one.
+    const double age = ros::Time::now().toSec() - found.stamp;
+    take(robot, found, {}, std::nullopt, age > 0.0 && age < kStaleFrame ? now - age : now);
   } catch (const InputError& error) {
     if (robot.follower.isSilent(now) && robot.warnings.isDue()) {
       ROS_WARN_STREAM(robot.name << "_frame: " << error.what());
@@ -142,12 +145,13 @@ void Robots::lookUp(Robot& robot, double now) {
 }
 
 void Robots::take(Robot& robot, const StampedTransform& transform,
-                  const geometry_msgs::Point& point, const std::optional<tf2::Vector3>& velocity) {
+                  const geometry_msgs::Point& point, const std::optional<tf2::Vector3>& velocity,
+                  double now) {
   const tf2::Vector3 at = transform.transform * tf2::Vector3(point.x, point.y, point.z);
   const tf2::Vector3 speed =
       transform.transform.getBasis() * velocity.value_or(tf2::Vector3(0.0, 0.0, 0.0));
   const bool accepted = robot.follower.take({{at.x(), at.z()}, {speed.x(), speed.z()}, {}},
-                                            velocity.has_value(), transform.stamp, steadySeconds());
+                                            velocity.has_value(), transform.stamp, now);
   const std::string message = robot.follower.takeMessage();
   if (!message.empty()) ROS_WARN_STREAM(message);
   if (accepted && !robot.warned && !(std::abs(at.y()) <= kOutOfPlane)) {

@@ -30,7 +30,7 @@ void drawAnchor(const Picture& picture, Marker& anchor) {
   anchor.scale.y = 0.01 * picture.diameter();  // flat: its underside would be black
   anchor.color = colorOf(kHeldColor);
   if (picture.run.isFinite())
-    anchor.pose.position = pointOf(picture.run.state(), 0, picture.depth());
+    anchor.pose.position = pointOf(picture.run.state(), 0, -picture.depth());
 }
 
 }  // namespace spring_pendulum

@@ -1,5 +1,4 @@
 // What the markers of a chain draw from. Each kind of marker is a file of its own.
-//
 // rviz draws a list of points in one batch; with one marker per particle it is unusable.
 #pragma once
 
@@ -37,8 +36,8 @@ struct Picture {
   }
   /// Width of a spring, m.
   double width() const { return std::max(0.35 * diameter(), 0.0035 * view.size()); }
-  /// y of the springs, the trail and the anchor behind the particles, m: rviz draws a particle as a
-  /// disc that faces the camera, so it is tilted by up to 28 degrees.
+  /// y of springs and trail behind the particles, and of the anchor in front of them, m: rviz draws a
+  /// particle as a disc that faces the camera, so it is tilted by up to 28 degrees.
   double depth() const { return 0.3 * diameter(); }
   /// Number of chains in front of this one.
   double chainsInFront() const {
@@ -73,7 +72,7 @@ inline void setScale(Marker& marker, double size) {
 void drawSprings(const Picture& picture, Marker& springs);
 /// From light ones in yellow to heavy ones in violet; held ones are grey.
 void drawParticles(const Picture& picture, Marker& particles);
-/// A square behind P_1.
+/// A square in front of P_1.
 void drawAnchor(const Picture& picture, Marker& anchor);
 /// Method, time, errors and verdict above the scene.
 void drawText(const Picture& picture, Marker& text);

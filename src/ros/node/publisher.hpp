@@ -19,9 +19,7 @@ class Publisher : private Outlet {
   bool isWatched() const { return publishes_clock_ || wantsMarkers() || wantsState(); }
   /// Serves callbacks until `wait_for_subscribers` is reached, or `wait_timeout` has passed.
   void waitForSubscribers(const NodeOptions& options);
-  /// Keeps the camera where it is, see Markers.
   void freezeCamera(bool freeze) { messages_.freezeCamera(freeze); }
-  /// See RunMessages.
   std::optional<std_msgs::Header> publish(const Run& run, const Showing& showing) {
     return messages_.send(run, showing, *this);
   }

@@ -9,8 +9,7 @@
 
 namespace spring_pendulum {
 
-/// \param rgb 0xrrggbb
-std_msgs::ColorRGBA colorOf(std::uint32_t rgb, float opacity = 1.0F);
+std_msgs::ColorRGBA colorOf(std::uint32_t rgb, float opacity = 1.0F);  ///< rgb: 0xrrggbb
 
 /// Parses "#rrggbb" as an opaque colour; nothing for any other text.
 std::optional<std_msgs::ColorRGBA> parseColor(std::string_view text);
