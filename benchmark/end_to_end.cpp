@@ -39,7 +39,7 @@ class Runs {
   explicit Runs(std::filesystem::path folder)
       : folder_(std::move(folder)),
         problem_(horizontalChain(11)),
-        chain_(Eigen::VectorXd::Ones(11), kDefaults.spring(), kDefaults.gravity),
+        chain_(Eigen::VectorXd::Ones(11), kDefaults.constants),
         student_(make("object per particle")) {}
 
   void emptyFolder() const {

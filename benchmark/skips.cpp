@@ -1,8 +1,8 @@
 // Time saved by each skip: a scene that does not need some work, and one that does.
 #include "integration/fixed_step/explicit_runge_kutta.hpp"
 #include "io/formats/frame_writer.hpp"
+#include "simulation/judge.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 int main(int argc, char** argv) try {
   using namespace spring_pendulum;
-  Run run(Scenario{}, readParticleFile(argc > 1 ? argv[1] : "particle.txt"));
+  Run run(readParticleFile(argc > 1 ? argv[1] : "particle.txt"), Plan{});
   while (run.advance()) {
   }
   std::cout << run.closingLine() << '\n' << run.verdict().text << '\n';

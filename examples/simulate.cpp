@@ -5,11 +5,11 @@
 
 int main(int argc, char** argv) try {
   using namespace spring_pendulum;
-  Particles particles = readParticleFile(argc > 1 ? argv[1] : "particle.txt");
-  const Chain chain(particles.masses, SpringLaw{50.0, 1.0, 1.0}, 9.81);
-  const auto integrator = makeIntegrator("Auto", chain, {1e-6});  // tolerance in m
+  Scene scene = readParticleFile(argc > 1 ? argv[1] : "particle.txt");
+  scene.constants.spring.stiffness = 50.0;                                // N/m
+  const auto integrator = makeIntegrator("Auto", scene.chain(), {1e-6});  // tolerance in m
 
-  State& state = particles.state;
+  State& state = scene.state;
   for (int second = 1; second <= 10; ++second) {
     integrator->advance(state, 1.0, 1);
     if (!state.values().allFinite()) throw InputError("the motion diverged");

@@ -40,8 +40,8 @@ void writeFiles(std::string_view input) {
   }
 }
 
-Particles threeParticles() {
-  Particles particles{Eigen::Vector3d(1, 1, 2), State(3)};
+Scene threeParticles() {
+  Scene particles{Eigen::Vector3d(1, 1, 2), State(3)};
   particles.state.x() << 0, 1, 2;
   particles.state.y() << 0, 0, 0.5;
   return particles;
@@ -62,7 +62,7 @@ bool isOneLine(const std::string& text) {
   return !text.empty() && text.find_first_of("\r\n\t") == std::string::npos;
 }
 
-void checkReport(const std::vector<FrameText>& frames, const Particles& particles) {
+void checkReport(const std::vector<FrameText>& frames, const Scene& particles) {
   int questions = 0;  // a whole search takes seconds
   const FrameCheck check =
       checkFrames(Scenario(), particles, frames, {true, [&] {
@@ -81,7 +81,7 @@ void checkReport(const std::vector<FrameText>& frames, const Particles& particle
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Particles kParticles = threeParticles();
+  static const Scene kParticles = threeParticles();
   fs::create_directory(folder());
   writeFiles({reinterpret_cast<const char*>(data), size});
   try {

@@ -2,7 +2,7 @@
 // values within their ranges or an error with its place.
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/plan.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,10 +48,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     setOptions(text, options);
     checkScenario(scenario);
     require(scenario.frames >= 1 && scenario.steps_per_frame >= 1, "counts from 1 on");
-    require(isAtLeastZero(scenario.stiffness) && isAtLeastZero(scenario.damping) &&
-                isAtLeastZero(scenario.rest_length) && std::isfinite(scenario.gravity),
+    require(isAtLeastZero(scenario.constants.spring.stiffness) &&
+                isAtLeastZero(scenario.constants.spring.damping) &&
+                isAtLeastZero(scenario.constants.spring.rest_length) &&
+                std::isfinite(scenario.constants.gravity),
             "constants in range");
-    require(frameSteps(scenario).timeOfFrame(scenario.frames - 1) >= 0.0, "times that do not wrap");
+    require(scenario.timeOfFrame(scenario.frames - 1) >= 0.0, "times that do not wrap");
     for (const Option& option : options.options()) option.assign(option.text());
   } catch (const InputError& error) {
     require(*error.what() != '\0', "a message");

@@ -14,7 +14,7 @@ namespace {
 
 using namespace spring_pendulum;
 
-bool sameBits(const Particles& a, const Particles& b) {
+bool sameBits(const Scene& a, const Scene& b) {
   const auto bytes = [](Eigen::Index numbers) {
     return static_cast<std::size_t>(numbers) * sizeof(double);
   };
@@ -24,7 +24,7 @@ bool sameBits(const Particles& a, const Particles& b) {
                      bytes(a.state.values().size())) == 0;
 }
 
-void checkParticles(const Particles& particles) {
+void checkParticles(const Scene& particles) {
   const Eigen::Index size = particles.masses.size();
   require(size >= 1 && particles.state.size() == size, "at least one particle");
   require(particles.state.values().allFinite(), "finite positions");

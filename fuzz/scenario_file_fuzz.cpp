@@ -1,7 +1,8 @@
 // Arbitrary bytes give parameters within their ranges or an error with its place.
+#include "io/formats/yaml_tree.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/io/scenario_file.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <string>
 #include <vector>
@@ -28,7 +29,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(data, data + size);
   Scenario scenario;
   try {
-    scenario = parseScenario(text, "run.yaml");
+    OptionSet options(scenarioOptions(scenario));
+    parseOptions(text, "run.yaml", options);
+    checkScenario(scenario);
   } catch (const InputError& error) {
     // `frames` and `steps_per_frame` are checked together, without a line.
     const std::string message = error.what();

@@ -118,13 +118,13 @@ void defineChain(py::module_& module) {
     const Numbers numbers = toNumbers(masses, "masses", 1);
     const AlignedNumbers aligned =
         Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
-    return Chain(aligned, {stiffness, damping, rest_length}, gravity).inAir(air_drag);
+    return Chain(aligned, {{stiffness, damping, rest_length}, gravity, air_drag});
   };
   py::class_<Chain>(module, "Chain",
                     "N particles joined by N - 1 equal springs; the first is fixed.")
       .def(py::init(make), "masses"_a, py::kw_only(), "stiffness"_a = kSpring.stiffness,
            "damping"_a = kSpring.damping, "rest_length"_a = kSpring.rest_length,
-           "gravity"_a = Scenario{}.gravity, "air_drag"_a = Scenario{}.air_drag)
+           "gravity"_a = Constants{}.gravity, "air_drag"_a = Constants{}.air_drag)
       .def_property_readonly("masses",
                              [](const py::object& self) {
                                const auto& chain = self.cast<const Chain&>();

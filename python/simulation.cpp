@@ -2,8 +2,9 @@
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/io/run_files.hpp>
-#include <spring_pendulum/simulation/option_list.hpp>
+#include <spring_pendulum/simulation/outcome.hpp>
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
@@ -48,11 +49,11 @@ std::string pathText(const py::object& value) {
 }
 
 /// The text of a value as the option table reads it.
-std::string optionText(const OptionDescription& option, const py::object& value) {
-  if (option.is_text) {
+std::string optionText(const Option& option, const py::object& value) {
+  if (option.isText()) {
     if (isPath(value)) return pathText(value);
     throw InputError(
-        fmt::format("{}: must be {}, got {}", option.key, option.range, reprOf(value)));
+        fmt::format("{}: must be {}, got {}", option.key, option.range(), reprOf(value)));
   }
   py::detail::make_caster<bool> flag;
   if (flag.load(value, false)) return flag ? "true" : "false";
@@ -64,7 +65,8 @@ std::string optionText(const OptionDescription& option, const py::object& value)
 }
 
 Scenario scenarioOf(const py::dict& options) {
-  const std::vector<OptionDescription> known = describeOptions();
+  Scenario scenario = pythonDefaults();
+  const std::vector<Option> known = scenarioOptions(scenario);
   std::vector<std::pair<std::string, std::string>> given;
   for (const auto& [key, value] : options) {
     const auto name = key.cast<std::string>();
@@ -74,7 +76,7 @@ Scenario scenarioOf(const py::dict& options) {
     const auto object = py::reinterpret_borrow<py::object>(value);
     given.emplace_back(name, option == known.end() ? "" : optionText(*option, object));
   }
-  return makeScenario(given, pythonDefaults());
+  return makeScenario(given, scenario);
 }
 
 /// Writes an array of shape (N, 3) as the text of a particle file, so that its rules apply.
@@ -88,14 +90,15 @@ std::string particleText(const Numbers& rows) {
 }
 
 /// \param particles a path or an array; sets `scenario.particles`
-Particles particlesOf(const py::object& particles, Scenario& scenario) {
+Scene sceneOf(const py::object& particles, Scenario& scenario) {
   scenario.particles.clear();
   if (isPath(particles)) {
     scenario.particles = pathText(particles);
-    return readStart(scenario);
+    return readScene(scenario);
   }
   if (scenario.resume) throw InputError("resume: needs a file of save_state, not an array");
-  return parseParticles(particleText(toNumbers(particles, "particles", 2)), "particles");
+  return makeScene(scenario,
+                   parseParticles(particleText(toNumbers(particles, "particles", 2)), "particles"));
 }
 
 double orNan(const std::optional<double>& number) {
@@ -118,43 +121,34 @@ py::tuple tupleOf(const Verdict& verdict) {
   return py::make_tuple(std::string(toString(verdict.kind)), verdict.text, verdict.time);
 }
 
-/// The lines that Exercise3 prints as warnings at the end.
-std::vector<std::string> warningsOf(const Run& run, const std::function<bool()>& stop) {
-  const Verdict& verdict = run.verdict();
-  std::vector<std::string> lines{run.toleranceRemark()};
-  if (verdict.kind == VerdictKind::kDiverged) {
-    const std::string remedy = remedyForDivergence(run.chain(), run.start(), run.scenario(), stop);
-    lines = {verdict.text + (remedy.empty() ? "" : "; " + remedy)};
-  } else if (isBad(verdict.kind) || verdict.kind == VerdictKind::kSensitive) {
-    lines.insert(lines.begin(), verdict.text);
-  }
-  if (lines.back().empty()) lines.pop_back();
-  return lines;
-}
-
 py::dict simulate(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
-  const Particles start = particlesOf(particles, scenario);
+  const Scene scene = sceneOf(particles, scenario);
   Interruption interruption;
-  Run run(scenario, start, {true, 0.0, [&] { return interruption(); }});
-  const py::ssize_t frames = scenario.frames - start.frame;
+  Run run(scene, scenario, {true, 0.0, [&] { return interruption(); }});
+  const py::ssize_t frames = scenario.frames - scene.frame;
   const py::ssize_t state_size = run.state().values().size();
   py::array_t<double> numbers({kFrameNumbers, frames});
   py::array_t<double> states({frames, py::ssize_t{4}, state_size / 4});
   double* const number = numbers.mutable_data();
   double* const state = states.mutable_data();
   py::ssize_t count = 0;
-  RunFiles output(run);
+  RunFiles output(run, scenario);
   std::vector<std::string> warnings;
   {
     const Computation computation;
+    if (std::string warning = remarksOn(run).warning; !warning.empty())
+      warnings.push_back(std::move(warning));
     while (run.advance()) {
       std::copy_n(run.state().values().data(), state_size, state + count * state_size);
       recordNumbers(run, number + count++, frames);
       output.write(run);
     }
     output.finish();
-    if (!run.wasStopped()) warnings = warningsOf(run, [&] { return interruption(); });
+    if (!run.wasStopped()) {
+      const Outcome outcome = outcomeOf(run, [&] { return interruption(); });
+      warnings.insert(warnings.end(), outcome.lines.begin(), outcome.lines.end());
+    }
   }
   interruption.raise();
   return py::dict("states"_a = states[py::slice(0, count, 1)],
@@ -168,13 +162,12 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
 
 py::tuple check(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
-  const Particles start = particlesOf(particles, scenario);
+  const Scene scene = sceneOf(particles, scenario);
   Interruption interruption;
   StabilityReport report;
   {
     const Computation computation;
-    report = checkStability(scenario.chainOf(start.masses), start.state, scenario,
-                            [&] { return interruption(); });
+    report = checkStability(scene.chain(), scene.state, scenario, [&] { return interruption(); });
   }
   interruption.raise();
   return py::make_tuple(report.text, report.tried ? tupleOf(report.verdict) : py::tuple(),
@@ -193,9 +186,10 @@ void defineSimulation(py::module_& module) {
       "options",
       [] {
         py::list rows;
-        for (const OptionDescription& option : describeOptions(pythonDefaults())) {
-          rows.append(py::make_tuple(option.key, option.value, option.is_text, option.unit,
-                                     option.range, option.meaning, option.users));
+        Scenario defaults = pythonDefaults();
+        for (const Option& option : scenarioOptions(defaults)) {
+          rows.append(py::make_tuple(option.key, option.text(), option.isText(), option.unit,
+                                     option.range(), option.meaning, option.users()));
         }
         return rows;
       },

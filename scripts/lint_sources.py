@@ -16,23 +16,29 @@ FOLDERS = ('include', 'src', 'python', 'test', 'benchmark', 'fuzz', 'examples')
 MOST_LINES = 400
 MOST_FILES = 15  # in a folder of the library
 
-# A layer includes itself and layers of a lower rank. Inside a layer the rooms, its folders, rank too.
-LAYERS = {'base': 0, 'model': 1, 'integration': 2, 'simulation': 3, 'io': 4, 'check': 5, 'ros': 5}
-ROOMS = {
-    'base': {},
-    'model': {},
-    'integration': {'kernels': 1, 'fixed_step': 2, 'error_control': 2, 'embedded': 3, 'taylor': 3,
-                    'implicit': 3, 'automatic': 4},
-    'simulation': {'options': 1, 'advice': 3},
-    'io': {'files': 1, 'formats': 2, 'program': 3},
-    'check': {},
-    'ros': {'parameters': 1, 'markers': 2, 'messages': 3, 'inputs': 4, 'node': 5},
-}
+
+def read_folders():
+    """The ranks of the layers, and in each layer those of its rooms: the table of CONTRIBUTING.md. A layer includes
+    itself and layers of a lower rank; inside a layer the rooms, its folders, rank too."""
+    layers, rooms, layer = {}, {}, None
+    table = (PROJECT / 'CONTRIBUTING.md').read_text().split('| folder | subfolder |')[1].split('\n\n')[0]
+    for row in table.split('\n')[2:]:
+        names, subfolders = (cell.strip() for cell in row.split('|')[1:3])
+        if names:
+            rank, layer = len(set(layers.values())), re.findall(r'\w+', names)[-1]
+            layers.update(dict.fromkeys(re.findall(r'\w+', names), rank))
+            rooms[layer], place = {}, -1 if subfolders.startswith('(') or not subfolders else 0
+        place += 1
+        rooms[layer].update(dict.fromkeys(re.findall(r'`(\w+)`', subfolders), place))
+    return layers, rooms
+
+
+LAYERS, ROOMS = read_folders()
 # Files directly in the folder of a layer come before its rooms, in these layers after them ...
 AFTER_THE_ROOMS = {'integration': 5, 'ros': 6}
 # ... except for these, and for these, which come between two rooms.
-BETWEEN_ROOMS = {'run': 2}
-BEFORE_THE_ROOMS = ('integrator', 'butcher_tableau', 'smallest_tolerance', 'work')
+BETWEEN_ROOMS = {'run': 2, 'outcome': 2}
+BEFORE_THE_ROOMS = ('integrator', 'butcher_tableau', 'work')
 
 
 def git(*arguments):

@@ -14,11 +14,11 @@ namespace {
 
 /// The simulation loop: advances the run frame by frame and writes each frame.
 int simulate(const Scenario& scenario, const Switches& switches) {
-  Run run(scenario, readParticles(scenario), {!scenario.energy.empty(), 0.0, interruption});
+  Run run(readScene(scenario), scenario, {!scenario.energy.empty(), 0.0, interruption});
   if (switches.has("check")) return printAdvice(run);
   catchInterruptions();
-  const std::string remarks = remarksOn(run);
-  RunFiles files(run, switches.config);  // last, because it removes the frames of earlier runs
+  const std::string remarks = startLines(run);
+  RunFiles files(run, scenario, switches.config);  // last: removes the frames of earlier runs
   printError(remarks);
   Progress progress(scenario.frames, "frames");
   while (run.advance()) {

@@ -11,6 +11,7 @@
 #include "io/program/standard_streams.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 
 #include <fmt/format.h>
 
@@ -65,7 +66,7 @@ constexpr int kStatus[] = {kDone, 5, 4, kFileFailed};
 
 /// Checks a folder and prints the result, in a table with columns of this width, or alone if it is 0.
 /// \returns the index of its exit status
-int check(const std::string& folder, const Scenario& scenario, const Particles& particles,
+int check(const std::string& folder, const Scenario& scenario, const Scene& particles,
           const CheckOptions& options, bool in_json, std::size_t width) {
   std::string text;
   int severity = 3;
@@ -90,7 +91,7 @@ int check(const std::string& folder, const Scenario& scenario, const Particles& 
 /// \returns 1 if any folder is unreadable, else 4 if any is different, else 5 if any is undecided
 int checkAll(const Scenario& scenario, const OptionSet& options, const Switches& switches) {
   if (scenario.start != Start::kFile) throw InputError("start: not with check_frames");
-  const Particles particles = readParticles(scenario);
+  const Scene particles = readScene(scenario);
   catchInterruptions();
   std::size_t width = 0;
   for (const std::string& folder : switches.folders) width = std::max(width, folder.size());

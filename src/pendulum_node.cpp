@@ -6,7 +6,8 @@
 #include "ros/node/node.hpp"
 #include "ros/parameters/parameters.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/model/equilibrium.hpp>
+#include <spring_pendulum/io/run_files.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <boost/filesystem.hpp>  // before Boost 1.72, exception.hpp lacks filesystem_error
 #include <fmt/format.h>
@@ -20,7 +21,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <optional>
 #include <string>
 
@@ -105,30 +105,31 @@ std::string startRos(int argc, char** argv) {
 }
 
 /// A chain that starts at rest hangs between its holders, not from P_1 alone.
-void startAtRest(NodeConfiguration& configuration, Particles& particles) {
-  Scenario& scenario = configuration.scenario;
+Scene readNodeScene(const NodeConfiguration& configuration) {
+  Scenario scenario = configuration.scenario;
   const std::string& held = configuration.options.held;
-  if (scenario.start != Start::kAtRest || held.empty() || particles.frame != 0) return;
+  const bool hangs = scenario.start == Start::kAtRest && !held.empty();
+  if (hangs) scenario.start = Start::kFile;
+  Scene scene = readScene(scenario, "_particles:=FILE");
+  if (!hangs) return scene;
   Drive drive;
-  for (const std::ptrdiff_t i : parseParticleList(held, particles.masses.size(), "held")) {
+  for (const std::ptrdiff_t i : parseParticleList(held, scene.masses.size(), "held")) {
     drive.held.push_back({i, {}});
   }
-  const Chain chain = scenario.chainOf(particles.masses);
-  particles.state = equilibrium(chain.drivenBy(drive), particles.state);
-  scenario.start = Start::kFile;
+  scene.state = equilibrium(scene.chain().drivenBy(drive), scene.state);
+  return scene;
 }
 
 int runNode() {
-  NodeConfiguration configuration = readPrivateParameters();
-  Particles particles = readParticles(configuration.scenario, "_particles:=FILE");
-  startAtRest(configuration, particles);
+  const NodeConfiguration configuration = readPrivateParameters();
+  const Scene scene = readNodeScene(configuration);
   if (!configuration.unused.empty()) {
     ROS_INFO_STREAM(configuration.scenario.method.get().name
                     << " does not use "
                     << fmt::format("{}", fmt::join(configuration.unused, ", ")));
   }
   ros::NodeHandle node, private_node("~");
-  Node pendulum(node, private_node, configuration, particles);
+  Node pendulum(node, private_node, configuration, scene);
   pendulum.spin();
   return pendulum.run().verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
@@ -138,30 +139,18 @@ int runNode() {
 
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
-  prepareProcess();
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffered, also in a file
-  try {
-    const std::string answer = startRos(argc, argv);
-    if (!answer.empty()) {
-      printOutput(answer);
-      flushOutput();
-      return kDone;
-    }
-  } catch (const std::exception& error) {
-    const Failure failure = failureOf(error);
-    printError(failure.message + "\n");
-    return failure.status;
-  }
-  // Without a master, ROS waits until it is shut down.
-  catchInterruptions(ros::requestShutdown);
   std::optional<ros::NodeHandle> keeps_ros_started;
-  try {
+  const auto run = [&] {
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffered, also in a file
+    const std::string answer = startRos(argc, argv);
+    printOutput(answer);
+    if (!answer.empty()) return static_cast<int>(kDone);
+    // Without a master, ROS waits until it is shut down.
+    catchInterruptions(ros::requestShutdown);
     keeps_ros_started.emplace();
-    if (interruption() != 0) return kDone;
-    return runNode();
-  } catch (const std::exception& error) {
-    const Failure failure = failureOf(error);
-    logFatal(failure.message);
-    return failure.status;
-  }
+    return interruption() == 0 ? runNode() : kDone;
+  };
+  return runProgram(run, [&](const std::string& message) {
+    keeps_ros_started ? logFatal(message) : printError(message + "\n");
+  });
 }

@@ -14,6 +14,7 @@
 #include "ros/node/pacer.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <boost/make_shared.hpp>
@@ -25,7 +26,6 @@
 #include <console_bridge/console.h>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -144,9 +144,9 @@ std::vector<Option> bagOptions(BagOptions& o) {
 /// \param started called when nothing about the files can be refused any more, before the run
 /// \returns for the closing line: ", 501 messages, 123456 bytes in /home/me/pendulum.bag"
 /// \throws FileError naming the bag
-std::string recordBag(Run& run, Replay* replay, const NodeOptions& options, const BagOptions& to,
+std::string recordBag(Run& run, const Scenario& scenario, Replay* replay,
+                      const NodeOptions& options, const BagOptions& to,
                       const std::function<void()>& started) {
-  const Scenario& scenario = run.scenario();
   auto bag = std::make_unique<rosbag::Bag>();
   BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
   // What can refuse the options is done: these remove files of earlier runs.
@@ -155,7 +155,7 @@ std::string recordBag(Run& run, Replay* replay, const NodeOptions& options, cons
   touched.outputs.push_back(to.path);
   checkTouchedFiles(touched);
   OutputFile file(to.path);
-  RunFiles files(run, to.config);
+  RunFiles files(run, scenario, to.config);
   std::int64_t messages = 0;
   bool has_earlier = false;
   try {
@@ -211,14 +211,14 @@ int record(int argc, const char* const* argv) {
   if (!bag.inputs.empty()) replay.emplace(bag.inputs);
   double display_interval = display.display_rate > 0.0 ? 1.0 / display.display_rate : 0.0;
   if (replay) display_interval = replay->displayInterval();
-  const Particles particles = replay ? replay->begin(scenario) : readParticles(scenario);
-  Run run(scenario, particles,
+  const Scene scene = replay ? replay->begin(scenario) : readScene(scenario);
+  Run run(scene, scenario,
           {display.track_dissipation || !scenario.energy.empty(), display_interval, interruption});
   if (switches.has("check")) return printAdvice(run);
   catchInterruptions();
-  const std::string remarks = remarksOn(run) + warningLine(replay ? replay->missing() : "");
-  const std::string output =
-      recordBag(run, replay ? &*replay : nullptr, display, bag, [&] { printError(remarks); });
+  const std::string remarks = startLines(run) + warningLine(replay ? replay->missing() : "");
+  const std::string output = recordBag(run, scenario, replay ? &*replay : nullptr, display, bag,
+                                       [&] { printError(remarks); });
   printClosingLine(run.closingLine(output));
   if (replay && interruption() == 0) printError(warningLine(replay->unreached()));
   return conclude(run);
@@ -229,17 +229,10 @@ int record(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
-  prepareProcess();
-  try {
-    const int status = record(argc, argv);
-    flushOutput();
-    return status;
-  } catch (const std::exception& error) {
-    const Failure failure = failureOf(error);
-    printError(failure.message + "\n");
-    std::fflush(stdout);
-    // A bag that could not be written can't be closed either (see recordBag). At a regular exit,
-    // the plugin loader of rosbag in Debian 13 would warn about objects that still exist.
-    std::_Exit(failure.status);
-  }
+  const int status = runProgram([&] { return record(argc, argv); });
+  if (status != kFileFailed && status != kBadInput) return status;
+  // A bag that could not be written can't be closed either (see recordBag). At a regular exit,
+  // the plugin loader of rosbag in Debian 13 would warn about objects that still exist.
+  std::fflush(stdout);
+  std::_Exit(status);
 }

@@ -162,7 +162,7 @@ void printCase(const Study& study, std::int64_t index, const std::string& folder
   Case made = caseOf(study, index);
   Scenario& scenario = made.settings.scenario;
   if (!folder.empty()) scenario.output = folder;
-  const Run checked(scenario, made.particles);  // before anything is written
+  const Run checked(made.scene(), scenario);  // before anything is written
   if (study.changesParticles(made.settings)) {
     if (folder.empty()) {
       throw InputError(

@@ -17,8 +17,6 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 #include <exception>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,20 +75,21 @@ val methods() {
 /// The options of Exercise3 with their defaults, as in its help text.
 val optionRows() {
   val rows = val::array();
-  for (const OptionDescription& option : describeOptions()) {
+  Scenario defaults;
+  for (const Option& option : scenarioOptions(defaults)) {
     val row = val::object();
-    row.set("key", option.key);
-    row.set("unit", option.unit);
-    row.set("meaning", option.meaning);
-    row.set("value", option.value);
+    row.set("key", std::string(option.key));
+    row.set("unit", std::string(option.unit));
+    row.set("meaning", std::string(option.meaning));
+    row.set("value", option.text());
     rows.call<void>("push", row);
   }
   return rows;
 }
 
 /// Returns the columns x, y, m, vx and vy of a particle file.
-val readScene(const val& settings) {
-  const Particles particles = readParticleFile(scenarioOf(settings).particles);
+val columnsOfScene(const val& settings) {
+  const Scene particles = readScene(scenarioOf(settings));
   const auto column = [](const auto& values) {
     return numbers({values.data(), values.data() + values.size()});
   };
@@ -112,9 +111,8 @@ State stateOf(const val& values) {
 
 Chain chainOf(const Scenario& scenario, const val& masses) {
   const auto list = emscripten::convertJSArrayToNumberVector<double>(masses);
-  AlignedNumbers weights(static_cast<std::ptrdiff_t>(list.size()));
-  std::copy(list.begin(), list.end(), weights.data());
-  return scenario.chainOf(weights);
+  const auto size = static_cast<std::ptrdiff_t>(list.size());
+  return Chain(Eigen::Map<const Eigen::VectorXd>(list.data(), size), scenario.constants);
 }
 
 /// A run that JavaScript advances piece by piece. Between the frames it stops every
@@ -123,14 +121,16 @@ class LabRun {
  public:
   /// \param tick called about every 20 ms with the number of the last frame
   LabRun(const val& settings, double display_interval, bool energies, const val& tick)
-      : run_(scenarioOf(settings), readParticleFile(scenarioOf(settings).particles),
-             {energies || !scenarioOf(settings).energy.empty(), display_interval, [this, tick] {
+      : LabRun(scenarioOf(settings), display_interval, energies, tick) {}
+  LabRun(const Scenario& scenario, double display_interval, bool energies, const val& tick)
+      : run_(readScene(scenario), scenario,
+             {energies || !scenario.energy.empty(), display_interval,
+              [this, tick] {
                 tick(static_cast<double>(run_.frame()));
                 return false;
-              }}) {
-    const std::string remarks = remarksOn(run_);
-    files_.emplace(run_);
-    printError(remarks);
+              }}),
+        files_(run_, scenario) {
+    printError(startLines(run_));
   }
 
   /// Advances until `bytes` are sampled, or for about as many ms as given. Returns the samples, or
@@ -155,7 +155,7 @@ class LabRun {
 
   /// Ends the run as Exercise3 does and returns what it says about itself.
   val finish() {
-    files_->finish();
+    files_.finish();
     val end = val::object();
     end.set("output", run_.closingLine());
     end.set("status", conclude(run_));
@@ -183,7 +183,7 @@ class LabRun {
 
   void sample() {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (run_.isAtFrame()) files_->write(run_);
+    if (run_.isAtFrame()) files_.write(run_);
     const EnergyEntry entry = run_.energyEntry();
     const PositionError error = run_.positionError();
     times_.insert(times_.end(),
@@ -204,7 +204,7 @@ class LabRun {
   }
 
   Run run_;
-  std::optional<RunFiles> files_;
+  RunFiles files_;
   std::vector<double> times_, states_, truths_;
   double largest_energy_error_ = 0.0;
 };
@@ -212,8 +212,8 @@ class LabRun {
 /// Returns the largest stable step size in s; 0: none, infinite: any.
 double stableStep(const val& settings) {
   const Scenario scenario = scenarioOf(settings);
-  const Run run(scenario, readParticleFile(scenario.particles));
-  return largestStableStep(run.chain(), run.start(), scenario).step;
+  const Scene scene = readScene(scenario);
+  return largestStableStep(scene.chain(), scene.state, scenario).step;
 }
 
 ButcherTableau tableauOf(const val& rows, const val& b) {
@@ -352,7 +352,7 @@ val checkFrameTexts(const val& settings, bool method_is_given, const val& indice
     frames.push_back({static_cast<std::int64_t>(indices[i].as<double>()),
                       names[i].as<std::string>(), texts[i].as<std::string>()});
   }
-  const FrameCheck check = checkFrames(scenario, readParticleFile(scenario.particles), frames,
+  const FrameCheck check = checkFrames(scenario, readScene(scenario), frames,
                                        {method_is_given, [stop] { return stop().as<bool>(); }});
   val result = val::object();
   result.set("report", reportOf(check));
@@ -376,7 +376,7 @@ EMSCRIPTEN_BINDINGS(lab) {
   namespace lab = spring_pendulum;
   emscripten::function("methods", &lab::methods);
   emscripten::function("options", &lab::optionRows);
-  emscripten::function("readScene", &lab::readScene);
+  emscripten::function("readScene", &lab::columnsOfScene);
   emscripten::function("stableStep", &lab::stableStep);
   emscripten::function("growthAt", &lab::growthAt);
   emscripten::function("eigenvalues", &lab::eigenvaluesAt);

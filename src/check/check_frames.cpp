@@ -4,7 +4,6 @@
 #include "base/spelling.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,7 +44,7 @@ std::string textOf(const Departure& departure) {
 
 class Checker {
  public:
-  Checker(const Scenario& scenario, const Particles& particles, AllFrames frames,
+  Checker(const Scenario& scenario, const Scene& particles, AllFrames frames,
           const CheckOptions& options)
       : scenario_(scenario), particles_(particles), frames_(std::move(frames)), options_(options) {
     for (const Method& method : methodTable()) {
@@ -88,7 +87,7 @@ class Checker {
   /// Notes the methods that agree, and the departure from the nearest of those that students write, or
   /// from the only one.
   void compareWith(const Methods& methods) {
-    const Chain chain = scenario_.chainOf(particles_.masses);
+    const Chain chain = Chain(particles_.masses, scenario_.constants);
     for (const Method* method : methods) {
       WorkLimit work{kMostWork, options_.stop};
       const Agreement agreement = compare(
@@ -114,9 +113,9 @@ class Checker {
     known_frames_ = agreement.frames;
     result_.nearest = method.name;
     result_.departure = agreement.departure;
-    Scenario with_method = scenario_;
+    Plan with_method = scenario_;
     with_method.method = method;
-    result_.time = frameSteps(with_method).timeOfFrame(agreement.departure->frame);
+    result_.time = with_method.timeOfFrame(agreement.departure->frame);
   }
 
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
@@ -195,7 +194,7 @@ class Checker {
   }
 
   const Scenario& scenario_;
-  const Particles& particles_;
+  const Scene& particles_;
   AllFrames frames_;
   const CheckOptions& options_;
   Methods wanted_, others_;
@@ -254,7 +253,7 @@ void registerCourseMethods() {
   }
 }
 
-FrameCheck checkFrames(const Scenario& scenario, const Particles& particles,
+FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
                        const std::vector<FrameText>& frames, const CheckOptions& options) {
   checkScenario(scenario);
   return Checker(scenario, particles, readFrames(frames, particles), options).check();

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "io/files/frame_folder_reader.hpp"
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/scene.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstdint>
@@ -62,7 +62,7 @@ void registerCourseMethods();
 /// \throws InputError for a value of the scenario out of its range
 /// \throws FileError naming frame and line if there are no frames, or one of them can't be read or
 ///   has another number of particles, and if `CheckOptions::stop` ends the check before a verdict
-FrameCheck checkFrames(const Scenario& scenario, const Particles& particles,
+FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
                        const std::vector<FrameText>& frames, const CheckOptions& options = {});
 
 /// Returns the result and the remarks, each on a line of its own.

@@ -141,7 +141,7 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
   return true;
 }
 
-AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& particles) {
+AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles) {
   constexpr int kFewDigits = 5;
   Format format;
   AllFrames all;

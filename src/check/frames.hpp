@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/files/frame_folder_reader.hpp"
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/scene.hpp>
 
 #include <Eigen/Core>
 
@@ -35,6 +35,6 @@ struct AllFrames {
 };
 
 /// \throws FileError naming frame and line
-AllFrames readFrames(const std::vector<FrameText>& texts, const Particles& particles);
+AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles);
 
 }  // namespace spring_pendulum

@@ -66,7 +66,8 @@ bool StudentProgram::isWritten(const Method& method) {
 }
 
 StudentProgram::StudentProgram(const Method& wanted, const Scenario& scenario)
-    : Scenario(scenario),
+    : Plan(scenario),
+      Constants(scenario.constants),
       kinds(kindOf(wanted)),
       tableau(wanted.tableau != nullptr ? *wanted.tableau : kEulerTableau) {
   if (air_drag != 0.0) kinds |= kInAir;
@@ -123,8 +124,8 @@ const std::vector<Mistake>& knownMistakes() {
       {"in_place", kExplicit, "overwrites the positions particle by particle: forces on later particles use the new positions of earlier ones", [](P& p) { p.order = Order::kPositionsInPlace; }},
       {"in_place", kSeveral, "takes the whole step of a particle before the next particle, which uses the result", [](P& p) { p.order = Order::kParticlesInPlace; }},
       // The force
-      {"no_damping", kAny, "leaves out the damping", [](P& p) { p.damping = 0; }},
-      {"damping_sign", kAny, "has the wrong sign of the damping", [](P& p) { p.damping = -p.damping; }},
+      {"no_damping", kAny, "leaves out the damping", [](P& p) { p.spring.damping = 0; }},
+      {"damping_sign", kAny, "has the wrong sign of the damping", [](P& p) { p.spring.damping = -p.spring.damping; }},
       {"direction_not_unit", kAny, "multiplies the force by p_j - p_i instead of the unit vector r", [](P& p) { p.springs.push_back([](Spring& s) { s.direction *= s.length; s.damped *= s.length; }); }},
       {"degrees", kAny, "gives cos and sin an angle in degrees", [](P& p) { p.springs.push_back([](Spring& s) { s.pointTo(inDegrees(s.separation)); }); }},
       {"degrees", kAny, "gives cos and sin an angle in degrees", [](P& p) { p.springs.push_back([](Spring& s) { s.pointTo(s.to_previous ? Eigen::Array2d(-inDegrees(-s.separation)) : inDegrees(s.separation)); }); }},
@@ -142,7 +143,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"gravity_divided", kAny, "divides gravity by the mass: g is an acceleration", [](P& p) { p.particles.push_back([](Particle& a) { a.gravity /= a.mass; }); }},
       {"gravity_multiplied", kAny, "multiplies the acceleration g by the mass", [](P& p) { p.particles.push_back([](Particle& a) { a.gravity *= a.mass; }); }},
       {"force_sign", kAny, "has the wrong sign of the spring force", [](P& p) { p.particles.push_back([](Particle& a) { a.left = a.right = -1; }); }},
-      {"spring_sign", kAny, "has the wrong sign of the spring force, but not of its damping", [](P& p) { p.stiffness = -p.stiffness; }},
+      {"spring_sign", kAny, "has the wrong sign of the spring force, but not of its damping", [](P& p) { p.spring.stiffness = -p.spring.stiffness; }},
       {"one_spring", kAny, "uses only the spring to the previous particle", [](P& p) { p.particles.push_back([](Particle& a) { a.right = 0; }); }},
       {"one_spring", kAny, "uses only the spring to the next particle", [](P& p) { p.particles.push_back([](Particle& a) { a.left = 0; }); }},
       {"reaction_sign", kAny, "has the wrong sign of the force of the spring to the next particle", [](P& p) { p.particles.push_back([](Particle& a) { a.right = -a.right; }); }},
@@ -193,9 +194,9 @@ const std::vector<Mistake>& knownMistakes() {
 
 const std::vector<Constant>& fittedConstants() {
   static const std::vector<Constant> kTable = {
-      {"k_s", "uses the spring constant k_s = {} N/m", [](P& p) -> double& { return p.stiffness; }},
-      {"k_d", "uses the damping constant k_d = {} N·s/m", [](P& p) -> double& { return p.damping; }},
-      {"L_0", "uses the rest length L_0 = {} m", [](P& p) -> double& { return p.rest_length; }},
+      {"k_s", "uses the spring constant k_s = {} N/m", [](P& p) -> double& { return p.spring.stiffness; }},
+      {"k_d", "uses the damping constant k_d = {} N·s/m", [](P& p) -> double& { return p.spring.damping; }},
+      {"L_0", "uses the rest length L_0 = {} m", [](P& p) -> double& { return p.spring.rest_length; }},
       {"g", "uses g = {} m/s²", [](P& p) -> double& { return p.gravity; }},
       {"air_drag", "has an air drag of {} N·s/m", [](P& p) -> double& { return p.air_drag; }},
       {"time_step", "uses a time step of {} s", [](P& p) -> double& { return p.time_step; }},

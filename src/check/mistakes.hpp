@@ -60,8 +60,8 @@ struct StudentMove {
   }
 };
 
-/// The exercise with whatever is changed in it, also in the scenario: a time step of 0 moves nothing.
-struct StudentProgram : Scenario {
+/// The exercise with whatever is changed in it, also in plan and constants: a time step of 0 moves nothing.
+struct StudentProgram : Plan, Constants {
   /// Kinds of programs, as bits: a mistake concerns some of them.
   enum Kind : unsigned {
     kEuler = 1,

@@ -1,6 +1,6 @@
 #include "check/motion.hpp"
 
-#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/plan.hpp>
 
 #include <Eigen/LU>
 
@@ -34,23 +34,22 @@ void disturbNumbers(Numbers&& numbers, double precision, std::int64_t steps, std
 
 class MethodMotion : public Motion {
  public:
-  MethodMotion(const Method& method, const Scenario& scenario, const Particles& particles)
+  MethodMotion(const Method& method, const Scenario& scenario, const Scene& particles)
       : tolerance_(method.hasFixedStep() ? 0.0 : scenario.tolerance),
         precision_(isImplicit(method) ? kPrecisionOfSolvers : kPrecision),
-        chain_(scenario.chainOf(particles.masses)),
+        chain_(particles.masses, scenario.constants),
         state_(particles.state),
         integrator_(makeIntegrator(method, chain_, {scenario.tolerance, false, 0})),
+        plan_(scenario),
         frame_(particles.frame) {
-    Scenario with_method = scenario;
-    with_method.method = method;
-    steps_ = frameSteps(with_method);
+    plan_.method = method;
   }
 
   bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
     const std::int64_t before = integrator_->forceEvaluations();
-    const std::int64_t steps = (frame - frame_) * steps_.steps;
+    const std::int64_t steps = (frame - frame_) * plan_.steps();
     const auto stop = [&limit] { return limit.isStopped(); };
-    if (integrator_->advance(state_, steps_.time_step, steps, stop) < steps) return false;
+    if (integrator_->advance(state_, plan_.step(), steps, stop) < steps) return false;
     limit.done += static_cast<double>((integrator_->forceEvaluations() - before) * state_.size());
     frame_ = frame;
     return true;
@@ -60,7 +59,7 @@ class MethodMotion : public Motion {
 
   void disturb(std::mt19937& random) override {
     for (int column = 0; column < 4; ++column) {
-      disturbNumbers(state_.values().col(column).array(), precision_, steps_.steps, random);
+      disturbNumbers(state_.values().col(column).array(), precision_, plan_.steps(), random);
     }
     integrator_->restart();
   }
@@ -73,7 +72,7 @@ class MethodMotion : public Motion {
   Chain chain_;
   State state_;
   std::unique_ptr<Integrator> integrator_;
-  FrameSteps steps_;
+  Plan plan_;
   std::int64_t frame_;
 };
 
@@ -86,7 +85,7 @@ class ProgramMotion : public Motion {
   using Implicit = StudentProgram::Implicit;
 
  public:
-  ProgramMotion(const StudentProgram& program, const Particles& particles)
+  ProgramMotion(const StudentProgram& program, const Scene& particles)
       : program_(program),
         first_frame_(particles.frame),
         state_(particles.state.values().transpose().array()) {
@@ -143,12 +142,12 @@ class ProgramMotion : public Motion {
                          z.col(i).tail<2>(),
                          j < i,
                          start_lengths_[static_cast<std::size_t>(std::max(i, j))],
-                         program_.rest_length,
+                         program_.spring.rest_length,
                          separation.matrix().norm()};
     spring.pointTo(separation / spring.length);
     for (const auto change : program_.springs) change(spring);
-    return program_.stiffness * (spring.length - spring.rest_length) * spring.direction +
-           program_.damping * spring.damped;
+    return program_.spring.stiffness * (spring.length - spring.rest_length) * spring.direction +
+           program_.spring.damping * spring.damped;
   }
 
   Row slope(const Rows& z, Eigen::Index i) const {
@@ -270,11 +269,11 @@ class ProgramMotion : public Motion {
 }  // namespace
 
 std::unique_ptr<Motion> motionOf(const Method& method, const Scenario& scenario,
-                                 const Particles& particles) {
+                                 const Scene& particles) {
   return std::make_unique<MethodMotion>(method, scenario, particles);
 }
 
-std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Particles& particles) {
+std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& particles) {
   return std::make_unique<ProgramMotion>(program, particles);
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/scene.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <Eigen/Core>
@@ -54,10 +54,10 @@ class Motion {
 
 /// The motion of a method of the table. It starts at the frame of the particles.
 std::unique_ptr<Motion> motionOf(const Method& method, const Scenario& scenario,
-                                 const Particles& particles);
+                                 const Scene& particles);
 
 /// The motion of a program. Copies the program.
-std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Particles& particles);
+std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& particles);
 
 /// Where frames depart from a motion.
 struct Departure {

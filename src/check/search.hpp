@@ -22,7 +22,7 @@ struct Explanation {
 
 struct Search {
   const Scenario& scenario;
-  const Particles& particles;
+  const Scene& particles;
   const AllFrames& frames;
   std::size_t known_frames;  ///< number of leading frames without a sign of a mistake
   WorkLimit limit;

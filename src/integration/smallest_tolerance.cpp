@@ -1,6 +1,6 @@
 #include "base/numbers.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/integration/smallest_tolerance.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
 

@@ -26,15 +26,16 @@ void requireParticle(std::ptrdiff_t particle, std::ptrdiff_t size) {
 
 }  // namespace
 
-Chain::Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
-    : masses_(std::move(masses)), spring_(spring), gravity_(gravity) {
+Chain::Chain(AlignedNumbers masses, const Constants& constants)
+    : masses_(std::move(masses)), constants_(constants) {
   if (masses_.size() < 1) throw InputError("a chain needs at least one particle, the fixed one");
-  requireFiniteAtLeastZero("stiffness", spring.stiffness, "N/m");
-  requireFiniteAtLeastZero("damping", spring.damping, "N·s/m");
-  requireFiniteAtLeastZero("rest_length", spring.rest_length, "m");
-  if (!std::isfinite(gravity)) {
-    throw InputError(
-        fmt::format("gravity must be a finite number in m/s², got {}", numberText(gravity)));
+  requireFiniteAtLeastZero("stiffness", constants.spring.stiffness, "N/m");
+  requireFiniteAtLeastZero("damping", constants.spring.damping, "N·s/m");
+  requireFiniteAtLeastZero("rest_length", constants.spring.rest_length, "m");
+  requireFiniteAtLeastZero("air_drag", constants.air_drag, "N·s/m");
+  if (!std::isfinite(constants.gravity)) {
+    throw InputError(fmt::format("gravity must be a finite number in m/s², got {}",
+                                 numberText(constants.gravity)));
   }
   for (std::ptrdiff_t i = 1; i < masses_.size(); ++i) {
     if (std::isfinite(masses_[i]) && masses_[i] > 0.0 && std::isfinite(1.0 / masses_[i])) continue;
@@ -47,13 +48,13 @@ Chain::Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
 }
 
 Chain Chain::drivenBy(Drive drive) const {
-  Chain chain = Chain(masses_, spring_, gravity_).inAir(air_drag_);
+  Chain chain(masses_, constants_);
   if (drive.empty()) return chain;
   const std::ptrdiff_t size = chain.size();
   chain.accelerations_ = AlignedNumbers(2 * size);
   double* x = chain.accelerations_.data();
   double* y = x + size;
-  for (std::ptrdiff_t i = 1; i < size; ++i) y[i] = -gravity_;
+  for (std::ptrdiff_t i = 1; i < size; ++i) y[i] = -gravity();
   std::vector<bool> is_held(static_cast<std::size_t>(size), false);
   for (const auto& [particle, acceleration] : drive.held) {
     requireParticle(particle, size);
@@ -78,16 +79,9 @@ Chain Chain::drivenBy(Drive drive) const {
   return chain;
 }
 
-Chain Chain::inAir(double drag) const {
-  requireFiniteAtLeastZero("air_drag", drag, "N·s/m");
-  Chain chain = *this;
-  chain.air_drag_ = drag;
-  return chain;
-}
-
 PlaneVector<double> Chain::springlessAcceleration(std::ptrdiff_t i) const {
   if (isDriven()) return {accelerations_[i], accelerations_[size() + i]};
-  return {0.0, i == 0 ? 0.0 : -gravity_};
+  return {0.0, i == 0 ? 0.0 : -gravity()};
 }
 
 }  // namespace spring_pendulum

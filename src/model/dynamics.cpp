@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace spring_pendulum {
 namespace {
 
@@ -24,6 +26,13 @@ PlaneVector<double> springForceOn(const Chain& chain, const State& state, std::p
                     chain.size(), chain.size() - 2));
   }
   return forceOn(chain.spring(), state, i);
+}
+
+double chainLength(const Chain& chain, const State& start) {
+  requireSize(chain.size(), start.size());
+  const Eigen::Index springs = start.size() - 1;
+  return std::max(static_cast<double>(springs) * chain.spring().rest_length,
+                  0.1 * springLengths(start, 0, springs));
 }
 
 void computeSlope(const Chain& chain, const State& state, State& slope) {

@@ -4,9 +4,12 @@
 #include <spring_pendulum/model/energy.hpp>
 
 namespace spring_pendulum {
+namespace {
 
+/// Returns the energies of the springs first <= i < last, where spring i is to the right of particle i,
+/// and of the particles at their right ends.
 Energy energyOfSprings(const Chain& chain, const State& state, std::ptrdiff_t first,
-                       std::ptrdiff_t last, double height) {
+                       std::ptrdiff_t last) {
   Energy energy;
   const SpringLaw& spring = chain.spring();
   // Two loops: the call of fma in the first one makes all sums leave their registers.
@@ -18,10 +21,12 @@ Energy energyOfSprings(const Chain& chain, const State& state, std::ptrdiff_t fi
     const double mass = chain.isHeld(i) ? 0.0 : chain.masses()[i];
     const double speed_squared = state.vx()[i] * state.vx()[i] + state.vy()[i] * state.vy()[i];
     energy.kinetic += 0.5 * mass * speed_squared;
-    energy.gravity += mass * chain.gravity() * (state.y()[i] - height);
+    energy.gravity += mass * chain.gravity() * (state.y()[i] - state.y()[0]);
   }
   return energy;
 }
+
+}  // namespace
 
 Energy computeEnergy(const Chain& chain, const State& state) {
   requireSize(chain.size(), state.size());
@@ -29,7 +34,10 @@ Energy computeEnergy(const Chain& chain, const State& state) {
   const std::ptrdiff_t springs = chain.size() - 1;
   const std::ptrdiff_t block = sumBlockSize(springs);
   for (std::ptrdiff_t first = 0; first < springs; first += block) {
-    energy += energyOfSprings(chain, state, first, std::min(springs, first + block), state.y()[0]);
+    const Energy part = energyOfSprings(chain, state, first, std::min(springs, first + block));
+    energy.kinetic += part.kinetic;
+    energy.gravity += part.gravity;
+    energy.spring += part.spring;
   }
   return energy;
 }

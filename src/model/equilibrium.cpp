@@ -1,6 +1,5 @@
 #include "base/checks.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/model/equilibrium.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
+#include "simulation/energy_balance.hpp"
+
 #include "base/checks.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <algorithm>
 #include <cmath>

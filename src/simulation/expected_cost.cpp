@@ -21,10 +21,9 @@ constexpr double kBytesOfReference = 2.0 * 2700.0;
 /// A run that is expected to need more memory than this says so, B.
 constexpr double kMuch = 5e8;
 
-std::string needOf(const Scenario& scenario, Eigen::Index particles) {
-  return fmt::format("{} takes up to {:.2f} GB of memory for {} particles",
-                     scenario.method.get().name, 1e-9 * expectedMemory(scenario, particles),
-                     particles);
+std::string needOf(const Plan& plan, Eigen::Index particles) {
+  return fmt::format("{} takes up to {:.2f} GB of memory for {} particles", plan.method.get().name,
+                     1e-9 * expectedMemory(plan, particles), particles);
 }
 
 /// Expected number of steps of an error-controlled method: about twenty per second, and more if
@@ -38,20 +37,20 @@ double expectedSteps(const Chain& chain, double duration) {
 
 }  // namespace
 
-double expectedWork(const Method& method, const Chain& chain, const FrameSteps& frame,
-                    std::int64_t frames) {
-  const double intervals = static_cast<double>(frames - 1) * static_cast<double>(frame.steps);
+double expectedWork(const Plan& plan, const Chain& chain) {
+  const Method& method = plan.method;
+  const double intervals = static_cast<double>(plan.frames - 1) * static_cast<double>(plan.steps());
   if (method.hasFixedStep()) {
     return intervals * method.stages * kFixedStepTime.of(chain.size());
   }
-  return expectedSteps(chain, intervals * frame.time_step) * method.stages *
+  return expectedSteps(chain, intervals * plan.step()) * method.stages *
          kTaylorTime.of(chain.size());
 }
 
-double expectedMemory(const Scenario& scenario, Eigen::Index particles) {
-  const double reference = scenario.reference == ReferenceUse::kAlways ? kBytesOfReference : 0.0;
+double expectedMemory(const Plan& plan, Eigen::Index particles) {
+  const double reference = plan.reference == ReferenceUse::kAlways ? kBytesOfReference : 0.0;
   return static_cast<double>(particles) *
-         (kBytesPerParticle + scenario.method.get().bytes_per_particle + reference);
+         (kBytesPerParticle + plan.method.get().bytes_per_particle + reference);
 }
 
 double usableMemory() {
@@ -62,15 +61,15 @@ double usableMemory() {
   return std::min(kMemory, static_cast<double>(limit.rlim_cur));
 }
 
-std::string memoryRemark(const Scenario& scenario, Eigen::Index particles) {
-  return expectedMemory(scenario, particles) < kMuch ? "" : needOf(scenario, particles);
+std::string memoryRemark(const Plan& plan, Eigen::Index particles) {
+  return expectedMemory(plan, particles) < kMuch ? "" : needOf(plan, particles);
 }
 
-void checkMemory(const Scenario& scenario, Eigen::Index particles, double usable) {
-  if (expectedMemory(scenario, particles) <= usable) return;
+void checkMemory(const Plan& plan, Eigen::Index particles, double usable) {
+  if (expectedMemory(plan, particles) <= usable) return;
   throw std::runtime_error(
       fmt::format("not enough memory: {}, but this process can use only {:.2f} GB",
-                  needOf(scenario, particles), 1e-9 * usable));
+                  needOf(plan, particles), 1e-9 * usable));
 }
 
 }  // namespace spring_pendulum

@@ -1,8 +1,8 @@
 // Estimates the memory and the work of a run before it starts.
 #pragma once
 
-#include <spring_pendulum/simulation/frame_steps.hpp>
-#include <spring_pendulum/simulation/scenario.hpp>
+#include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/simulation/plan.hpp>
 
 #include <Eigen/Core>
 
@@ -12,12 +12,11 @@
 namespace spring_pendulum {
 
 /// Returns the expected work of a run without its reference run, s; see Integrator::work.
-double expectedWork(const Method& method, const Chain& chain, const FrameSteps& frame,
-                    std::int64_t frames);
+double expectedWork(const Plan& plan, const Chain& chain);
 
 /// Returns an upper estimate of the memory of a run, B. Measured with Exercise3; the messages of
 /// the node and a bag need more.
-double expectedMemory(const Scenario& scenario, Eigen::Index particles);
+double expectedMemory(const Plan& plan, Eigen::Index particles);
 
 /// Returns the memory that this process may use, B: that of the machine, or less if a limit is set
 /// (ulimit -v).
@@ -25,10 +24,10 @@ double usableMemory();
 
 /// Returns a remark if a run is expected to need 0.5 GB or more, else empty text:
 /// "Radau-9 takes up to 1.35 GB of memory for 1000000 particles".
-std::string memoryRemark(const Scenario& scenario, Eigen::Index particles);
+std::string memoryRemark(const Plan& plan, Eigen::Index particles);
 
 /// Checks that a run is not expected to need more than `usable` bytes.
 /// \throws std::runtime_error if it is
-void checkMemory(const Scenario& scenario, Eigen::Index particles, double usable = usableMemory());
+void checkMemory(const Plan& plan, Eigen::Index particles, double usable = usableMemory());
 
 }  // namespace spring_pendulum

@@ -1,8 +1,9 @@
+#include "simulation/reference_run.hpp"
+
 #include "base/checks.hpp"
 #include "model/chain_modes.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/simulation/reference_run.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -95,13 +96,6 @@ ReferenceScales scalesOf(const Chain& chain, const State& start, double run_tole
 }
 
 }  // namespace
-
-double chainLength(const Chain& chain, const State& start) {
-  requireSize(chain.size(), start.size());
-  const Eigen::Index springs = start.size() - 1;
-  return std::max(static_cast<double>(springs) * chain.spring().rest_length,
-                  0.1 * springLengths(start, 0, springs));
-}
 
 /// Reference and companion.
 class ReferenceTrajectories {

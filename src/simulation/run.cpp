@@ -2,10 +2,10 @@
 #include "base/numbers.hpp"
 #include "base/stopwatch.hpp"
 #include "simulation/expected_cost.hpp"
+#include "simulation/judge.hpp"
 #include "simulation/options/scenario_options.hpp"
-#include "simulation/sleep.hpp"
-#include <spring_pendulum/integration/smallest_tolerance.hpp>
-#include <spring_pendulum/model/equilibrium.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <fmt/format.h>
@@ -26,100 +26,114 @@ constexpr Eigen::Index kLongChain = 100;
 constexpr double kMostParts = 1024.0;
 constexpr std::int64_t kMostThreads = 1024;
 
-bool dissipationIsCheap(const Method& method, const Chain& chain, const FrameSteps& frame,
-                        std::int64_t frames) {
+bool dissipationIsCheap(const Chain& chain, const Plan& plan) {
+  const Method& method = plan.method;
   if (method.hasFixedStep() && method.tableau != nullptr && chain.size() >= kLongChain) return true;
-  return expectedWork(method, chain, frame, frames) <= kCheapWork;
+  return expectedWork(plan, chain) <= kCheapWork;
 }
 
 /// Tolerance of an error-controlled method, m; 0 for fixed steps.
-double toleranceOf(const Scenario& scenario) {
-  return scenario.method.get().hasFixedStep() ? 0.0 : scenario.tolerance;
+double toleranceOf(const Plan& plan) {
+  return plan.method.get().hasFixedStep() ? 0.0 : plan.tolerance;
 }
 
 /// Number of states shown per frame.
-std::int64_t partsPerFrame(const Scenario& scenario, double display_interval) {
+std::int64_t partsPerFrame(const Plan& plan, double display_interval) {
   // `sleep` is checked once per frame: states between the frames would not move.
-  if (display_interval <= 0.0 || scenario.sleep > 0.0) return 1;
-  const FrameSteps frame = frameSteps(scenario);
-  const double wanted = std::clamp(frame.timeOfFrame(1) / display_interval, 1.0, kMostParts);
+  if (display_interval <= 0.0 || plan.sleep > 0.0) return 1;
+  const double wanted = std::clamp(plan.timeOfFrame(1) / display_interval, 1.0, kMostParts);
   // The subtrahend ensures that rounding does not give a frame of exactly 3 intervals 4 parts.
-  if (scenario.method.get().hasFixedStep()) {
-    return std::min(static_cast<std::int64_t>(std::ceil(wanted - 1e-9)), frame.steps);
+  if (plan.method.get().hasFixedStep()) {
+    return std::min(static_cast<std::int64_t>(std::ceil(wanted - 1e-9)), plan.steps());
   }
   std::int64_t parts = 1;
   while (static_cast<double>(parts) < wanted - 1e-9) parts *= 2;
   return parts;
 }
 
-/// Gives a scenario frames of this interval, s. If it is no whole number of fixed steps, they become shorter.
-void keepFrames(Scenario& scenario, double interval) {
-  scenario.frame_interval = interval;
-  if (std::abs(frameSteps(scenario).timeOfFrame(1) - interval) <= 1e-12 * interval) return;
-  scenario.steps_per_frame =
-      static_cast<std::int64_t>(std::min(std::ceil(interval / scenario.time_step), 1e9));
-  scenario.time_step = interval / static_cast<double>(scenario.steps_per_frame);
+/// Gives a plan frames of this interval, s. If it is no whole number of fixed steps, they become shorter.
+void keepFrames(Plan& plan, double interval) {
+  plan.frame_interval = interval;
+  if (std::abs(plan.timeOfFrame(1) - interval) <= 1e-12 * interval) return;
+  plan.steps_per_frame =
+      static_cast<std::int64_t>(std::min(std::ceil(interval / plan.time_step), 1e9));
+  plan.time_step = interval / static_cast<double>(plan.steps_per_frame);
 }
 
-const Scenario& checked(const Scenario& scenario, std::int64_t first_frame) {
-  checkScenario(scenario);
-  checkFirstFrame(scenario, first_frame);
-  return scenario;
+const Plan& checked(const Plan& plan, std::int64_t first_frame) {
+  checkPlan(plan);
+  checkFirstFrame(plan, first_frame);
+  return plan;
+}
+
+/// Whether the speed of every particle is at most `tolerance` m/s, and its current acceleration
+/// changes the velocity by at most this in `duration` s, so that none is at a turning point.
+bool isAtRest(const Chain& chain, const State& state, double duration, double tolerance) {
+  const auto exceeds = [&](double x, double y) {
+    return !(x * x + y * y <= tolerance * tolerance);
+  };
+  PlaneVector<double> left{};
+  for (Eigen::Index i = 0; i < state.size(); ++i) {
+    const bool free_end = i + 1 == state.size();
+    const auto right = free_end ? PlaneVector<double>{} : springForceOn(chain, state, i);
+    if (i > 0) {
+      const double gain = duration * chain.inverseMasses()[i];
+      const double gain_x = (right.x - left.x) * gain;
+      const double gain_y = (right.y - left.y) * gain - duration * chain.gravity();
+      if (exceeds(state.vx()[i], state.vy()[i]) || exceeds(gain_x, gain_y)) return false;
+    }
+    left = right;
+  }
+  return true;
 }
 
 }  // namespace
 
-State startOf(const Scenario& scenario, const Chain& chain, const Particles& particles) {
-  const bool at_rest = scenario.start == Start::kAtRest && particles.frame == 0;
-  return at_rest ? equilibrium(chain, particles.state) : particles.state;
-}
-
-Run::Run(const Scenario& scenario, const Particles& particles, const RunOptions& options)
-    : scenario_(checked(scenario, particles.frame)),
+Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
+    : plan_(checked(plan, scene.frame)),
       options_(options),
-      chain_(scenario.chainOf(particles.masses)),
-      start_(startOf(scenario, chain_, particles)),
-      first_frame_(particles.frame),
+      chain_(scene.chain()),
+      start_(scene.state),
+      first_frame_(scene.frame),
       state_(start_),
-      frame_steps_(frameSteps(scenario)),
-      track_dissipation_(
-          chain_.isDissipative() &&
-          (options.track_dissipation ||
-           dissipationIsCheap(scenario.method, chain_, frame_steps_, scenario.frames))),
-      judge_(chain_, start_, judgeOptions(first_frame_)),
+      track_dissipation_(chain_.isDissipative() &&
+                         (options.track_dissipation || dissipationIsCheap(chain_, plan))),
+      judge_(std::make_unique<Judge>(chain_, start_, judgeOptions(first_frame_))),
       frame_(first_frame_) {
-  checkMemory(scenario, chain_.size());
-  if (!scenario.method.get().hasFixedStep()) checkTolerance(scenario.tolerance, chain_, start_);
-  setFrameSteps();
+  checkMemory(plan, chain_.size());
+  if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
+  divideFrames();
   makeIntegrator();
   startReference(start_);
   judgeFrame();
 }
 
+Run::Run(Run&&) noexcept = default;
+Run::~Run() = default;
+
 JudgeOptions Run::judgeOptions(std::int64_t first_frame) const {
-  const Method& method = scenario_.method;
-  return {track_dissipation_, method.symplectic ? scenario_.time_step : 0.0, toleranceOf(scenario_),
-          frameSteps(scenario_).timeOfFrame(first_frame)};
+  const Method& method = plan_.method;
+  return {track_dissipation_, method.symplectic ? plan_.time_step : 0.0, toleranceOf(plan_),
+          plan_.timeOfFrame(first_frame)};
 }
 
-void Run::setFrameSteps() {
-  frame_steps_ = frameSteps(scenario_);
-  parts_ = partsPerFrame(scenario_, options_.display_interval);
-  if (scenario_.method.get().hasFixedStep()) return;
-  frame_steps_ = {scenario_.frame_interval / static_cast<double>(parts_), parts_};
+void Run::divideFrames() {
+  parts_ = partsPerFrame(plan_, options_.display_interval);
+  const bool fixed_step = plan_.method.get().hasFixedStep();
+  step_ = fixed_step ? plan_.time_step : plan_.frame_interval / static_cast<double>(parts_);
+  steps_ = fixed_step ? plan_.steps_per_frame : parts_;
 }
 
 void Run::startReference(const State& start) {
-  if (scenario_.reference == ReferenceUse::kNever) return;
-  const ReferenceOptions reference{toleranceOf(scenario_),
-                                   scenario_.reference == ReferenceUse::kAlways};
-  reference_.emplace(chain_, start, reference);
+  if (plan_.reference == ReferenceUse::kNever) return;
+  const ReferenceOptions reference{toleranceOf(plan_), plan_.reference == ReferenceUse::kAlways};
+  reference_ = std::make_unique<ReferenceRun>(chain_, start, reference);
 }
 
 void Run::makeIntegrator() {
-  const int threads = static_cast<int>(std::min(scenario_.threads, kMostThreads));
-  integrator_ = spring_pendulum::makeIntegrator(scenario_.method, chain_,
-                                                {scenario_.tolerance, track_dissipation_, threads});
+  const int threads = static_cast<int>(std::min(plan_.threads, kMostThreads));
+  integrator_ = spring_pendulum::makeIntegrator(plan_.method, chain_,
+                                                {plan_.tolerance, track_dissipation_, threads});
 }
 
 bool Run::advance() {
@@ -157,13 +171,13 @@ bool Run::advanceTo(std::int64_t part) {
 bool Run::integrate(std::int64_t steps) {
   std::optional<Stopwatch> stopwatch;
   if (options_.measure_seconds) stopwatch.emplace(totals_.seconds);
-  if (scenario_.sleep > 0.0 && !chain_.isDriven() && sleeps())
+  if (plan_.sleep > 0.0 && !chain_.isDriven() && sleeps())
     return !(options_.stop && options_.stop());
-  return integrator_->advance(state_, frame_steps_.time_step, steps, options_.stop) == steps;
+  return integrator_->advance(state_, step_, steps, options_.stop) == steps;
 }
 
 bool Run::sleeps() {
-  if (isAtRest(chain_, state_, frame_steps_.timeOfFrame(1), scenario_.sleep)) {
+  if (isAtRest(chain_, state_, plan_.timeOfFrame(1), plan_.sleep)) {
     asleep_ = true;
     return true;
   }
@@ -179,31 +193,31 @@ bool Run::sleeps() {
 bool Run::advanceReference(std::int64_t steps) {
   if (!reference_ || !reference_->isMeasuring()) return true;
   const Stopwatch stopwatch(totals_.reference_seconds);
-  return reference_->advance(frame_steps_.time_step, steps, options_.stop);
+  return reference_->advance(step_, steps, options_.stop);
 }
 
 void Run::judgeFrame() {
   if (reference_) reference_->measure(work_);
-  judge_.judge(time(), state_, dissipated_, reference_ ? &*reference_ : nullptr, supplied_);
+  judge_->judge(time(), state_, dissipated_, reference_.get(), supplied_);
 }
 
 void Run::reset() {
   if (changed_) {
-    judge_ = Judge(chain_, start_, judgeOptions(first_frame_));
+    *judge_ = Judge(chain_, start_, judgeOptions(first_frame_));
     startReference(start_);
     changed_ = false;
   } else {
-    judge_.restart();
+    judge_->restart();
     if (reference_) reference_->restart();
   }
   begin(first_frame_, start_);
 }
 
 void Run::goTo(std::int64_t frame, const State& state) {
-  checkFirstFrame(scenario_, frame);
+  checkFirstFrame(plan_, frame);
   checkState(state);
   changed_ = true;
-  judge_ = Judge(chain_, state, judgeOptions(frame));
+  *judge_ = Judge(chain_, state, judgeOptions(frame));
   startReference(state);
   begin(frame, state);
 }
@@ -223,36 +237,32 @@ void Run::checkState(const State& state) const {
   if (!state.values().allFinite()) throw InputError("the state has numbers that are not finite");
 }
 
-void Run::change(const Scenario& scenario, const Drive& drive, const State& state) {
-  Scenario next = scenario_;
-  next.method = scenario.method;
-  next.tolerance = scenario.tolerance;
-  next.stiffness = scenario.stiffness;
-  next.damping = scenario.damping;
-  next.rest_length = scenario.rest_length;
-  next.gravity = scenario.gravity;
-  next.air_drag = scenario.air_drag;
+void Run::change(const Plan& plan, const Constants& constants, const Drive& drive,
+                 const State& state) {
+  Plan next = plan_;
+  next.method = plan.method;
+  next.tolerance = plan.tolerance;
   const bool fixed_step = next.method.get().hasFixedStep();
-  const bool other_control = fixed_step != scenario_.method.get().hasFixedStep();
-  if (other_control) keepFrames(next, frameSteps(scenario_).timeOfFrame(1));
-  checkScenario(next);
+  const bool other_control = fixed_step != plan_.method.get().hasFixedStep();
+  if (other_control) keepFrames(next, plan_.timeOfFrame(1));
+  checkPlan(next);
   if (other_control && part_ != 0)
     throw InputError("fixed steps and error control alternate at frames only");
-  Chain chain = next.chainOf(chain_.masses()).drivenBy(drive);
+  Chain chain = Chain(chain_.masses(), constants).drivenBy(drive);
   checkState(state);
   if (!fixed_step) checkTolerance(next.tolerance, chain, state);
   const bool knows_dissipation = track_dissipation_ || (!chain_.isDissipative() && !changed_);
-  EnergyBalance balance = judge_.balance();
+  EnergyBalance balance = judge_->balance();
   const double supplied = balance.change(chain, state_, state, knows_dissipation, supplied_);
 
   chain_ = std::move(chain);
-  scenario_ = next;
+  plan_ = next;
   state_ = state;
   track_dissipation_ = knows_dissipation;
   changed_ = true;
-  judge_.change(chain_, std::move(balance), judgeOptions(first_frame_));
+  judge_->change(chain_, std::move(balance), judgeOptions(first_frame_));
   if (reference_) reference_->stopAtChange();
-  if (other_control) setFrameSteps();
+  if (other_control) divideFrames();
   dissipated_before_ = dissipated_;
   supplied_before_ = supplied_ = supplied;
   evaluations_before_ += integrator_->forceEvaluations();
@@ -262,20 +272,36 @@ void Run::change(const Scenario& scenario, const Drive& drive, const State& stat
 }
 
 bool Run::isOver() const {
-  return stopped_ || frame_ >= scenario_.frames - 1 || !isShown();
+  return stopped_ || frame_ >= plan_.frames - 1 || !isShown();
 }
 
 bool Run::isShown() const {
-  return judge_.isShown(scenario_.on_divergence == OnDivergence::kContinue);
+  return judge_->isShown(plan_.on_divergence == OnDivergence::kContinue);
+}
+
+const Verdict& Run::verdict() const {
+  return judge_->worst();
+}
+
+std::string Run::measurements() const {
+  return judge_->measurements();
+}
+
+std::string Run::toleranceRemark() const {
+  return judge_->toleranceRemark();
+}
+
+double Run::referenceWork() const {
+  return reference_ ? reference_->work() : 0.0;
 }
 
 EnergyEntry Run::energyEntry() const {
-  return isAtFrame() ? judge_.entry()
-                     : judge_.balance().entry(time(), state_, dissipated_, supplied_);
+  return isAtFrame() ? judge_->entry()
+                     : judge_->balance().entry(time(), state_, dissipated_, supplied_);
 }
 
 PositionError Run::positionError() const {
-  PositionError error = judge_.positionError();
+  PositionError error = judge_->positionError();
   if (isAtFrame()) return error;
   error.now = reference_ ? reference_->errorOf(state_) : std::numeric_limits<double>::quiet_NaN();
   return error;
@@ -286,7 +312,7 @@ const State* Run::referenceState() const {
 }
 
 std::string Run::closingLine(const std::string& output) const {
-  const Method& method = scenario_.method;
+  const Method& method = plan_.method;
   const std::string report = integrator_->report();
   return fmt::format(
       "{}{}: {}, {}{}, {}{}, {} integrating{}, {} reference run, {}, verdict: {}", method.name,
@@ -294,8 +320,7 @@ std::string Run::closingLine(const std::string& output) const {
       counted(totals_.frames, "frame"),
       totals_.slept_frames > 0 ? fmt::format(" ({} at rest, not integrated)", totals_.slept_frames)
                                : "",
-      method.hasFixedStep() ? counted(totals_.integrated_frames * frame_steps_.steps, "step") + ", "
-                            : "",
+      method.hasFixedStep() ? counted(totals_.integrated_frames * steps_, "step") + ", " : "",
       counted(evaluations_before_ + integrator_->forceEvaluations(), "force evaluation"),
       durationText(totals_.seconds), output, durationText(totals_.reference_seconds),
       measurements(), toString(verdict().kind));
@@ -303,14 +328,13 @@ std::string Run::closingLine(const std::string& output) const {
 
 std::int64_t Run::stepOfPart(std::int64_t part) const {
   // part * steps / parts without overflow of the product.
-  const std::int64_t quotient = frame_steps_.steps / parts_;
-  const std::int64_t remainder = frame_steps_.steps % parts_;
+  const std::int64_t quotient = steps_ / parts_;
+  const std::int64_t remainder = steps_ % parts_;
   return part * quotient + part * remainder / parts_;
 }
 
 double Run::timeOfPart(std::int64_t part) const {
-  return static_cast<double>(frame_ * frame_steps_.steps + stepOfPart(part)) *
-         frame_steps_.time_step;
+  return static_cast<double>(frame_ * steps_ + stepOfPart(part)) * step_;
 }
 
 }  // namespace spring_pendulum

@@ -212,9 +212,9 @@ std::string picturePath(const std::string& output) {
 void checkCases(const Study& study, std::int64_t threads) {
   std::atomic<std::int64_t> next{0};
   const auto check = [](std::int64_t, const Case& a_case, const auto&) {
-    Scenario scenario = a_case.settings.scenario;
-    scenario.reference = ReferenceUse::kNever;
-    const Run checked(scenario, a_case.particles);
+    Plan plan = a_case.settings.scenario;
+    plan.reference = ReferenceUse::kNever;
+    const Run checked(a_case.scene(), plan);
   };
   forEachCase(
       study, threads, [&] { return next++; }, check, [] {});

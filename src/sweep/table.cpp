@@ -4,7 +4,6 @@
 #include "base/spelling.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
@@ -21,7 +20,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 double largestStretch(const Run& run) {
   double largest = 0.0;
   for (Eigen::Index i = 0; i + 1 < run.chain().size(); ++i) {
-    largest = std::max(largest, springLength(run.state(), i) - run.scenario().rest_length);
+    largest = std::max(largest, springLength(run.state(), i) - run.chain().spring().rest_length);
   }
   return largest;
 }
@@ -31,17 +30,17 @@ double energyError(const Run& run) {
 }
 
 double duration(const Run& run) {
-  return frameSteps(run.scenario()).timeOfFrame(run.scenario().frames - 1);
+  return run.plan().timeOfFrame(run.plan().frames - 1);
 }
 
 double largestStableStep(const Run& run) {
   if (!(duration(run) > 0.0)) return kNan;
-  return largestStableStep(run.chain(), run.start(), run.scenario()).step;
+  return largestStableStep(run.chain(), run.start(), run.plan()).step;
 }
 
 double linearStep(const Run& run) {
   if (!(duration(run) > 0.0)) return kNan;
-  return linearStepLimit(run.scenario().method, run.chain(), duration(run));
+  return linearStepLimit(run.plan().method, run.chain(), duration(run));
 }
 
 double divergenceTime(const Run& run) {
@@ -118,9 +117,9 @@ std::string rowStart(const Study& study, std::int64_t index) {
 
 std::optional<std::string> runCase(const Study& study, const Case& a_case,
                                    const std::function<bool()>& stop) {
-  Scenario scenario = a_case.settings.scenario;
-  scenario.threads = 1;
-  Run run(scenario, a_case.particles, {false, 0.0, stop, false});
+  Plan plan = a_case.settings.scenario;
+  plan.threads = 1;
+  Run run(a_case.scene(), plan, {false, 0.0, stop, false});
   std::vector<double> largest(study.columns.size(), kNan);
   while (run.advance()) {
     for (std::size_t i = 0; i < largest.size(); ++i) {

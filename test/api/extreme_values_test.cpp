@@ -54,16 +54,16 @@ int gives(const Action& action) {
 /// \returns the number of calls with a result
 int tryFunctions(const Scenario& scenario) {
   const test::Scene scene = test::horizontalChain("", 3, 1.0);
-  const Particles particles{scene.chain.masses(), scene.start};
+  const Scene particles{scene.chain.masses(), scene.start};
   int asked = 0;
   const auto stop = [&asked] { return ++asked > 10; };
   int results = gives([&] {
-    Run run(scenario, particles, {true, 0.0, stop});
+    Run run(makeScene(scenario, particles), scenario, {true, 0.0, stop});
     while (run.advance()) continue;
     run.closingLine();
   });
   gives([&] {
-    const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
+    const Chain chain(particles.masses, scenario.constants);
     results += gives([&] { stabilityWarning(chain, scene.start, scenario, true); });
     results += gives([&] { remedyForDivergence(chain, scene.start, scenario, stop); });
   });
@@ -74,7 +74,7 @@ int tryFunctions(const Scenario& scenario) {
 int describe(const Scenario& scenario) {
   const test::Scene scene = test::horizontalChain("", 3, 1.0);
   return gives([&] {
-    const Chain chain(scene.chain.masses(), scenario.spring(), scenario.gravity);
+    const Chain chain(scene.chain.masses(), scenario.constants);
     checkStability(chain, scene.start, scenario);
   });
 }

@@ -19,7 +19,7 @@ void expect(bool true_value, const char* text) {
 }
 
 void tradeMemory() {
-  Particles particles = parseParticles("0 0 1\n1 0 1\n2 0 1\n3 0 1\n4 0 1\n", "text");
+  Scene particles = parseParticles("0 0 1\n1 0 1\n2 0 1\n3 0 1\n4 0 1\n", "text");
   const Chain chain(particles.masses, SpringLaw{}, 9.81);
   const Chain equal(Eigen::VectorXd::Ones(5), SpringLaw{}, 9.81);
   expect((chain.masses() == equal.masses()), "masses agree");
@@ -40,7 +40,7 @@ void tradeMemory() {
 }
 
 void runEveryMethod() {
-  const Particles particles = parseParticles("0 0 1\n1 0 1\n2 0 0.5\n", "text");
+  const Scene particles = parseParticles("0 0 1\n1 0 1\n2 0 0.5\n", "text");
   const Chain chain(particles.masses, SpringLaw{}, 9.81);
   for (const Method& method : methodTable()) {
     State state = particles.state;

@@ -1,6 +1,5 @@
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/integration/smallest_tolerance.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -20,8 +20,8 @@ namespace {
 /// Total energy of each of the 500 frames minus that of the first one, J.
 std::vector<double> energyGains(const std::string& scene, const std::string& method) {
   const Scenario scenario;
-  Particles particles = readParticleFile(PROJECT_DIR "/data/" + scene);
-  const Chain chain(particles.masses, scenario.spring(), scenario.gravity);
+  Scene particles = readParticleFile(PROJECT_DIR "/data/" + scene);
+  const Chain chain(particles.masses, scenario.constants);
   const auto integrator = makeIntegrator(method, chain);
   const double start = computeEnergy(chain, particles.state).total();
   std::vector<double> gains{0.0};

@@ -2,13 +2,13 @@
 #include "io/formats/frame_writer.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/io/particle_file.hpp>
-#include <spring_pendulum/io/scenario_file.hpp>
 
 #include <gtest/gtest.h>
 
 #include <clocale>
 #include <locale>
 
+#include "support/parse_scenario.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace spring_pendulum {
@@ -27,7 +27,7 @@ class DecimalComma : public testing::Test {
 
 TEST_F(DecimalComma, DoesNotChangeWhatIsReadAndWritten) {
   const TemporaryFolder folder;
-  const Particles particles =
+  const Scene particles =
       readParticleFile(folder.write("particle.txt", "0.5 0 1\n1234.25 0.5 1\n"));
   EXPECT_EQ(particles.state.x()[1], 1234.25);
   FrameWriter(folder.path()).write(0, particles.state);
@@ -35,7 +35,7 @@ TEST_F(DecimalComma, DoesNotChangeWhatIsReadAndWritten) {
 }
 
 TEST_F(DecimalComma, DoesNotChangeParameters) {
-  Scenario scenario = parseScenario("time_step: 0.125\nframes: 1000\n", "run.yaml");
+  Scenario scenario = test::parseScenario("time_step: 0.125\nframes: 1000\n", "run.yaml");
   EXPECT_EQ(scenario.time_step, 0.125);
   const OptionSet options(scenarioOptions(scenario));
   EXPECT_EQ(options.find("time_step", "").text(), "0.125");

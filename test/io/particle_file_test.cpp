@@ -17,7 +17,7 @@ using test::BadText;
 constexpr const char* kPlain = "0 0 1\n1 -0.5 2.5\n";
 
 void expectPlain(const std::string& text) {
-  const Particles particles = parseParticles(text, "particle.txt");
+  const Scene particles = parseParticles(text, "particle.txt");
   ASSERT_EQ(particles.state.size(), 2) << text;
   EXPECT_EQ(particles.state.x()[0], 0.0);
   EXPECT_EQ(particles.state.x()[1], 1.0);
@@ -38,7 +38,7 @@ TEST(ParticleFile, AcceptsEveryWayToWriteIt) {
 }
 
 TEST(ParticleFile, ReadsTheNearestDouble) {
-  const Particles particles = parseParticles("0.1 1e-310 1\n1.7976931348623157e100 0.3 5e-300", "");
+  const Scene particles = parseParticles("0.1 1e-310 1\n1.7976931348623157e100 0.3 5e-300", "");
   EXPECT_EQ(particles.state.x()[0], 0.1);
   EXPECT_EQ(particles.state.y()[0], 1e-310);
   EXPECT_EQ(particles.state.x()[1], 1.7976931348623157e100);
@@ -46,7 +46,7 @@ TEST(ParticleFile, ReadsTheNearestDouble) {
 }
 
 TEST(ParticleFile, HasNoNegativeZero) {
-  const Particles particles = parseParticles("-0 -0.0 1\n1 -1e-400 1", "");
+  const Scene particles = parseParticles("-0 -0.0 1\n1 -1e-400 1", "");
   EXPECT_FALSE(std::signbit(particles.state.x()[0]));
   EXPECT_FALSE(std::signbit(particles.state.y()[0]));
   EXPECT_FALSE(std::signbit(particles.state.y()[1]));

@@ -2,7 +2,6 @@
 #include "io/files/text_file.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/scenario_file.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,6 +9,8 @@
 #include <regex>
 #include <string>
 #include <vector>
+
+#include "support/parse_scenario.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -21,7 +22,7 @@ TEST(PendulumYaml, WorksWithEveryMethod) {
   for (const Method& method : methodTable()) {
     const std::string line = fmt::format("\nmethod: {}\n", method.name);
     const std::string with_method = std::regex_replace(text, std::regex("\nmethod: .*\n"), line);
-    Scenario scenario = parseScenario(with_method, kFile), expected;
+    Scenario scenario = test::parseScenario(with_method, kFile), expected;
     expected.method = method;
     const std::vector<Option> options = scenarioOptions(scenario);
     const std::vector<Option> defaults = scenarioOptions(expected);

@@ -1,13 +1,13 @@
 // Parameters from YAML: what is accepted, and the message for everything that is not.
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/io/scenario_file.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "support/parse_scenario.hpp"
 #include <support/bad_text.hpp>
 
 namespace spring_pendulum {
@@ -16,7 +16,7 @@ namespace {
 using test::BadText;
 
 Scenario parse(const std::string& text) {
-  return parseScenario(text, "run.yaml");
+  return test::parseScenario(text, "run.yaml");
 }
 
 TEST(ScenarioFile, SetsWhatIsGivenAndNothingElse) {
@@ -31,11 +31,11 @@ TEST(ScenarioFile, SetsWhatIsGivenAndNothingElse) {
   EXPECT_EQ(scenario.method.get().name, "Runge-Kutta-2");
   EXPECT_EQ(scenario.frames, 7);
   EXPECT_EQ(scenario.time_step, 1e-3);
-  EXPECT_EQ(scenario.damping, 0.0);
+  EXPECT_EQ(scenario.constants.spring.damping, 0.0);
   EXPECT_TRUE(scenario.no_frames);
   EXPECT_EQ(scenario.output, "a folder");
   EXPECT_EQ(scenario.steps_per_frame, Scenario{}.steps_per_frame);
-  EXPECT_EQ(scenario.stiffness, Scenario{}.stiffness);
+  EXPECT_EQ(scenario.constants.spring.stiffness, Scenario{}.constants.spring.stiffness);
 }
 
 TEST(ScenarioFile, MayBeEmpty) {
@@ -46,7 +46,7 @@ TEST(ScenarioFile, MayBeEmpty) {
 
 TEST(ScenarioFile, AcceptsFlowStyleAndWindowsLines) {
   EXPECT_EQ(parse("{frames: 3, damping: 0.5}").frames, 3);
-  EXPECT_EQ(parse("frames: 3\r\ndamping: 0.5\r\n").damping, 0.5);
+  EXPECT_EQ(parse("frames: 3\r\ndamping: 0.5\r\n").constants.spring.damping, 0.5);
 }
 
 class ScenarioFileRefuses : public testing::TestWithParam<BadText> {};

@@ -1,7 +1,6 @@
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/model/equilibrium.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

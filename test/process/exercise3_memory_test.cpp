@@ -1,6 +1,7 @@
 // The memory that Exercise3 takes is what it says before the run.
 #include "simulation/expected_cost.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -97,7 +97,7 @@ Outcome carried(const std::string& method, double tolerance, std::int64_t steps 
   scenario.steps_per_frame = steps;
   scenario.time_step = kStateInterval / static_cast<double>(steps);
   scenario.frame_interval = kStateInterval;
-  Run run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}});
+  Run run(makeScene(scenario, {scene.chain.masses(), scene.start}), scenario, {true, 0.0, {}});
   run.advance();
   test::PreciseMotion precise(scene);
   Driver driver(run);

@@ -17,15 +17,16 @@ namespace spring_pendulum {
 namespace {
 
 struct Live {
-  explicit Live(Scenario wanted = {}) : run(scenarioOf(std::move(wanted)), particles(), options()) {
+  explicit Live(const Scenario& wanted = {})
+      : run(makeScene(wanted, particles()), planOf(wanted), options()) {
     run.advance();
   }
 
-  static Scenario scenarioOf(Scenario scenario) {
-    scenario.frames = 10000;
-    return scenario;
+  static Plan planOf(Plan plan) {
+    plan.frames = 10000;
+    return plan;
   }
-  static Particles particles() {
+  static Scene particles() {
     const test::Scene scene = test::horizontalChain("horizontal", 6, 1.0);
     return {scene.chain.masses(), scene.start};
   }
@@ -81,7 +82,7 @@ TEST(Driver, ChangesEachConstantThatIsWanted) {
     live.go(0.1);
     EXPECT_EQ(live.changes, before + 1) << wanted.name;
   }
-  EXPECT_EQ(live.run.scenario().tolerance, 1e-9);
+  EXPECT_EQ(live.run.plan().tolerance, 1e-9);
 }
 
 TEST(Driver, PlaceParticlesWhilePaused) {
@@ -100,7 +101,8 @@ TEST(Driver, PlaceParticlesWhilePaused) {
 
 TEST(Driver, GiveTheImpulseOfAForce) {
   Scenario weightless;
-  weightless.gravity = weightless.stiffness = weightless.damping = 0.0;
+  weightless.constants.gravity = weightless.constants.spring.stiffness =
+      weightless.constants.spring.damping = 0.0;
   Live live(weightless);
   live.driver.on(ApplyForceTo{4, {2.0, -1.0}, 0.05, 0.56});
   live.go(1.0);
@@ -114,7 +116,7 @@ TEST(Driver, SwitchBetweenStepControlsAtAFrame) {
   live.run.advancePart();
   ASSERT_FALSE(live.run.isAtFrame());
   live.go(1.0);
-  EXPECT_EQ(live.run.scenario().method.get().name, "Auto");
+  EXPECT_EQ(live.run.plan().method.get().name, "Auto");
   live.driver.reset(live.run);
   EXPECT_EQ(live.run.time(), 0.0);
   EXPECT_EQ(live.run.state().values(), live.run.start().values());

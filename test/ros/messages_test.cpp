@@ -17,8 +17,8 @@
 namespace spring_pendulum {
 namespace {
 
-Particles horizontal(Eigen::Index particles) {
-  Particles scene{Eigen::VectorXd::Ones(particles), State(particles)};
+Scene horizontal(Eigen::Index particles) {
+  Scene scene{Eigen::VectorXd::Ones(particles), State(particles)};
   for (Eigen::Index i = 0; i < particles; ++i) scene.state.x()[i] = static_cast<double>(i);
   return scene;
 }
@@ -53,7 +53,7 @@ TEST(Markers, LongChainsAreThinnedAndKeepBothEnds) {
 
 TEST(Markers, GridHasFewLinesFarFromTheOrigin) {
   for (const double left : {0.0, 1e17, -1e17, 1e100}) {
-    Particles scene = horizontal(2);
+    Scene scene = horizontal(2);
     scene.state.x() << left, left + std::max(16.0, 1e-15 * left);
     const test::ProgramRun run(Scenario{}, scene, {false, 0.0});
     const auto grid = markersOf(run, NodeOptions{}).markers[5].points;
@@ -64,10 +64,11 @@ TEST(Markers, GridHasFewLinesFarFromTheOrigin) {
 
 TEST(Markers, GridIsBoundedAtExtremeLengths) {
   for (const double length : {5e-324, 1e-320, 1e-300, 1e100, 1e150}) {
-    Particles scene = horizontal(2);
+    Scene scene = horizontal(2);
     scene.state.x()[1] = length;
     Scenario scenario;
-    scenario.rest_length = scenario.stiffness = scenario.gravity = 0.0;
+    scenario.constants.spring.rest_length = scenario.constants.spring.stiffness =
+        scenario.constants.gravity = 0.0;
     const test::ProgramRun run(scenario, scene, {false, 0.0});
     EXPECT_LT(markersOf(run, NodeOptions{}).markers[5].points.size(), 400U) << length;
   }
@@ -76,7 +77,7 @@ TEST(Markers, GridIsBoundedAtExtremeLengths) {
 TEST(Markers, ADivergedChainIsMagentaAndKeepsItsLastShape) {
   Scenario scenario;
   scenario.method = findMethod("Euler");
-  scenario.damping = 0.0;
+  scenario.constants.spring.damping = 0.0;
   scenario.time_step = 0.5;
   test::ProgramRun run(scenario, horizontal(3), {false, 0.0});
   NodeOptions options;
@@ -106,8 +107,8 @@ TEST(Markers, LinesOfTextAreOverEachOtherInTheFrameOfTheCamera) {
 }
 
 TEST(Markers, HeldParticlesHaveTheColourOfTheAnchor) {
-  spring_pendulum::Run run(Scenario{}, horizontal(3), {false, 0.0});
-  run.change(Scenario{}, Drive{{{2, {}}}, {}}, run.state());
+  spring_pendulum::Run run(horizontal(3), Plan{}, {false, 0.0});
+  run.change(Plan{}, Constants{}, Drive{{{2, {}}}, {}}, run.state());
   const auto particles = markersOf(run, NodeOptions{}).markers[1];
   EXPECT_NE(rgba(particles.colors[1]), rgba(colorOf(kHeldColor)));
   EXPECT_EQ(rgba(particles.colors[2]), rgba(colorOf(kHeldColor)));
@@ -127,7 +128,7 @@ TEST(Markers, OnlyTheFirstChainHasACamera) {
 }
 
 TEST(Markers, SpringsAreColouredByStrainAndParticlesByMass) {
-  Particles scene = horizontal(4);
+  Scene scene = horizontal(4);
   scene.state.x()[2] = 1.5;  // springs of 1, 0.5 and 3.5 m
   scene.state.x()[3] = 5.0;
   scene.masses.view() << 1.0, 1.0, 10.0, 100.0;
@@ -203,7 +204,7 @@ TEST(StateMessage, LargestStretchIsRelativeToTheRestLength) {
   for (const auto& [rest_length, particles, stretch] :
        {std::tuple(0.5, 3, 1.0), std::tuple(0.0, 3, 1.0), std::tuple(0.5, 1, 0.0)}) {
     Scenario scenario;
-    scenario.rest_length = rest_length;
+    scenario.constants.spring.rest_length = rest_length;
     const test::ProgramRun run(scenario, horizontal(particles), {false, 0.0});
     PendulumState message;
     setState(message, run, std_msgs::Header());

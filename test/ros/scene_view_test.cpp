@@ -10,8 +10,8 @@
 namespace spring_pendulum {
 namespace {
 
-Particles horizontal(Eigen::Index particles, double spacing) {
-  Particles scene{Eigen::VectorXd::Ones(particles), State(particles)};
+Scene horizontal(Eigen::Index particles, double spacing) {
+  Scene scene{Eigen::VectorXd::Ones(particles), State(particles)};
   for (Eigen::Index i = 0; i < particles; ++i) {
     scene.state.x()[i] = spacing * static_cast<double>(i);
   }
@@ -50,10 +50,10 @@ TEST(SceneView, IsFilledByACableBetweenTwoHolders) {
 
 TEST(SceneView, ScalesWithTheScene) {
   Scenario scenario;
-  scenario.gravity = 0.0;
+  scenario.constants.gravity = 0.0;
   double last = 0.0;
   for (const double spacing : {1e-3, 1.0, 1e3}) {
-    scenario.rest_length = spacing;
+    scenario.constants.spring.rest_length = spacing;
     const test::ProgramRun run(scenario, horizontal(11, spacing), {false, 0.0});
     const SceneView view(run, true);
     EXPECT_NEAR(view.cameraDistance(), 20.0 * spacing, 0.1 * spacing);

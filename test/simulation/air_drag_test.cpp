@@ -3,6 +3,7 @@
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/energy.hpp>
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <gtest/gtest.h>
 
@@ -33,15 +34,13 @@ Outcome outcomeOf(const Scene& scene, const Method& method, double tolerance, st
                   const PreciseMotion& precise) {
   Scenario scenario;
   scenario.method = method;
-  scenario.stiffness = scene.chain.spring().stiffness;
-  scenario.damping = scene.chain.spring().damping;
-  scenario.air_drag = scene.chain.airDrag();
+  scenario.constants = scene.chain.constants();
   scenario.frames = kFrames + 1;
   scenario.steps_per_frame = steps;
   scenario.time_step = kInterval / static_cast<double>(steps);
   scenario.tolerance = tolerance;
   scenario.frame_interval = kInterval;
-  Run run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}});
+  Run run(makeScene(scenario, {scene.chain.masses(), scene.start}), scenario, {true, 0.0, {}});
   while (run.advance()) {
   }
   EXPECT_FALSE(isBad(run.verdict().kind)) << method.name << ": " << run.verdict().text;
@@ -50,7 +49,7 @@ Outcome outcomeOf(const Scene& scene, const Method& method, double tolerance, st
 
 Scene inAir(double mass, double damping, double air_drag) {
   Scene scene = test::horizontalChain("in air", 7, mass, {50.0, damping, 1.0});
-  scene.chain = scene.chain.inAir(air_drag);
+  scene.chain = test::inAir(scene.chain, air_drag);
   return scene;
 }
 
@@ -96,7 +95,7 @@ TEST(AirDrag, KeepsTheTolerance) {
 
 TEST(AirDrag, LimitsTheSpeedOfAFall) {
   const double mass = 0.5, drag = 0.7, time = 2.0;
-  const Chain chain = Chain(Eigen::VectorXd::Constant(2, mass), {0.0, 0.0, 1.0}, 9.81).inAir(drag);
+  const Chain chain(Eigen::VectorXd::Constant(2, mass), {{0.0, 0.0, 1.0}, 9.81, drag});
   const double speed = 9.81 * mass / drag * (1.0 - std::exp(-drag / mass * time));
   for (const Method& method : methodTable()) {
     State state = test::straightLine(2, 1.0, 0.0);
@@ -107,7 +106,7 @@ TEST(AirDrag, LimitsTheSpeedOfAFall) {
 
 TEST(AirDrag, EntersPowerAndRates) {
   const double drag = 0.6;
-  const Chain chain = Chain(Eigen::VectorXd::Constant(3, 2.0), {0.0, 0.0, 1.0}, 9.81).inAir(drag);
+  const Chain chain(Eigen::VectorXd::Constant(3, 2.0), {{0.0, 0.0, 1.0}, 9.81, drag});
   State state = test::straightLine(3, 1.0, 0.0);
   state.vx()[1] = 3.0;
   state.vy()[2] = 4.0;
@@ -119,11 +118,11 @@ TEST(AirDrag, EntersPowerAndRates) {
 TEST(AirDrag, RefusesWhatIsNoDrag) {
   const Chain chain(Eigen::VectorXd::Ones(3), {}, 9.81);
   for (const double drag : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(chain.inAir(drag), InputError);
+    EXPECT_THROW(test::inAir(chain, drag), InputError);
     Scenario scenario;
-    scenario.air_drag = drag;
-    const Particles particles{chain.masses(), test::straightLine(3, 1.0, 0.0)};
-    EXPECT_THROW(spring_pendulum::Run(scenario, particles), InputError);
+    scenario.constants.air_drag = drag;
+    const spring_pendulum::Scene particles{chain.masses(), test::straightLine(3, 1.0, 0.0)};
+    EXPECT_THROW(spring_pendulum::Run(makeScene(scenario, particles), scenario), InputError);
   }
 }
 

@@ -1,6 +1,7 @@
 // Held particles, applied forces and changes of a run, against solutions with 113 bits.
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ PlaneVector<double> handAcceleration(int k, double phase) {
 
 Scene slackCable(Eigen::Index particles, double mass, double air_drag = 0.0) {
   Scene scene = test::horizontalChain("slack cable", particles, mass);
-  scene.chain = scene.chain.inAir(air_drag);
+  scene.chain = test::inAir(scene.chain, air_drag);
   scene.start.x() *= 0.8;
   return scene;
 }
@@ -35,11 +36,7 @@ Scene slackCable(Eigen::Index particles, double mass, double air_drag = 0.0) {
 Scenario scenarioOf(const std::string& method, const Scene& scene) {
   Scenario scenario;
   scenario.method = findMethod(method);
-  scenario.stiffness = scene.chain.spring().stiffness;
-  scenario.damping = scene.chain.spring().damping;
-  scenario.rest_length = scene.chain.spring().rest_length;
-  scenario.gravity = scene.chain.gravity();
-  scenario.air_drag = scene.chain.airDrag();
+  scenario.constants = scene.chain.constants();
   scenario.frames = 1000000;
   scenario.steps_per_frame = 2;
   scenario.time_step = 0.5 * kInterval;
@@ -50,12 +47,13 @@ Scenario scenarioOf(const std::string& method, const Scene& scene) {
 /// A run and the precise motion, both driven in the same way.
 struct DrivenPair {
   DrivenPair(const Scenario& scenario, const Scene& scene)
-      : run(scenario, {scene.chain.masses(), scene.start}, {true, 0.0, {}}), precise(scene) {
+      : run(makeScene(scenario, {scene.chain.masses(), scene.start}), scenario, {true, 0.0, {}}),
+        precise(scene) {
     run.advance();
   }
 
   void drive(const Drive& drive) {
-    run.change(run.scenario(), drive, run.state());
+    run.change(run.plan(), run.chain().constants(), drive, run.state());
     precise.drive(run.chain());
   }
 
@@ -224,22 +222,22 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
     EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6);
     EXPECT_FALSE(isBad(pair.run.verdict().kind)) << pair.run.verdict().text;
   };
-  Scenario scenario = pair.run.scenario();
+  Scenario scenario{pair.run.plan(), pair.run.chain().constants()};
   State state = pair.run.state();
   for (const double factor : {0.0, 3.0}) {
     go_on();
-    scenario.damping = factor;
-    scenario.gravity = -9.81 * factor;
-    scenario.stiffness = 200.0;
-    pair.run.change(scenario, {}, pair.run.state());
+    scenario.constants.spring.damping = factor;
+    scenario.constants.gravity = -9.81 * factor;
+    scenario.constants.spring.stiffness = 200.0;
+    pair.run.change(scenario, scenario.constants, {}, pair.run.state());
   }
   go_on();
   state = pair.run.state();
   state.vx()[5] += 3.0;
   scenario.method = findMethod("Runge-Kutta-4");
-  scenario.rest_length = 0.5;
+  scenario.constants.spring.rest_length = 0.5;
   const double time = pair.run.time();
-  pair.run.change(scenario, {}, state);
+  pair.run.change(scenario, scenario.constants, {}, state);
   EXPECT_NEAR(pair.run.time(), time, 1e-12);
   pair.run.advance();
   EXPECT_NEAR(pair.run.time(), time + kInterval, 1e-12);
@@ -254,7 +252,7 @@ TEST(DrivenRun, KeepsTheIntervalOfItsFrames) {
   DrivenPair pair(scenario, scene);
   for (const char* method : {"Auto", "Velocity-Verlet", "Taylor-8", "Euler"}) {
     scenario.method = findMethod(method);
-    pair.run.change(scenario, {}, pair.run.state());
+    pair.run.change(scenario, scenario.constants, {}, pair.run.state());
     pair.run.advance();
     pair.run.advance();
     EXPECT_NEAR(pair.run.time(), 0.07 * static_cast<double>(pair.run.frame()), 1e-14) << method;
@@ -264,9 +262,9 @@ TEST(DrivenRun, KeepsTheIntervalOfItsFrames) {
   uneven.time_step = 0.03;
   DrivenPair other(uneven, scene);
   uneven.method = findMethod("Euler");
-  other.run.change(uneven, {}, other.run.state());
-  EXPECT_EQ(other.run.scenario().steps_per_frame, 4);
-  EXPECT_EQ(other.run.scenario().time_step, 0.025);
+  other.run.change(uneven, uneven.constants, {}, other.run.state());
+  EXPECT_EQ(other.run.plan().steps_per_frame, 4);
+  EXPECT_EQ(other.run.plan().time_step, 0.025);
 }
 
 TEST(DrivenRun, ReturnsToAMeasuredStart) {
@@ -275,7 +273,7 @@ TEST(DrivenRun, ReturnsToAMeasuredStart) {
   pair.drive({{{3, {1.0, 1.0}}}, {}});
   pair.advance();
   EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kNotChecked);
-  pair.run.change(pair.run.scenario(), {}, pair.run.start());
+  pair.run.change(pair.run.plan(), pair.run.chain().constants(), {}, pair.run.start());
   pair.run.reset();
   EXPECT_EQ(pair.run.time(), 0.0);
   for (int k = 0; k < 10; ++k) pair.run.advance();
@@ -296,11 +294,11 @@ TEST(DrivenRun, RefusesWhatAChainCannotDo) {
   DrivenPair pair(scenarioOf("Auto", scene), scene);
   State state = scene.start;
   state.x()[2] = nan;
-  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, state), InputError);
-  EXPECT_THROW(pair.run.change(pair.run.scenario(), {}, State(3)), InputError);
-  Scenario scenario = pair.run.scenario();
-  scenario.stiffness = -1.0;
-  EXPECT_THROW(pair.run.change(scenario, {}, scene.start), InputError);
+  EXPECT_THROW(pair.run.change(pair.run.plan(), scene.chain.constants(), {}, state), InputError);
+  EXPECT_THROW(pair.run.change(pair.run.plan(), scene.chain.constants(), {}, State(3)), InputError);
+  Scenario scenario{pair.run.plan(), pair.run.chain().constants()};
+  scenario.constants.spring.stiffness = -1.0;
+  EXPECT_THROW(pair.run.change(scenario, scenario.constants, {}, scene.start), InputError);
   EXPECT_EQ(pair.run.chain().spring().stiffness, scene.chain.spring().stiffness);
 }
 

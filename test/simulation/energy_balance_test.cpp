@@ -1,6 +1,7 @@
+#include "simulation/energy_balance.hpp"
+
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/simulation/energy_balance.hpp>
 
 #include <gtest/gtest.h>
 

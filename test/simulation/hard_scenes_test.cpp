@@ -1,9 +1,10 @@
 // Extreme scenes: each must give a defined result and a correct verdict.
+#include "simulation/judge.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/plan.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <gtest/gtest.h>
 
@@ -213,7 +214,7 @@ TEST(HardScenes, TenMillionSteps) {
   EXPECT_LT(std::abs(residual), 1e-7);  // measured -3.5e-9
   Scenario scenario;
   scenario.time_step = 1e-3;
-  EXPECT_EQ(frameSteps(scenario).timeOfFrame(1000000), 1e4);  // no sum of a million roundings
+  EXPECT_EQ(scenario.timeOfFrame(1000000), 1e4);  // no sum of a million roundings
 }
 
 TEST(HardScenes, DenormalNumbersStayDefined) {

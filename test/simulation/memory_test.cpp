@@ -2,6 +2,7 @@
 // Exercise3 (process_exercise3_memory_test).
 #include "simulation/expected_cost.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <gtest/gtest.h>
 

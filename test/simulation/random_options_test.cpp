@@ -41,11 +41,10 @@ std::vector<State> framesOfThePlainProgram(const Scenario& scenario, const test:
   } else {
     integrator = makeIntegrator(method, scene.chain, {scenario.tolerance, false, 1});
   }
-  const FrameSteps frame = frameSteps(scenario);
   std::vector<State> frames{scene.start};
   for (std::int64_t i = 1; i < scenario.frames; ++i) {
     frames.push_back(frames.back());
-    integrator->advance(frames.back(), frame.time_step, frame.steps);
+    integrator->advance(frames.back(), scenario.step(), scenario.steps());
   }
   return frames;
 }
@@ -111,7 +110,7 @@ TEST(RandomOptions, ChangeNoBitAndNoVerdict) {
     ++first;  // the methods share the families of scenes
     for (unsigned seed = first; seed < first + 30; seed += 3) {
       const test::Scene scene = test::randomScene(seed);
-      const Particles particles{scene.chain.masses(), scene.start};
+      const Scene particles{scene.chain.masses(), scene.start};
       Scenario scenario = scenarioOf(method, scene);
       SCOPED_TRACE(std::string(method.name) + ", " + scene.name);
       std::mt19937 random(seed);

@@ -1,4 +1,6 @@
-#include <spring_pendulum/simulation/reference_run.hpp>
+#include "simulation/reference_run.hpp"
+
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 namespace spring_pendulum {
 namespace {
 
-Particles scene() {
+Scene scene() {
   return readParticleFile(PROJECT_DIR "/data/particle.txt");
 }
 
@@ -121,7 +121,7 @@ TEST(Run, MeasuresThePositionErrorAlsoBetweenFrames) {
 TEST(Run, EndsWhereTheMotionDiverges) {
   Scenario scenario = scenarioOf("Euler");
   scenario.frames = 500;
-  const Particles particles = readParticleFile(PROJECT_DIR "/data/horizontal_11.txt");
+  const Scene particles = readParticleFile(PROJECT_DIR "/data/horizontal_11.txt");
   test::ProgramRun run(scenario, particles, {false, 0.0});
   while (run.advance()) {
   }
@@ -170,16 +170,15 @@ TEST(Run, AskingWhetherToStopLeavesTheBitsOfTheFramesForEveryMethod) {
     test::ProgramRun run(scenario, scene(), stoppingAt(asked, 1'000'000));
     const auto integrator = makeIntegrator(method, run.chain());
     State state = run.start();
-    const FrameSteps frame = frameSteps(scenario);
-    while (run.advance()) integrator->advance(state, frame.time_step, frame.steps);
+    while (run.advance()) integrator->advance(state, scenario.step(), scenario.steps());
     EXPECT_TRUE(run.state().values() == state.values());
     EXPECT_GE(asked, method.hasFixedStep() ? 4 : 2);
   }
 }
 
-Particles hanging(double below) {
+Scene hanging(double below) {
   const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
-  Particles particles{chain.masses(), test::hangingAtRest(chain)};
+  Scene particles{chain.masses(), test::hangingAtRest(chain)};
   particles.state.y()[2] -= below;
   return particles;
 }

@@ -1,5 +1,6 @@
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
@@ -32,10 +33,7 @@ Scenario scenarioOf(const Scene& scene, const Method& method, double step) {
   scenario.steps_per_frame = std::max<std::int64_t>(1, std::llround(0.1 / step));
   scenario.frames =
       std::llround(kDuration / (step * static_cast<double>(scenario.steps_per_frame))) + 1;
-  scenario.stiffness = scene.chain.spring().stiffness;
-  scenario.damping = scene.chain.spring().damping;
-  scenario.rest_length = scene.chain.spring().rest_length;
-  scenario.gravity = scene.chain.gravity();
+  scenario.constants = scene.chain.constants();
   return scenario;
 }
 
@@ -84,20 +82,6 @@ TEST(StabilityAdvice, OneStepIsNamedEverywhere) {
             "largest stable step for Euler: 0.02 s; or use Auto");
 }
 
-TEST(StabilityAdvice, OfAChainAtRestStartsAtRestInEveryTrial) {
-  const Scene scene = test::horizontalChain("", 6, 1.0);
-  Scenario scenario;
-  scenario.method = findMethod("Euler");
-  scenario.start = Start::kAtRest;
-  const State hanging = startOf(scenario, scene.chain, {scene.chain.masses(), scene.start});
-  const std::string text = checkStability(scene.chain, hanging, scenario).text;
-  EXPECT_EQ(checkStability(scene.chain, scene.start, scenario).text, text);
-  scenario.start = Start::kFile;
-  EXPECT_EQ(checkStability(scene.chain, hanging, scenario).text, text);
-  EXPECT_NE(checkStability(scene.chain, scene.start, scenario).text, text);
-}
-
-// Frames are judged at other times than in the trials, so a margin is left.
 TEST(StabilityAdvice, LargestAccurateStepKeepsOnePercentOfTheLength) {
   const Scene scene = test::horizontalChain("", 6, 1.0);
   forEachFixedStepMethod([&](const Method& method) {
@@ -117,8 +101,9 @@ TEST(StabilityAdvice, ResemblesItselfWithAndWithoutSlightAir) {
   const Scene scene = test::horizontalChain("", 6, 1.0);
   Scenario scenario = scenarioOf(scene, findMethod("Runge-Kutta-4"), 1e-3);
   const StabilityReport without = checkStability(scene.chain, scene.start, scenario);
-  scenario.air_drag = 1e-9;
-  const StabilityReport with = checkStability(scene.chain.inAir(1e-9), scene.start, scenario);
+  scenario.constants.air_drag = 1e-9;
+  const StabilityReport with =
+      checkStability(test::inAir(scene.chain, 1e-9), scene.start, scenario);
   EXPECT_EQ(with.stable.step, without.stable.step);
   EXPECT_NEAR(with.accurate_step, without.accurate_step, 0.04 * without.accurate_step);
 }

@@ -1,4 +1,5 @@
 #include "simulation/advice/linear_stability.hpp"
+#include <spring_pendulum/simulation/scenario.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <gmock/gmock.h>
@@ -21,10 +22,7 @@ Scenario scenarioOf(const Scene& scene, const std::string& method, double step, 
   Scenario scenario;
   scenario.method = findMethod(method);
   scenario.time_step = step;
-  scenario.stiffness = scene.chain.spring().stiffness;
-  scenario.damping = scene.chain.spring().damping;
-  scenario.rest_length = scene.chain.spring().rest_length;
-  scenario.gravity = scene.chain.gravity();
+  scenario.constants = scene.chain.constants();
   scenario.steps_per_frame = 1;
   scenario.frames = std::llround(duration / step) + 1;
   return scenario;

@@ -1,5 +1,5 @@
+#include "simulation/judge.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,8 +83,8 @@ TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
       state.values()(3, column) = bad;
       Judge judge(chain, start, JudgeOptions{false});
       EXPECT_EQ(judge.judge(0.5, state, 0.0, nullptr).kind, VerdictKind::kDiverged);
-      EXPECT_EQ(judge.latest().particle, 4);
-      EXPECT_EQ(judge.latest().text,
+      EXPECT_EQ(judge.worst().particle, 4);
+      EXPECT_EQ(judge.worst().text,
                 "diverged at t = 0.5 s: particle 4 is no longer a finite number");
     }
   }
@@ -97,7 +97,7 @@ TEST(Verdict, FindsANumberThatIsNotFiniteWithoutSpringsAndGravity) {
   EXPECT_EQ(judge.judge(0.0, state, 0.0, nullptr).kind, VerdictKind::kNotChecked);
   state.y()[2] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(judge.judge(0.1, state, 0.0, nullptr).kind, VerdictKind::kDiverged);
-  EXPECT_EQ(judge.latest().particle, 3);
+  EXPECT_EQ(judge.worst().particle, 3);
 }
 
 TEST(Verdict, IsDriftIfTheDissipatedEnergyIsNotANumber) {

@@ -1,9 +1,9 @@
 // Prints a hash of the motion, the energies, the position errors and the verdicts for each method, one
 // method per line; a second hash is that of driven runs. Equal lines on two machines mean equal bits (scripts/test_arm64.sh).
+#include "simulation/judge.hpp"
+#include "simulation/reference_run.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/simulation/reference_run.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <cstdint>
 #include <cstdio>
@@ -82,8 +82,10 @@ std::uint64_t hashOfDrivenRuns(const Method& method) {
     State state = zigzag(size);
     for (int input = 0; input < 10; ++input) {
       const double push = 0.25 * input - 1.0;
-      const Chain driven = chain.inAir(air_drag).drivenBy(
-          {{{0, {push, 0.5}}, {4, {-0.75, push}}, {10, {1.0, -push}}}, {{7, {push, 2.0}}}});
+      const Chain driven =
+          Chain(chain.masses(), {chain.spring(), chain.gravity(), air_drag})
+              .drivenBy(
+                  {{{0, {push, 0.5}}, {4, {-0.75, push}}, {10, {1.0, -push}}}, {{7, {push, 2.0}}}});
       const auto integrator = makeIntegrator(method, driven, {kTolerance, true, 1});
       integrator->advance(state, kTimeStep, kSteps);
       for (Eigen::Index i = 0; i < 4 * size; ++i) hash = hashOf(state.values().data()[i], hash);

@@ -2,29 +2,29 @@
 #pragma once
 
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include "support/scenes.hpp"
 
 namespace spring_pendulum::test {
 
-/// Returns a scenario with the springs and the gravity of a scene.
+/// Returns a scenario with the constants of a scene.
 inline Scenario scenarioFor(const Scene& scene, Scenario scenario = {}) {
-  scenario.stiffness = scene.chain.spring().stiffness;
-  scenario.damping = scene.chain.spring().damping;
-  scenario.rest_length = scene.chain.spring().rest_length;
-  scenario.gravity = scene.chain.gravity();
+  scenario.constants = scene.chain.constants();
   return scenario;
 }
 
 class ProgramRun : public Run {
  public:
-  ProgramRun(const Scenario& scenario, const Particles& particles, const RunOptions& options = {})
-      : Run(scenario, particles, options) {
+  ProgramRun(const Scenario& scenario, const spring_pendulum::Scene& particles,
+             const RunOptions& options = {})
+      : Run(makeScene(scenario, particles), scenario, options) {
     advance();
   }
-  /// A run of the scene, with its springs and its gravity.
+  /// A run of the scene, with its constants.
   ProgramRun(const Scenario& scenario, const Scene& scene, const RunOptions& options = {})
-      : ProgramRun(scenarioFor(scene, scenario), {scene.chain.masses(), scene.start}, options) {}
+      : ProgramRun(scenarioFor(scene, scenario),
+                   spring_pendulum::Scene{scene.chain.masses(), scene.start}, options) {}
 
   /// Advances to the first frame at or after `seconds`, or to the end of the run.
   void advanceTo(double seconds) {

@@ -14,4 +14,11 @@ struct Scene {
   State start;
 };
 
+/// Returns the same chain with another air drag, in N·s/m.
+inline Chain inAir(const Chain& chain, double air_drag) {
+  Constants constants = chain.constants();
+  constants.air_drag = air_drag;
+  return Chain(chain.masses(), constants);
+}
+
 }  // namespace spring_pendulum::test

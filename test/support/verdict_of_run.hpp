@@ -1,8 +1,8 @@
 // The verdict on a run without output, and a loop over methods with a fixed step.
 #pragma once
 
+#include "simulation/judge.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ TEST(Study, LastAxisVariesFastestAndSamplesSlowest) {
   ASSERT_EQ(study.cases(), 12);
   const Case made = caseOf(study, 4);
   EXPECT_EQ(made.settings.scenario.method.get().name, "Auto");
-  EXPECT_EQ(made.settings.scenario.stiffness, 20.0);
+  EXPECT_EQ(made.settings.scenario.constants.spring.stiffness, 20.0);
   EXPECT_EQ(made.sample, 0);
   EXPECT_EQ(caseOf(study, 6).sample, 1);
   EXPECT_EQ(caseOf(study, 6).settings.scenario.method.get().name, "Euler");
@@ -44,7 +44,7 @@ TEST(Study, CasesOfOneSampleHaveTheSameParticles) {
               "random:\n  seed: 3\n  samples: 5\n  mass_factor: {log_normal: [1, 0.2]}\n"
               "  velocity: {uniform: [-1, 1]}\n");
   const std::int64_t methods = study.cases() / 5;
-  const Particles of_first = caseOf(study, 0).particles;
+  const Scene of_first = caseOf(study, 0).particles;
   EXPECT_EQ(caseOf(study, methods - 1).particles.masses.view(), of_first.masses.view());
   EXPECT_EQ(caseOf(study, methods - 1).particles.state.values(), of_first.state.values());
   EXPECT_NE(caseOf(study, methods).particles.masses[1], of_first.masses[1]);

@@ -7,7 +7,7 @@
 // and a missing newline at the end are accepted. Numbers are decimal, with a point in every locale.
 #pragma once
 
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/scene.hpp>
 
 #include <string>
 #include <string_view>
@@ -18,11 +18,11 @@ namespace spring_pendulum {
 /// Returns the particles, at rest if the file has no velocities.
 /// \throws FileError if the file can't be read
 /// \throws InputError with file and line for the first invalid line
-Particles readParticleFile(const std::string& path);
+Scene readParticleFile(const std::string& path);
 
 /// Reads particles from text.
 /// \param name name of the text in error messages
-Particles parseParticles(std::string_view text, std::string_view name);
+Scene parseParticles(std::string_view text, std::string_view name);
 
 }  // namespace spring_pendulum
 #pragma GCC visibility pop

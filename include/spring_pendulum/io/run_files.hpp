@@ -1,20 +1,22 @@
 // Where a run starts and what it writes: the files that its scenario names.
 #pragma once
 
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/scene.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// Reads the particle file of a scenario, or the saved state from which it resumes.
+/// Reads the scene of a scenario: from its particle file, or from the saved state from which it resumes.
+/// \param argument how to name another file, for the error if the default file does not exist
 /// \throws FileError if the file can't be read
-/// \throws InputError with file and line for the first invalid line
-Particles readStart(const Scenario& scenario);
+/// \throws InputError with file and line for the first invalid line, and as makeScene
+Scene readScene(const Scenario& scenario, std::string_view argument = "--particles");
 
 /// Writes frames, energy balance and last state, as far as the scenario asks for them: no frames with
 /// `no_frames` or an empty `output`. Writes every frame once, because a run that is reset repeats its
@@ -24,7 +26,7 @@ class RunFiles {
   /// Checks that no name has two uses, opens the files and removes the frames of an earlier run.
   /// \param config configuration file of the run, which must not be overwritten; empty: none
   /// \throws InputError, FileError naming the file
-  explicit RunFiles(const Run& run, const std::string& config = "");
+  RunFiles(const Run& run, const Scenario& scenario, const std::string& config = "");
   ~RunFiles();
   RunFiles(RunFiles&& other) noexcept;
 

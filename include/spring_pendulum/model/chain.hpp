@@ -1,48 +1,77 @@
-// The constants of a chain: number of particles, masses, springs and gravity. Positions and time
-// are not part of it.
+// A chain: number of particles, masses, springs, gravity, air. Positions and time are not part of it.
 #pragma once
 
 #include <spring_pendulum/base/aligned_numbers.hpp>
-#include <spring_pendulum/model/drive.hpp>
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
+
+/// A particle that moves with constant acceleration, whatever its springs do. It starts with the
+/// position and velocity that it has in the state.
+struct HeldParticle {
+  std::ptrdiff_t particle = 0;         ///< counted from 0
+  PlaneVector<double> acceleration{};  ///< m/s²
+};
+
+/// A constant force on a particle.
+struct AppliedForce {
+  std::ptrdiff_t particle = 0;  ///< counted from 0
+  PlaneVector<double> force{};  ///< N
+};
+
+/// External influences on a chain, constant in time. A motion that is driven in another way consists
+/// of several intervals of constant drive. P_1 is always held; without an entry its acceleration is 0.
+struct Drive {
+  std::vector<HeldParticle> held;
+  std::vector<AppliedForce> forces;  ///< several forces on one particle add up
+
+  bool empty() const { return held.empty() && forces.empty(); }
+};
+
+/// What acts on every particle of a chain.
+struct Constants {
+  SpringLaw spring = {};
+  double gravity = 9.81;  ///< g, m/s², acts along -y
+  double air_drag = 0.0;  ///< k_air, N·s/m, at least 0: the air exerts the force -k_air v
+};
+
+inline bool operator==(const Constants& a, const Constants& b) {
+  return a.spring == b.spring && a.gravity == b.gravity && a.air_drag == b.air_drag;
+}
 
 /// A chain of N >= 1 particles P_1..P_N and N-1 equal springs. P_1 is fixed unless a drive moves it;
 /// its mass is not used. Validated by the constructor, immutable afterwards.
 class Chain {
  public:
-  /// \param masses  an Eigen vector of N masses in kg; all but the first finite and above 0.
-  /// \param spring  stiffness, damping and rest length, each finite and at least 0.
-  /// \param gravity g in m/s², finite; acts along -y.
+  /// \param masses an Eigen vector of N masses in kg; all but the first finite and above 0.
   /// \throws InputError naming the value and its allowed range.
-  Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity);
+  Chain(AlignedNumbers masses, const Constants& constants);
+  Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
+      : Chain(std::move(masses), Constants{spring, gravity}) {}
 
   /// Returns the same chain with this drive instead of its own.
   /// \throws InputError for a particle that does not exist or is held twice, a force on a held
   ///   particle, or a number that is not finite
   Chain drivenBy(Drive drive) const;
 
-  /// Returns the same chain in air, which exerts the force -k_air v on every particle that moves freely.
-  /// \param drag k_air in N·s/m, finite and at least 0
-  /// \throws InputError for a drag out of this range
-  Chain inAir(double drag) const;
-
   std::ptrdiff_t size() const { return masses_.size(); }
   /// N masses, kg.
   AlignedNumbers::ConstView masses() const { return masses_.view(); }
   /// N inverse masses, 1/kg; 0 for P_1 and other held particles, which corresponds to infinite mass.
   AlignedNumbers::ConstView inverseMasses() const { return inverse_masses_.view(); }
-  const SpringLaw& spring() const { return spring_; }
-  double gravity() const { return gravity_; }
-  double airDrag() const { return air_drag_; }
+  const Constants& constants() const { return constants_; }
+  const SpringLaw& spring() const { return constants_.spring; }
+  double gravity() const { return constants_.gravity; }
+  double airDrag() const { return constants_.air_drag; }
   /// Whether the motion loses energy: to dashpots or to the air.
-  bool isDissipative() const { return spring_.damping != 0.0 || air_drag_ != 0.0; }
+  bool isDissipative() const { return spring().damping != 0.0 || airDrag() != 0.0; }
   /// Whether only springs and gravity act: neither air nor a drive.
-  bool isPlain() const { return air_drag_ == 0.0 && !isDriven(); }
+  bool isPlain() const { return airDrag() == 0.0 && !isDriven(); }
   /// Whether all moving particles have exactly the same mass.
   bool equalMasses() const { return equal_masses_; }
 
@@ -56,9 +85,7 @@ class Chain {
  private:
   AlignedNumbers masses_;
   AlignedNumbers inverse_masses_;
-  SpringLaw spring_;
-  double gravity_;
-  double air_drag_ = 0.0;
+  Constants constants_;
   bool equal_masses_;
   Drive drive_;
   AlignedNumbers accelerations_;  ///< springless ones, all x and then all y; empty: not driven

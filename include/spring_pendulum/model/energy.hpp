@@ -4,6 +4,8 @@
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
 
+#include <optional>
+
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
@@ -14,6 +16,19 @@ struct Energy {
   double spring = 0.0;   ///< sum of k_s (L - L_0)²/2
 
   double total() const { return kinetic + gravity + spring; }
+};
+
+/// The energy balance E(t) + D(t) - S(t) = E(0) of a state, with the dissipated energy D and the energy S
+/// that a drive has supplied. Energies in J, relative values in units of the energy scale.
+struct EnergyEntry {
+  double time = 0.0;                 ///< s
+  Energy energy;                     ///< not finite if the state is not
+  double supplied = 0.0;             ///< S(t)
+  double gain = 0.0;                 ///< E(t) - E(0) - S(t)
+  double relative_gain = 0.0;        ///< gain / scale
+  std::optional<double> dissipated;  ///< nothing if not tracked
+  std::optional<double> residual;    ///< E(t) + D(t) - E(0) - S(t)
+  std::optional<double> relative_residual;
 };
 
 /// Computes the energies of a state.

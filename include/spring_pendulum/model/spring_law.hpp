@@ -14,6 +14,10 @@ struct SpringLaw {
   double rest_length = 1.0;  ///< L_0, m, at least 0
 };
 
+inline bool operator==(const SpringLaw& a, const SpringLaw& b) {
+  return a.stiffness == b.stiffness && a.damping == b.damping && a.rest_length == b.rest_length;
+}
+
 /// A vector in the plane of the motion.
 template <typename Value>
 struct PlaneVector {

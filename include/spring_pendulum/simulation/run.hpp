@@ -1,6 +1,6 @@
-// One run of a scenario: the simulation loop of every program.
+// One run of a scene: the simulation loop of every program.
 //
-//     Run run(scenario, particles);
+//     Run run(scene, plan);
 //     while (run.advance()) show(run.state());
 //     print(run.closingLine());
 //
@@ -11,22 +11,23 @@
 
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/drive.hpp>
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/energy.hpp>
+#include <spring_pendulum/model/scene.hpp>
 #include <spring_pendulum/model/state.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
-#include <spring_pendulum/simulation/reference_run.hpp>
-#include <spring_pendulum/simulation/scenario.hpp>
+#include <spring_pendulum/simulation/plan.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
+
+class Judge;
+struct JudgeOptions;
+class ReferenceRun;
 
 struct RunOptions {
   /// Integrate the dissipated energy whatever it costs. Without this, a run does it if that takes at
@@ -42,17 +43,15 @@ struct RunOptions {
   bool measure_seconds = true;
 };
 
-/// Returns the state in which a run of the particles starts: theirs, or with `Start::kAtRest` the
-/// equilibrium of the chain. A resumed run goes on from the state of its particles.
-State startOf(const Scenario& scenario, const Chain& chain, const Particles& particles);
-
 class Run {
  public:
   /// \throws InputError for a value out of its range, a tolerance below the rounding errors of the
-  ///   positions, an initial energy beyond the range of double, or particles at a frame that the
-  ///   scenario does not have
+  ///   positions, an initial energy beyond the range of double, or a frame of the scene that the plan
+  ///   does not have
   /// \throws std::runtime_error if the run is expected to need more memory than there is
-  Run(const Scenario& scenario, const Particles& particles, const RunOptions& options = {});
+  Run(const Scene& scene, const Plan& plan, const RunOptions& options = {});
+  Run(Run&&) noexcept;
+  ~Run();
 
   /// Advances to the next frame and judges it. The first call stays at the start.
   /// \returns whether this frame may be shown and written. If not, the run is over: the last frame
@@ -69,32 +68,32 @@ class Run {
 
   /// Goes to a frame and a state at it, as if the run had started there: energies, errors and verdict
   /// are relative to it until a reset. Changed constants and the drive stay.
-  /// \throws InputError if the scenario has no such frame or the chain cannot have the state
+  /// \throws InputError if the plan has no such frame or the chain cannot have the state
   void goTo(std::int64_t frame, const State& state);
 
   /// Continues from another state, with other constants and another drive. The energy balance counts
   /// the difference of the energies before and after as supplied. The reference run ends.
-  /// \param scenario its method, tolerance and constants replace those of the run; the frame interval stays
-  /// \param state      the current one, or one that differs from it
+  /// \param plan  its method and tolerance replace those of the run; the frame interval stays
+  /// \param state the current one, or one that differs from it
   /// \throws InputError for a value out of its range, a drive or a state that the chain cannot have,
   ///   and a change between fixed steps and error control inside a frame; nothing has changed then
-  void change(const Scenario& scenario, const Drive& drive, const State& state);
+  void change(const Plan& plan, const Constants& constants, const Drive& drive, const State& state);
 
   /// Whether no frame follows.
   bool isOver() const;
   /// Whether `RunOptions::stop` has stopped the run inside a frame. Only `reset` may follow.
   bool wasStopped() const { return stopped_; }
   /// Whether the current frame may be shown: yes unless the motion has diverged; after a divergence
-  /// only if `Scenario::on_divergence` is `kContinue` and the energy is finite.
+  /// only if `Plan::on_divergence` is `kContinue` and the energy is finite.
   bool isShown() const;
   /// Whether the current state is that of a frame.
   bool isAtFrame() const { return part_ == 0; }
   /// Whether every number of the state is finite.
   bool isFinite() const { return state_.values().allFinite(); }
 
-  const Scenario& scenario() const { return scenario_; }
+  const Plan& plan() const { return plan_; }
   const Chain& chain() const { return chain_; }
-  /// That of the scenario's method; `change` replaces it.
+  /// That of the plan's method; `change` replaces it.
   const Integrator& integrator() const { return *integrator_; }
   const State& start() const { return start_; }
   /// The frame of the start: 0, or that of the saved state from which the run goes on. Energies,
@@ -117,7 +116,7 @@ class Run {
   bool isChanged() const { return changed_; }
 
   /// The verdict on the run so far.
-  const Verdict& verdict() const { return judge_.worst(); }
+  const Verdict& verdict() const;
   /// The energy balance of the current state.
   EnergyEntry energyEntry() const;
   /// Whether the dissipated energy is computed.
@@ -125,7 +124,7 @@ class Run {
   /// Position error of the current state, and the largest one at the frames so far.
   PositionError positionError() const;
   /// Work of the reference run so far, s, see Integrator::work.
-  double referenceWork() const { return reference_ ? reference_->work() : 0.0; }
+  double referenceWork() const;
   /// The state of the reference run at `time()`; null if there is none or it has stopped.
   const State* referenceState() const;
 
@@ -133,10 +132,10 @@ class Run {
   /// \param output put after the time of integrating: ", 3.07 ms writing to /home/me/frames"
   std::string closingLine(const std::string& output = "") const;
   /// What was measured: "largest position error 0.00024 m at t = 9.8 s, energy balance not checked".
-  std::string measurements() const { return judge_.measurements(); }
+  std::string measurements() const;
   /// A line if the position error of an error-controlled method exceeds ten tolerances or cannot be
   /// known to that; else empty.
-  std::string toleranceRemark() const { return judge_.toleranceRemark(); }
+  std::string toleranceRemark() const;
 
  private:
   /// Numbers for the closing line, over all rounds.
@@ -152,7 +151,7 @@ class Run {
   void startReference(const State& start);
   void begin(std::int64_t frame, const State& state);
   void checkState(const State& state) const;
-  void setFrameSteps();
+  void divideFrames();
   void makeIntegrator();
   bool advanceTo(std::int64_t part);
   bool integrate(std::int64_t steps);
@@ -162,18 +161,19 @@ class Run {
   std::int64_t stepOfPart(std::int64_t part) const;
   double timeOfPart(std::int64_t part) const;
 
-  Scenario scenario_;
+  Plan plan_;
   RunOptions options_;
   Chain chain_;
   State start_;
   std::int64_t first_frame_;
   State state_;
   std::unique_ptr<Integrator> integrator_;
-  FrameSteps frame_steps_;  ///< with shorter steps for an error-controlled method
+  double step_;             ///< s; shorter than that of the plan for an error-controlled method
+  std::int64_t steps_;      ///< per frame
   std::int64_t parts_ = 1;  ///< per frame
   bool track_dissipation_;
-  Judge judge_;
-  std::optional<ReferenceRun> reference_;
+  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<ReferenceRun> reference_;  ///< null: none
   bool started_ = false;   ///< whether `advance` was called since the start or a reset
   std::int64_t frame_;     ///< last frame
   std::int64_t part_ = 0;  ///< completed parts of the next frame

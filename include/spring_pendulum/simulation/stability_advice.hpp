@@ -1,4 +1,4 @@
-// Advice on the step size: what --check prints, and what a run says of an unstable step size.
+// Advice on the step size: what --check prints.
 //
 // There is one largest stable step size: that of the linearised motion, confirmed by a run with it and a
 // run with a slightly larger step size, and corrected by bisection if they disagree. A chain too large
@@ -8,7 +8,7 @@
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
-#include <spring_pendulum/simulation/scenario.hpp>
+#include <spring_pendulum/simulation/plan.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <functional>
@@ -45,25 +45,25 @@ struct StabilityReport {
 double linearStepLimit(const Method& method, const Chain& chain, double duration);
 
 /// Returns the largest stable step size of a run, from a few trial runs. Independent of
-/// `Scenario::time_step`, except that it determines the duration.
+/// `Plan::time_step`, except that it determines the duration.
 /// \param stop asked during the trials; when it returns true, the result is not valid
-/// \throws InputError for a value of the scenario out of its range, as the functions below
-StableStep largestStableStep(const Chain& chain, const State& start, const Scenario& scenario,
+/// \throws InputError for a value of the plan out of its range, as the functions below
+StableStep largestStableStep(const Chain& chain, const State& start, const Plan& plan,
                              const std::function<bool()>& stop = {});
 
 /// Tries a run and finds the largest step sizes.
-/// \param start positions and velocities of the particles, used as `startOf` says
-StabilityReport checkStability(const Chain& chain, const State& start, const Scenario& scenario,
+/// \param start positions and velocities of the particles
+StabilityReport checkStability(const Chain& chain, const State& start, const Plan& plan,
                                const std::function<bool()>& stop = {});
 
 /// Returns one line if the time step is clearly above the stability limit of the method, whatever the
 /// positions of the particles; else an empty string. O(N) if it is empty.
 /// \param tries_run whether the run is tried as well, for about 0.02 s
-std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario,
+std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan,
                              bool tries_run = false);
 
 /// Returns one line with a remedy for a motion that diverged; empty if it was stopped.
-std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario,
+std::string remedyForDivergence(const Chain& chain, const State& start, const Plan& plan,
                                 const std::function<bool()>& stop = {});
 
 }  // namespace spring_pendulum

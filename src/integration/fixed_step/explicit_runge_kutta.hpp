@@ -23,7 +23,7 @@ namespace spring_pendulum {
 /// Performance settings; results do not depend on them, except for `track_dissipation`.
 struct EngineOptions {
   int threads = 0;  ///< largest number; 0: one per processor core
-  /// Particles per block. A block and its workspace should fit into the second-level cache.
+  /// Scene per block. A block and its workspace should fit into the second-level cache.
   Eigen::Index block_size = 4096;
   /// Least work per call and thread, s, see `work`. Waking a thread takes longer than less work.
   double least_work_per_thread = 1e-4;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/files/output_file.hpp"
-#include <spring_pendulum/simulation/energy_balance.hpp>
+#include <spring_pendulum/model/energy.hpp>
 
 #include <cstdint>
 #include <string>

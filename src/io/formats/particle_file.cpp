@@ -4,15 +4,15 @@
 
 namespace spring_pendulum {
 
-Particles parseParticles(std::string_view text, std::string_view name) {
+Scene parseParticles(std::string_view text, std::string_view name) {
   ParticleParser parser(name);
   parser.parse(text);
-  Particles particles = parser.particles();
+  Scene particles = parser.particles();
   particles.state.velocities().row(0).setZero();  // the first particle is fixed
   return particles;
 }
 
-Particles readParticleFile(const std::string& path) {
+Scene readParticleFile(const std::string& path) {
   return parseParticles(readTextFile(path), path);
 }
 

@@ -62,12 +62,12 @@ void ParticleParser::parseLine(std::string_view line) {
   last_line_ = line_number_;
 }
 
-Particles ParticleParser::particles(bool keep_negative_zeros) const {
+Scene ParticleParser::particles(bool keep_negative_zeros) const {
   if (rows_.empty()) {
     throw InputError(fmt::format("{}: no particles; write one line 'x y m' per particle", name_));
   }
   const auto size = static_cast<Eigen::Index>(rows_.size());
-  Particles result{AlignedNumbers(size), State(size)};
+  Scene result{AlignedNumbers(size), State(size)};
   const double zero = keep_negative_zeros ? -0.0 : 0.0;  // x + -0.0 is x, -0.0 + 0.0 is 0.0
   for (Eigen::Index i = 0; i < size; ++i) {
     const Row& row = rows_[static_cast<std::size_t>(i)];

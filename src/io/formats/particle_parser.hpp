@@ -1,7 +1,7 @@
 // The lines of a particle file.
 #pragma once
 
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/scene.hpp>
 
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ class ParticleParser {
 
   /// Returns the parsed particles, with velocity 0 if the file has none.
   /// \param keep_negative_zeros else, -0.0 becomes 0.0
-  Particles particles(bool keep_negative_zeros = false) const;
+  Scene particles(bool keep_negative_zeros = false) const;
   std::size_t size() const { return rows_.size(); }
   bool hasVelocities() const { return !velocities_.empty(); }
 

@@ -1,16 +1,20 @@
 #include "io/formats/run_files.hpp"
 
 #include "base/numbers.hpp"
+#include "io/files/paths.hpp"
 #include "io/formats/energy_file.hpp"
 #include "io/formats/frame_writer.hpp"
 #include "io/formats/state_file.hpp"
+#include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <system_error>
 
 namespace spring_pendulum {
 namespace {
@@ -27,8 +31,16 @@ TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config) {
           writesFrames(scenario) ? scenario.output : ""};
 }
 
-Particles readStart(const Scenario& scenario) {
-  return scenario.resume ? readStateFile(scenario) : readParticleFile(scenario.particles);
+Scene readScene(const Scenario& scenario, std::string_view argument) {
+  namespace fs = std::filesystem;
+  std::error_code error;  // other errors are left to the reader
+  const bool is_missing = fs::status(scenario.particles, error).type() == fs::file_type::not_found;
+  if (is_missing && scenario.particles == Scenario{}.particles) {
+    throw FileError(fmt::format("{}: no such file; give a particle file with {}",
+                                fullPath(scenario.particles), argument));
+  }
+  return makeScene(
+      scenario, scenario.resume ? readStateFile(scenario) : readParticleFile(scenario.particles));
 }
 
 struct RunFiles::Files {
@@ -64,9 +76,9 @@ struct RunFiles::Files {
   }
 };
 
-RunFiles::RunFiles(const Run& run, const std::string& config) : files_(new Files) {
+RunFiles::RunFiles(const Run& run, const Scenario& scenario, const std::string& config)
+    : files_(new Files) {
   files_->next_frame = run.firstFrame();
-  const Scenario& scenario = run.scenario();
   checkTouchedFiles(touchedFiles(scenario, config));
   if (!scenario.energy.empty()) files_->energy.emplace(scenario.energy, run.firstFrame());
   if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);

@@ -5,7 +5,7 @@
 #include "io/formats/particle_parser.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/simulation/plan.hpp>
 
 #include <fmt/format.h>
 
@@ -54,7 +54,7 @@ StateHead parseStateHead(std::string_view text, const Scenario& scenario) {
         scenario.particles));
   }
   checkFirstFrame(scenario, head->frame);
-  const double expected = frameSteps(scenario).timeOfFrame(head->frame);
+  const double expected = scenario.timeOfFrame(head->frame);
   // A run that changed its method counts its time from there, with other rounding errors.
   if (std::abs(head->time - expected) <= 1e-9 * expected) return *head;
   throw InputError(fmt::format(
@@ -100,14 +100,14 @@ void writeState(OutputFile& file, AlignedNumbers::ConstView masses, const State&
 
 }  // namespace
 
-Particles readStateFile(const Scenario& scenario) {
+Scene readStateFile(const Scenario& scenario) {
   const std::string text = readTextFile(scenario.particles);
   const StateHead head = parseStateHead(text, scenario);
   ParticleParser parser(scenario.particles);
   parser.parse(text);
   checkStateEnd(head, static_cast<std::int64_t>(parser.size()), parser.hasVelocities(),
                 text.back() == '\n', scenario.particles);
-  Particles particles = parser.particles(true);
+  Scene particles = parser.particles(true);
   particles.frame = head.frame;
   return particles;
 }

@@ -7,7 +7,7 @@
 
 #include "io/files/output_file.hpp"
 #include <spring_pendulum/base/aligned_numbers.hpp>
-#include <spring_pendulum/model/particles.hpp>
+#include <spring_pendulum/model/scene.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
@@ -20,7 +20,7 @@ namespace spring_pendulum {
 /// Reads the state file `Scenario::particles`. Numbers keep the sign of -0.0: a fixed-step run from
 /// this state has the bits of the run that saved it.
 /// \throws FileError, InputError
-Particles readStateFile(const Scenario& scenario);
+Scene readStateFile(const Scenario& scenario);
 
 /// Writes a state file.
 /// \throws FileError, InputError as OutputFile
@@ -45,7 +45,7 @@ class StateFile {
 
  private:
   OutputFile file_;
-  Particles last_;
+  Scene last_;
   double time_ = 0.0;  ///< s
 };
 

@@ -19,7 +19,7 @@ int printAdvice(const Run& run);
 
 /// Returns lines for standard error: a remark if the run needs much memory, a warning if its step size
 /// is too large.
-std::string remarksOn(const Run& run);
+std::string startLines(const Run& run);
 
 /// Prints the warnings on a run that has ended, or its divergence with a remedy.
 /// \returns the exit status of the program

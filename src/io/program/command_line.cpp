@@ -1,25 +1,21 @@
 #include "io/program/command_line.hpp"
 
-#include "base/numbers.hpp"
 #include "base/spelling.hpp"
-#include "io/files/paths.hpp"
 #include "io/files/text_file.hpp"
 #include "io/formats/yaml_tree.hpp"
 #include "io/program/arguments.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/io/run_files.hpp>
 
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
 #include <string_view>
-#include <system_error>
+#include <vector>
 
 namespace spring_pendulum {
 namespace {
@@ -239,17 +235,6 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
   checkScenario(scenario);
   if (options.isGiven(kMethodKey)) refuseUnused(given, options, scenario);
   return switches;
-}
-
-Particles readParticles(const Scenario& scenario, std::string_view argument) {
-  namespace fs = std::filesystem;
-  std::error_code error;  // other errors are left to the reader
-  const bool is_missing = fs::status(scenario.particles, error).type() == fs::file_type::not_found;
-  if (is_missing && scenario.particles == Scenario{}.particles) {
-    throw FileError(fmt::format("{}: no such file; give a particle file with {}",
-                                fullPath(scenario.particles), argument));
-  }
-  return readStart(scenario);
 }
 
 }  // namespace spring_pendulum

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "simulation/options/option_set.hpp"
-#include <spring_pendulum/io/particle_file.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <functional>
@@ -61,10 +60,5 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
 
 /// Returns the meaning of an option with its default in brackets, for the help text.
 std::string optionHelp(const Option& option);
-
-/// Reads the particle file of a scenario.
-/// \param argument how to name another file, for the error if the default file does not exist
-/// \throws InputError and FileError, see readParticleFile
-Particles readParticles(const Scenario& scenario, std::string_view argument = "--particles");
 
 }  // namespace spring_pendulum

@@ -16,7 +16,8 @@ Failure failureOf(const std::exception& error) {
   return {onOneLine(error.what()), bad_input ? kBadInput : kFileFailed};
 }
 
-int runProgram(const std::function<int()>& program) {
+int runProgram(const std::function<int()>& program,
+               const std::function<void(const std::string&)>& report) {
   prepareProcess();
   try {
     const int status = program();
@@ -24,7 +25,7 @@ int runProgram(const std::function<int()>& program) {
     return status;
   } catch (const std::exception& error) {
     const Failure failure = failureOf(error);
-    printError(failure.message + "\n");
+    report ? report(failure.message) : printError(failure.message + "\n");
     return failure.status;
   }
 }

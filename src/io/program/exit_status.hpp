@@ -17,8 +17,10 @@ struct Failure {
 /// Returns kBadInput for an InputError, kFileFailed for all other exceptions.
 Failure failureOf(const std::exception& error);
 
-/// Runs a program that prints to the standard streams: flushes its output and prints its failure.
+/// Runs a program: flushes its output and reports its failure.
+/// \param report gets the message of a failure; by default, it is a line on standard error
 /// \returns the exit status of the program or of its failure
-int runProgram(const std::function<int()>& program);
+int runProgram(const std::function<int()>& program,
+               const std::function<void(const std::string&)>& report = {});
 
 }  // namespace spring_pendulum

@@ -5,9 +5,8 @@
 #include "simulation/options/option_set.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/integration/smallest_tolerance.hpp>
-#include <spring_pendulum/model/equilibrium.hpp>
-#include <spring_pendulum/simulation/reference_run.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
 
@@ -45,10 +44,10 @@ std::vector<double> numbersOf(const Drive& drive) {
   return numbers;
 }
 
-bool isSame(const Scenario& a, const Scenario& b) {
-  return &a.method.get() == &b.method.get() && a.stiffness == b.stiffness &&
-         a.damping == b.damping && a.rest_length == b.rest_length && a.gravity == b.gravity &&
-         a.air_drag == b.air_drag && a.tolerance == b.tolerance;
+/// Whether the run has this method, this tolerance and these constants.
+bool isSame(const Scenario& wanted, const Run& run) {
+  return &wanted.method.get() == &run.plan().method.get() &&
+         wanted.tolerance == run.plan().tolerance && wanted.constants == run.chain().constants();
 }
 
 }  // namespace
@@ -57,7 +56,7 @@ Driver::Driver(const Run& run, InputLog* log)
     : run_(run),
       log_(log),
       fastest_(kLengthsPerSecond * std::max(chainLength(run.chain(), run.start()), 1.0)),
-      wanted_(run.scenario()) {}
+      wanted_{run.plan(), run.chain().constants()} {}
 
 std::string Driver::on(const SetConstant& request) {
   const std::string& name = request.name;
@@ -69,13 +68,14 @@ std::string Driver::on(const SetConstant& request) {
   const Option& option = all.find(name, "set");
   all.set(option, request.value, name);
   checkScenario(wanted);
-  const double largest = std::max({wanted.stiffness, wanted.damping, wanted.rest_length,
-                                   std::abs(wanted.gravity), wanted.air_drag});
+  const auto& [spring, gravity, air_drag] = wanted.constants;
+  const double largest =
+      std::max({spring.stiffness, spring.damping, spring.rest_length, std::abs(gravity), air_drag});
   if (largest > kLargest) {
     throw InputError(fmt::format("{}: must be at most {:g} while the chain moves", name, kLargest));
   }
   if (!wanted.method.get().hasFixedStep()) {
-    checkTolerance(wanted.tolerance, wanted.chainOf(run_.chain().masses()),
+    checkTolerance(wanted.tolerance, Chain(run_.chain().masses(), wanted.constants),
                    run_.isOver() ? run_.start() : run_.state());
   }
   wanted_ = wanted;
@@ -119,7 +119,7 @@ std::string Driver::on(const ClearForces& /*request*/) {
 
 std::string Driver::on(const ComeToRest& /*request*/) {
   if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
-  const Chain wanted = wanted_.chainOf(run_.chain().masses());
+  const Chain wanted = Chain(run_.chain().masses(), wanted_.constants);
   jump_ = std::make_unique<State>(equilibrium(wanted.drivenBy(run_.chain().drive()), run_.state()));
   return "the chain hangs at rest from the next state on";
 }
@@ -169,7 +169,7 @@ Drive Driver::driveUntil(double next_time, State& state) {
 
 Scenario Driver::possible() const {
   Scenario scenario = wanted_;
-  const Method& method = run_.scenario().method;
+  const Method& method = run_.plan().method;
   if (wanted_.method.get().hasFixedStep() != method.hasFixedStep() && !run_.isAtFrame()) {
     scenario.method = method;
   }
@@ -180,7 +180,7 @@ void Driver::apply(Run& run, double next_time, bool paused) {
   if (run.isOver()) return;
   // Most runs are left alone: for them, no state is copied.
   if (targets_.empty() && forces_.empty() && !jump_ && !run.chain().isDriven() &&
-      isSame(wanted_, run.scenario())) {
+      isSame(wanted_, run)) {
     return;
   }
   State state = jump_ ? *jump_ : run.state();
@@ -201,22 +201,22 @@ void Driver::apply(Run& run, double next_time, bool paused) {
     drive = {};
   }
   const Scenario scenario = possible();
-  const bool same = numbersOf(drive) == numbersOf(run.chain().drive()) &&
-                    isSame(scenario, run.scenario()) && state.values() == run.state().values();
+  const bool same = numbersOf(drive) == numbersOf(run.chain().drive()) && isSame(scenario, run) &&
+                    state.values() == run.state().values();
   if (same) return;
   try {
     const State before = run.state();
     const double time = run.time();
-    run.change(scenario, drive, state);
+    run.change(scenario, scenario.constants, drive, state);
     if (log_ != nullptr) log_->changed(run, before, time);
   } catch (...) {
-    wanted_ = run.scenario();
+    wanted_ = {run.plan(), run.chain().constants()};
     forces_.clear();
     throw;
   }
 }
 
-void Driver::reset(Run& run, const Particles* to) {
+void Driver::reset(Run& run, const Scene* to) {
   const double time = run.time();
   const State& state = to != nullptr ? to->state : run.start();
   targets_.clear();
@@ -224,10 +224,10 @@ void Driver::reset(Run& run, const Particles* to) {
   jump_.reset();
   if (run.isChanged()) {
     try {
-      run.change(possible(), {}, state);
+      run.change(possible(), wanted_.constants, {}, state);
     } catch (const InputError&) {  // what was wanted for another state is impossible at the start
-      wanted_ = run.scenario();
-      run.change(wanted_, {}, state);
+      wanted_ = {run.plan(), run.chain().constants()};
+      run.change(wanted_, wanted_.constants, {}, state);
     }
   }
   if (to != nullptr) {

@@ -4,6 +4,7 @@
 #include "ros/inputs/input_messages.hpp"
 #include "ros/inputs/requests.hpp"
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstddef>
 #include <map>
@@ -21,7 +22,7 @@ struct TimedForce {
   double end = 0.0;             ///< s of simulated time
 };
 
-/// Collects what acts on a run, and changes the run between two of its states. Particles are counted
+/// Collects what acts on a run, and changes the run between two of its states. Scene are counted
 /// from 0. In each interval between two states a held particle has the constant acceleration that
 /// brings it to rest relative to its target within two intervals.
 class Driver {
@@ -49,7 +50,7 @@ class Driver {
   void apply(Run& run, double next_time, bool paused);
 
   /// Lets go of everything and returns the run to its start, or to a frame and the state at it.
-  void reset(Run& run, const Particles* to = nullptr);
+  void reset(Run& run, const Scene* to = nullptr);
 
  private:
   Drive driveUntil(double next_time, State& state);

@@ -3,13 +3,14 @@
 #include "base/numbers.hpp"
 #include "ros/markers/markers.hpp"
 #include <spring_pendulum/base/errors.hpp>
-#include <spring_pendulum/simulation/reference_run.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
 
 #include <ros/console.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -107,9 +108,8 @@ void Handles::makeMenu() {
   menu_.insert("Save state", asks([](std::ptrdiff_t) { return SaveState{}; }));
   menu_.insert("Hold here", asks([](std::ptrdiff_t i) { return Hold{i, {}}; }));
   menu_.insert("Release", asks([](std::ptrdiff_t i) { return Release{i}; }));
-  const Scenario& launched = run_.scenario();
-  addSwitch("Damping", &Scenario::damping, launched.damping);
-  addSwitch("Gravity", &Scenario::gravity, launched.gravity);
+  addSwitch("damping", [](const Constants& c) { return c.spring.damping; });
+  addSwitch("gravity", [](const Constants& c) { return c.gravity; });
   const MenuHandler::EntryHandle methods = menu_.insert("Method");
   for (const Method& method : methodTable()) {
     menu_.insert(methods, method.name, asks([&method](std::ptrdiff_t) {
@@ -118,11 +118,14 @@ void Handles::makeMenu() {
   }
 }
 
-void Handles::addSwitch(const std::string& title, double Scenario::*constant, double launched) {
-  const double on = launched != 0.0 ? launched : Scenario{}.*constant;
-  const std::string name = constant == &Scenario::damping ? "damping" : "gravity";
-  menu_.insert(title + " on or off", asks([this, name, constant, on](std::ptrdiff_t) {
-                 return SetConstant{name, numberText(driver_.wanted().*constant == 0.0 ? on : 0.0)};
+void Handles::addSwitch(const std::string& name, double (*constant)(const Constants&)) {
+  const double launched = constant(run_.chain().constants());
+  const double on = launched != 0.0 ? launched : constant(Constants{});
+  std::string title = name + " on or off";
+  title.front() = static_cast<char>(std::toupper(title.front()));
+  menu_.insert(title, asks([this, name, constant, on](std::ptrdiff_t) {
+                 const bool is_off = constant(driver_.wanted().constants) == 0.0;
+                 return SetConstant{name, numberText(is_off ? on : 0.0)};
                }));
 }
 

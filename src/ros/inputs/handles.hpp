@@ -46,7 +46,7 @@ class Handles {
   void insert(std::ptrdiff_t particle, double size);
   geometry_msgs::Pose poseOf(std::ptrdiff_t particle) const;
   void makeMenu();
-  void addSwitch(const std::string& title, double Scenario::*constant, double launched);
+  void addSwitch(const std::string& name, double (*constant)(const Constants&));
   /// Asks the node, and logs a refusal.
   void ask(const Request& request);
   /// Returns an entry of the menu that asks for the request of a particle.

@@ -84,7 +84,7 @@ PendulumInput InputLog::messageOf(const Run& run, double time) {
   message.time = time;
   message.frame = run.frame();
   message.display_interval = display_interval_;
-  Scenario scenario = run.scenario();
+  Scenario scenario{run.plan(), run.chain().constants()};
   for (const Option& option : scenarioOptions(scenario)) {
     if (isRecorded(option))
       message.scenario.push_back(fmt::format("{}={}", option.key, option.text()));
@@ -208,18 +208,18 @@ void Replay::check(const PendulumInput& input) const {
   if (!complete) refuse(input, "is not complete");
 }
 
-Particles Replay::begin(Scenario& scenario) const {
+Scene Replay::begin(Scenario& scenario) const {
   try {
     scenario.start = Start::kFile;
     setScenario(scenario, *first_);
     const auto size = static_cast<std::ptrdiff_t>(first_->masses.size());
-    Particles particles{AlignedNumbers(size), State(size), first_->frame};
-    std::copy(first_->masses.begin(), first_->masses.end(), particles.masses.data());
-    setStates(particles.state, *first_);
-    Scenario copy = scenario;
-    copy.reference = ReferenceUse::kNever;
-    const Run run(copy, particles);  // refuses what no run can start with
-    return particles;
+    Scene scene{AlignedNumbers(size), State(size), first_->frame, scenario.constants};
+    std::copy(first_->masses.begin(), first_->masses.end(), scene.masses.data());
+    setStates(scene.state, *first_);
+    Plan plan = scenario;
+    plan.reference = ReferenceUse::kNever;
+    const Run run(scene, plan);  // refuses what no run can start with
+    return scene;
   } catch (const InputError& error) {
     refuse(*first_, error.what());
   }
@@ -244,11 +244,11 @@ void Replay::act(const PendulumInput& input, Run& run) const {
         fmt::format("acted at t = {} s, where this run has no state", numberText(input.time)));
   }
   if (input.start != 0 && input.masses != first_->masses) throw InputError("has other masses");
-  Scenario scenario = run.scenario();
+  Scenario scenario{run.plan(), run.chain().constants()};
   setScenario(scenario, input);
   State state = run.state();
   setStates(state, input);
-  run.change(scenario, driveOf(input), state);
+  run.change(scenario, scenario.constants, driveOf(input), state);
   if (input.start != 0) run.goTo(input.frame, state);
 }
 

@@ -3,6 +3,7 @@
 
 #include <spring_pendulum/PendulumInput.h>
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <ros/time.h>
 #include <rosbag/bag.h>
@@ -55,7 +56,7 @@ class Replay {
   explicit Replay(const std::string& path);
 
   /// Sets the options of the run, apart from files, and returns its particles.
-  Particles begin(Scenario& scenario) const;
+  Scene begin(Scenario& scenario) const;
   double displayInterval() const { return first_->display_interval; }
 
   /// Changes the run as the inputs did at its current time. Must be called after every state.

@@ -4,7 +4,7 @@
 // callback turns its message into a request and hands it to the node, which acts on it and answers.
 #pragma once
 
-#include <spring_pendulum/model/drive.hpp>
+#include <spring_pendulum/model/chain.hpp>
 
 #include <cstddef>
 #include <functional>

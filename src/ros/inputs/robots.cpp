@@ -4,7 +4,6 @@
 #include "base/spelling.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/simulation/reference_run.hpp>
 
 #include <fmt/format.h>
 

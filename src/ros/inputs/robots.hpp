@@ -1,4 +1,4 @@
-// Particles that robots hold: input from topics or tf, output of the force on each holder.
+// Scene that robots hold: input from topics or tf, output of the force on each holder.
 #pragma once
 
 #include "ros/inputs/driver.hpp"

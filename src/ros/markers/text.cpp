@@ -22,7 +22,7 @@ std::string joined(std::initializer_list<std::string> texts) {
 
 std::string label(const Picture& picture) {
   const Run& run = picture.run;
-  const Scenario& scenario = run.scenario();
+  const Plan& plan = run.plan();
   const Verdict& verdict = run.verdict();
   const std::string clock = fmt::format("t = {:.2f} s", run.time());
   const auto residual = run.energyEntry().relative_residual;
@@ -35,13 +35,13 @@ std::string label(const Picture& picture) {
                   isBad(verdict.kind) ? fmt::format(" at {:.4g} s", verdict.time) : "");
   if (picture.options.text_row > 0) {
     return joined(
-        {scenario.method.get().name + ": " + clock, position.empty() ? energy : position, judged});
+        {plan.method.get().name + ": " + clock, position.empty() ? energy : position, judged});
   }
-  const std::string control = scenario.method.get().hasFixedStep()
-                                  ? fmt::format("time step {:.3g} s", scenario.time_step)
-                                  : fmt::format("tolerance {:.3g} m", scenario.tolerance);
+  const std::string control = plan.method.get().hasFixedStep()
+                                  ? fmt::format("time step {:.3g} s", plan.time_step)
+                                  : fmt::format("tolerance {:.3g} m", plan.tolerance);
   const auto drawn = static_cast<Eigen::Index>(picture.drawn.size()), all = run.chain().size();
-  return joined({scenario.method.get().name, control, clock}) + "\n" +
+  return joined({plan.method.get().name, control, clock}) + "\n" +
          joined({position, energy, judged}) + "\n" +
          joined({picture.pace, fmt::format("grid {:g} m", picture.view.gridDistance()),
                  drawn < all ? fmt::format("{} of {} particles drawn", drawn, all) : ""});

@@ -66,9 +66,8 @@ PendulumStatus statusOf(const Run& run, bool paused) {
     status.text = fmt::format("paused at frame {}, t = {:.6g} s", run.frame(), run.time());
   } else {
     status.code = PendulumStatus::RUNNING;
-    status.text =
-        fmt::format("running, {} to t = {:.6g} s", counted(run.scenario().frames, "frame"),
-                    frameSteps(run.scenario()).timeOfFrame(run.scenario().frames - 1));
+    status.text = fmt::format("running, {} to t = {:.6g} s", counted(run.plan().frames, "frame"),
+                              run.plan().timeOfFrame(run.plan().frames - 1));
   }
   status.text += ", verdict: " + verdict.text;
   return status;
@@ -80,7 +79,7 @@ void setState(PendulumState& message, const Run& run, const std_msgs::Header& he
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const EnergyEntry entry = run.energyEntry();
   message.header = header;
-  message.method = run.scenario().method.get().name;
+  message.method = run.plan().method.get().name;
   message.frame = run.frame();
   message.at_frame = run.isAtFrame() ? 1 : 0;
   message.time = run.time();
@@ -101,8 +100,8 @@ void setState(PendulumState& message, const Run& run, const std_msgs::Header& he
 
 RunMessages::RunMessages(const Run& run, const NodeOptions& options, bool simulated)
     : frame_id_(options.frame_id), stamps_(simulated), markers_(run, options) {
-  const Scenario& scenario = run.scenario();
-  if (simulated) Stamps(true).next(frameSteps(scenario).timeOfFrame(scenario.frames - 1));
+  const Plan& plan = run.plan();
+  if (simulated) Stamps(true).next(plan.timeOfFrame(plan.frames - 1));
 }
 
 std_msgs::Header RunMessages::header(double simulated_time) {

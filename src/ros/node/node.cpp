@@ -41,11 +41,12 @@ ros::Time wallClock() {
 }  // namespace
 
 Node::Node(ros::NodeHandle& node, ros::NodeHandle& private_node,
-           const NodeConfiguration& configuration, const Particles& particles)
+           const NodeConfiguration& configuration, const Scene& scene)
     : options_(configuration.options),
-      run_(configuration.scenario, particles,
-           {options_.track_dissipation || !configuration.scenario.energy.empty(),
-            options_.displayInterval(), interruption}),
+      scenario_(configuration.scenario),
+      run_(scene, scenario_,
+           {options_.track_dissipation || !scenario_.energy.empty(), options_.displayInterval(),
+            interruption}),
       publisher_(node, run_, options_),
       pacer_(options_.real_time_factor, options_.display_rate),
       inputs_(node.advertise<PendulumInput>("inputs", kMostInputs,
@@ -61,7 +62,7 @@ Node::Node(ros::NodeHandle& node, ros::NodeHandle& private_node,
       robots_(node, run_, options_, driver_, frames_),
       services_(advertiseServices(private_node, frames_,
                                   [this](const Request& request) { return take(request); })),
-      files_(run_),
+      files_(run_, scenario_),
       log_(run_, files_, publisher_, options_.at_end == AtEnd::kHold),
       values_(configuration.values) {
   if (!options_.follow.empty()) {
@@ -78,7 +79,7 @@ void Node::record(PendulumInput input) {
 }
 
 void Node::spin() {
-  logStart(run_, options_, files_);
+  logStart(run_, scenario_, options_, files_);
   ROS_INFO_STREAM("parameters: " << values_);
   run_.advance();
   input_log_.started(run_, run_.time());
@@ -169,7 +170,7 @@ void Node::change(double next_time, bool paused) {
   }
 }
 
-void Node::goTo(const Particles* to) {
+void Node::goTo(const Scene* to) {
   handles_.reset();
   driver_.reset(run_, to);
   robots_.reset();
@@ -266,10 +267,10 @@ std::string Node::on(const Reset& /*request*/) {
 std::string Node::on(const SaveState& request) {
   if (last_frame_.size() == 0) throw InputError("the run has not started yet");
   const std::string path = request.file.empty() ? kDefaultStateFile : request.file;
-  TouchedFiles touched = touchedFiles(run_.scenario(), "");
+  TouchedFiles touched = touchedFiles(scenario_, "");
   touched.outputs.push_back(path);
   checkTouchedFiles(touched);
-  const double time = frameSteps(run_.scenario()).timeOfFrame(last_frame_number_);
+  const double time = run_.plan().timeOfFrame(last_frame_number_);
   writeStateFile(path, run_.chain(), last_frame_, last_frame_number_, time);
   std::string sentence =
       fmt::format("frame {}, t = {:.6g} s, is in {}", last_frame_number_, time, fullPath(path));
@@ -279,12 +280,13 @@ std::string Node::on(const SaveState& request) {
 
 std::string Node::on(const LoadState& request) {
   if (last_frame_.size() == 0) throw InputError("the run has not started yet");
-  Scenario scenario = run_.scenario();
+  Scenario scenario = scenario_;
+  static_cast<Plan&>(scenario) = run_.plan();
   const std::string& given = scenario.save_state;
   scenario.particles = !request.file.empty() ? request.file
                        : !given.empty()      ? given
                                              : kDefaultStateFile;
-  const Particles loaded = readStateFile(scenario);
+  const Scene loaded = readStateFile(scenario);
   if (loaded.masses.size() != run_.chain().size() ||
       loaded.masses.view() != run_.chain().masses()) {
     throw InputError(

@@ -24,7 +24,7 @@ class Node {
   /// Removes the frames of earlier runs.
   /// \throws InputError, FileError before that for a run that is impossible
   Node(ros::NodeHandle& node, ros::NodeHandle& private_node, const NodeConfiguration& configuration,
-       const Particles& particles);
+       const Scene& scene);
 
   /// Runs until the end of the run, of ROS, or a signal.
   void spin();
@@ -52,7 +52,7 @@ class Node {
   void serve();
   void advance();
   void change(double next_time, bool paused);
-  void goTo(const Particles* to);
+  void goTo(const Scene* to);
   void finishState();
   void show();
   void end();
@@ -60,6 +60,7 @@ class Node {
   std::string overMessage() const;
 
   NodeOptions options_;
+  Scenario scenario_;
   Run run_;
   Publisher publisher_;
   Pacer pacer_;

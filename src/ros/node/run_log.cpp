@@ -5,9 +5,7 @@
 #include "io/program/closing.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/standard_streams.hpp"
-#include "simulation/expected_cost.hpp"
-#include "simulation/options/scenario_options.hpp"
-#include <spring_pendulum/simulation/stability_advice.hpp>
+#include <spring_pendulum/simulation/outcome.hpp>
 
 #include <fmt/format.h>
 
@@ -42,16 +40,13 @@ void logFatal(const std::string& text) {
   }
 }
 
-void logStart(const Run& run, const NodeOptions& options, const RunFiles& files) {
-  const Scenario& scenario = run.scenario();
+void logStart(const Run& run, const Scenario& scenario, const NodeOptions& options,
+              const RunFiles& files) {
   ROS_INFO_STREAM(scenario.method.get().name << " on " << fullPath(scenario.particles) << ", "
                                              << files.description());
-  const std::string warning = stabilityWarning(run.chain(), run.start(), scenario, true);
-  if (!warning.empty()) ROS_WARN_STREAM(warning);
-  const std::string memory = memoryRemark(scenario, run.chain().size());
-  if (!memory.empty()) ROS_INFO_STREAM(memory);
-  const std::string remark = remarkOn(scenario);
-  if (!remark.empty()) ROS_INFO_STREAM(remark);
+  const Remarks remarks = remarksOn(run, true);
+  if (!remarks.warning.empty()) ROS_WARN_STREAM(remarks.warning);
+  for (const std::string& note : remarks.notes) ROS_INFO_STREAM(note);
   if (!options.follow.empty()) {
     ROS_INFO_STREAM(scenario.method.get().name << ": waiting for states of another node on "
                                                << options.follow << " (follow)");
@@ -70,15 +65,12 @@ void RunLog::update() {
   }
   last_frame_ = run_.frame();
   const Verdict& verdict = run_.verdict();
-  const std::string& method = run_.scenario().method.get().name;
+  const std::string& method = run_.plan().method.get().name;
   if (verdict.kind > said_verdict_) {
     said_verdict_ = verdict.kind;
     if (verdict.kind == VerdictKind::kDiverged) {
-      const std::string remedy =
-          run_.isChanged()
-              ? "hands, forces or changes have driven the run; call ~reset to start again"
-              : remedyForDivergence(run_.chain(), run_.start(), run_.scenario(), interruption);
-      ROS_ERROR_STREAM(method << ": " << verdict.text << (remedy.empty() ? "" : "; ") << remedy);
+      ROS_ERROR_STREAM(method << ": " << outcomeOf(run_, interruption).lines.front()
+                              << (run_.isChanged() ? "; call ~reset to start again" : ""));
     } else if (verdict.kind != VerdictKind::kNotChecked) {
       ROS_WARN_STREAM(method << ": " << verdict.text);
     }

@@ -4,6 +4,7 @@
 #include "io/formats/run_files.hpp"
 #include "ros/node/publisher.hpp"
 #include <spring_pendulum/simulation/run.hpp>
+#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +18,8 @@ void logFatal(const std::string& text);
 
 /// Logs the run, a warning if the time step is too large, and a display rate above the number of
 /// states.
-void logStart(const Run& run, const NodeOptions& options, const RunFiles& files);
+void logStart(const Run& run, const Scenario& scenario, const NodeOptions& options,
+              const RunFiles& files);
 
 class RunLog {
  public:

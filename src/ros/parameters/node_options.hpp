@@ -1,7 +1,7 @@
 // The ROS options besides the scenario: display, pace and publishing.
 #pragma once
 
-#include "simulation/options/option.hpp"
+#include <spring_pendulum/simulation/option.hpp>
 
 #include <cstdint>
 #include <map>

@@ -4,8 +4,8 @@
 #include "integration/tableau.hpp"
 #include "integration/taylor/stabilized_polynomials.hpp"
 #include "model/chain_modes.hpp"
+#include "simulation/judge.hpp"
 #include <spring_pendulum/simulation/stability_advice.hpp>
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,10 @@
 #include "base/numbers.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "simulation/advice/linear_stability.hpp"
+#include "simulation/judge.hpp"
 #include "simulation/options/scenario_options.hpp"
-#include <spring_pendulum/integration/smallest_tolerance.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/stability_advice.hpp>
 
@@ -43,9 +45,8 @@ double roundedDown(double step) {
 }
 
 /// Simulated time of a run, s.
-double durationOf(const Scenario& scenario) {
-  const FrameSteps step = frameSteps(scenario);
-  return std::clamp(step.timeOfFrame(scenario.frames - 1), step.time_step, 1e300);
+double durationOf(const Plan& plan) {
+  return std::clamp(plan.timeOfFrame(plan.frames - 1), plan.step(), 1e300);
 }
 
 struct Trial {
@@ -61,49 +62,41 @@ struct Trial {
 /// Trial runs of a scene.
 class Trials {
  public:
-  Trials(const Chain& chain, const State& start, const Scenario& scenario,
-         std::function<bool()> stop = {})
-      : scenario_(scenario), particles_{chain.masses(), start}, stop_(std::move(stop)) {
+  Trials(const Chain& chain, const State& start, const Plan& plan, std::function<bool()> stop = {})
+      : plan_(plan), scene_{chain.masses(), start, 0, chain.constants()}, stop_(std::move(stop)) {
     requireSize(chain.size(), start.size());
-    checkScenario(scenario);
-    scenario_.stiffness = chain.spring().stiffness;
-    scenario_.damping = chain.spring().damping;
-    scenario_.rest_length = chain.spring().rest_length;
-    scenario_.gravity = chain.gravity();
-    scenario_.air_drag = chain.airDrag();
-    particles_.state = startOf(scenario_, chain, particles_);
-    scenario_.start = Start::kFile;
-    scenario_.on_divergence = OnDivergence::kStop;
-    scenario_.threads = 1;
-    scenario_.sleep = 0.0;
-    interval_ = frameSteps(scenario_).timeOfFrame(1);
-    duration_ = durationOf(scenario_);
-    const Method& method = scenario_.method;
+    checkPlan(plan);
+    plan_.on_divergence = OnDivergence::kStop;
+    plan_.threads = 1;
+    plan_.sleep = 0.0;
+    interval_ = plan_.timeOfFrame(1);
+    duration_ = durationOf(plan_);
+    const Method& method = plan_.method;
     const bool has_kernel = method.tableau != nullptr && chain.isPlain() &&
                             findAdvanceKernel(fastestChainKernels(), *method.tableau) != nullptr;
     evaluation_time_ = method.hasFixedStep() && !has_kernel ? kPlainTime : 0.0;
   }
 
-  /// That of the constructor with the start and the constants of the trials.
-  const Scenario& scenario() const { return scenario_; }
+  /// That of the constructor with the options of the trials.
+  const Plan& plan() const { return plan_; }
   double duration() const { return duration_; }
-  const State& start() const { return particles_.state; }
+  const State& start() const { return scene_.state; }
   bool isExhausted() const { return total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_()); }
 
-  /// Runs a variant of `scenario()` until the verdict is `enough` or worse.
-  Trial run(const Scenario& scenario, ReferenceUse reference,
-            VerdictKind enough = VerdictKind::kDiverged, double most_work = kTrialWork) {
+  /// Runs a variant of `plan()` until the verdict is `enough` or worse.
+  Trial run(const Plan& plan, ReferenceUse reference, VerdictKind enough = VerdictKind::kDiverged,
+            double most_work = kTrialWork) {
     if (isExhausted()) return {};
-    Scenario tried = scenario;
+    Plan tried = plan;
     tried.reference = reference;
     const Integrator* counted = nullptr;
     double frames = 0.0;
     const auto work = [&] {
       return counted->work() + evaluation_time_ * static_cast<double>(counted->forceEvaluations()) +
-             frames * kFrameTime * (static_cast<double>(particles_.state.size()) + 10.0);
+             frames * kFrameTime * (static_cast<double>(scene_.state.size()) + 10.0);
     };
     // The negated comparison also ends a method whose work is not a number.
-    Run run(tried, particles_,
+    Run run(scene_, tried,
             {false, 0.0, [&] { return !(work() < most_work) || (stop_ && stop_()); }});
     counted = &run.integrator();
     while (run.advance() && run.verdict().kind < enough) ++frames;
@@ -119,17 +112,17 @@ class Trials {
     constexpr double kMostSteps = 1e9;
     if (duration_ / step > kMostSteps) return {};
     const double interval = std::clamp(interval_, duration_ / kMostFrames, duration_);
-    Scenario scenario = scenario_;
-    scenario.time_step = step;
-    scenario.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
-    const double frames = std::round(duration_ / frameSteps(scenario).timeOfFrame(1));
-    scenario.frames = static_cast<std::int64_t>(std::clamp(frames, 1.0, 1e9)) + 1;
-    return run(scenario, reference, enough);
+    Plan plan = plan_;
+    plan.time_step = step;
+    plan.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
+    const double frames = std::round(duration_ / plan.timeOfFrame(1));
+    plan.frames = static_cast<std::int64_t>(std::clamp(frames, 1.0, 1e9)) + 1;
+    return run(plan, reference, enough);
   }
 
  private:
-  Scenario scenario_;
-  Particles particles_;
+  Plan plan_;
+  Scene scene_;
   std::function<bool()> stop_;
   double interval_ = 0.0;         ///< between frames, s
   double duration_ = 0.0;         ///< s
@@ -178,8 +171,8 @@ Found largestPassingStep(double first, double most, double failed,
   return found;
 }
 
-StableStep stableStep(Trials& trials, const Chain& chain, const Scenario& scenario) {
-  const Method& method = scenario.method;
+StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
+  const Method& method = plan.method;
   if (!method.hasFixedStep()) return {};
   // Without damping, some methods gain energy with every step size: only trials tell how much.
   const bool has_limit = method.imaginary_stability_limit > 0.0 || chain.isDissipative();
@@ -197,19 +190,19 @@ StableStep stableStep(Trials& trials, const Chain& chain, const Scenario& scenar
 }
 
 /// Returns the largest step size without a bad verdict, up to the stable one.
-/// \param trial of the scenario, whose error grows with a power of the step size: the order of the method
+/// \param trial of the plan, whose error grows with a power of the step size: the order of the method
 /// \returns NaN if a reference run would take too long
-Found accurateStep(Trials& trials, const Chain& chain, const Scenario& scenario, const Trial& trial,
+Found accurateStep(Trials& trials, const Chain& chain, const Plan& plan, const Trial& trial,
                    double stable) {
-  const Method& method = scenario.method;
+  const Method& method = plan.method;
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, trials.start());
   const double error = trial.position_error.largest;
   const double factor = std::pow(allowed / error, 1.0 / std::max(method.order, 1));
   double failed = kInfinity;
-  if (isBad(trial.verdict.kind)) failed = scenario.time_step;
+  if (isBad(trial.verdict.kind)) failed = plan.time_step;
   bool is_judged = true;
   Found found = largestPassingStep(
-      std::isfinite(error) ? scenario.time_step * factor : scenario.time_step,
+      std::isfinite(error) ? plan.time_step * factor : plan.time_step,
       std::min(stable, trials.duration()), failed, [&](double step) -> std::optional<bool> {
         const Trial tried = trials.runWithStep(step, ReferenceUse::kAuto, VerdictKind::kInaccurate);
         is_judged = is_judged && (tried.judged || !tried.isStable());
@@ -239,78 +232,77 @@ std::string textOf(const Found& accurate) {
 
 }  // namespace
 
-StableStep largestStableStep(const Chain& chain, const State& start, const Scenario& scenario,
+StableStep largestStableStep(const Chain& chain, const State& start, const Plan& plan,
                              const std::function<bool()>& stop) {
-  Trials trials(chain, start, scenario, stop);
-  return stableStep(trials, chain, scenario);
+  Trials trials(chain, start, plan, stop);
+  return stableStep(trials, chain, plan);
 }
 
-StabilityReport checkStability(const Chain& chain, const State& start, const Scenario& scenario,
+StabilityReport checkStability(const Chain& chain, const State& start, const Plan& plan,
                                const std::function<bool()>& stop) {
-  Trials trials(chain, start, scenario, stop);
-  const Method& method = scenario.method;
+  Trials trials(chain, start, plan, stop);
+  const Method& method = plan.method;
   const bool fixed = method.hasFixedStep();
   StabilityReport report;
-  const Trial trial = trials.run(trials.scenario(), ReferenceUse::kAuto);
+  const Trial trial = trials.run(trials.plan(), ReferenceUse::kAuto);
   report.tried = trial.finished;
   if (trial.finished) {
     report.verdict = trial.verdict;
     report.position_error = trial.position_error;
-    report.text =
-        fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
-                    fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
-                                numberText(fixed ? scenario.time_step : scenario.tolerance)),
-                    trials.duration(), trial.verdict.text, trial.measurements);
+    report.text = fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
+                              fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
+                                          numberText(fixed ? plan.time_step : plan.tolerance)),
+                              trials.duration(), trial.verdict.text, trial.measurements);
   } else {
     report.text = fmt::format("{}: takes too long to try\n", method.name);
   }
   if (!fixed) return report;
-  report.stable = stableStep(trials, chain, scenario);
+  report.stable = stableStep(trials, chain, plan);
   report.text += fmt::format("largest stable step size: {}\n", textOf(report.stable));
   if (!trial.finished) return report;
-  const Found accurate = accurateStep(trials, chain, scenario, trial, report.stable.step);
+  const Found accurate = accurateStep(trials, chain, plan, trial, report.stable.step);
   report.accurate_step = accurate.step;
   report.text += fmt::format("largest accurate step size: {}\n", textOf(accurate));
   return report;
 }
 
-std::string stabilityWarning(const Chain& chain, const State& start, const Scenario& scenario,
+std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan,
                              bool tries_run) {
-  const Method& method = scenario.method;
-  if (!method.hasFixedStep() || scenario.frames < 2) return {};
-  checkScenario(scenario);
-  const bool clearly = isClearlyUnstable(method, chain, scenario.time_step, durationOf(scenario));
+  const Method& method = plan.method;
+  if (!method.hasFixedStep() || plan.frames < 2) return {};
+  checkPlan(plan);
+  const bool clearly = isClearlyUnstable(method, chain, plan.time_step, durationOf(plan));
   std::string found;
   if (!clearly) {
     if (!tries_run) return {};
-    Trials trials(chain, start, scenario);  // copies the state
+    Trials trials(chain, start, plan);  // copies the state
     const Trial trial =
-        trials.run(trials.scenario(), ReferenceUse::kNever, VerdictKind::kGainedEnergy, kShortWork);
+        trials.run(trials.plan(), ReferenceUse::kNever, VerdictKind::kGainedEnergy, kShortWork);
     if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
     found = fmt::format(" ({})", trial.verdict.text);
   }
   return fmt::format("{} {} unstable with a time step of {} s{}; {}", method.name,
-                     clearly ? "may be" : "is", numberText(scenario.time_step), found,
-                     remedyForDivergence(chain, start, scenario));
+                     clearly ? "may be" : "is", numberText(plan.time_step), found,
+                     remedyForDivergence(chain, start, plan));
 }
 
-std::string remedyForDivergence(const Chain& chain, const State& start, const Scenario& scenario,
+std::string remedyForDivergence(const Chain& chain, const State& start, const Plan& plan,
                                 const std::function<bool()>& stop) {
-  Trials trials(chain, start, scenario, stop);
-  const Method& method = scenario.method;
-  std::string text = fmt::format("try a tolerance below {} m", numberText(scenario.tolerance));
+  Trials trials(chain, start, plan, stop);
+  const Method& method = plan.method;
+  std::string text = fmt::format("try a tolerance below {} m", numberText(plan.tolerance));
   if (method.hasFixedStep()) {
-    const StableStep stable = stableStep(trials, chain, scenario);
+    const StableStep stable = stableStep(trials, chain, plan);
     // The equations of an implicit method may have no solution for this step, and one for larger steps.
-    text = stable.step > scenario.time_step
-               ? fmt::format("try a step below {} s", numberText(scenario.time_step))
+    text = stable.step > plan.time_step
+               ? fmt::format("try a step below {} s", numberText(plan.time_step))
                : fmt::format("largest stable step for {}: {}", method.name, textOf(stable));
   }
   if (method.name != "Auto") {
-    Scenario other = trials.scenario();
+    Plan other = trials.plan();
     other.method = findMethod("Auto");
-    other.frame_interval = std::clamp(frameSteps(scenario).timeOfFrame(1), 1e-300, 1e6);
-    other.tolerance = std::max(method.hasFixedStep() ? Scenario{}.tolerance : scenario.tolerance,
+    other.frame_interval = std::clamp(plan.timeOfFrame(1), 1e-300, 1e6);
+    other.tolerance = std::max(method.hasFixedStep() ? Plan{}.tolerance : plan.tolerance,
                                smallestTolerance(chain, trials.start()));
     if (trials.run(other, ReferenceUse::kNever, VerdictKind::kGainedEnergy).isStable())
       text += "; or use Auto";

@@ -1,8 +1,7 @@
-#include "simulation/options/option.hpp"
-
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/simulation/option.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

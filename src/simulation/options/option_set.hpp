@@ -1,7 +1,7 @@
 // The options of a program, set from one or more sources. Later sources override earlier ones.
 #pragma once
 
-#include "simulation/options/option.hpp"
+#include <spring_pendulum/simulation/option.hpp>
 
 #include <map>
 #include <string>

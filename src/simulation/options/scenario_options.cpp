@@ -3,127 +3,171 @@
 #include "base/numbers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
-#include <spring_pendulum/simulation/frame_steps.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <variant>
 
 namespace spring_pendulum {
 namespace {
 
-bool isUnused(const Option& option, const Scenario& scenario) {
+bool isUnused(const Option& option, const Plan& plan) {
   const AppliesTo other =
-      scenario.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
+      plan.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
   return option.applies_to == other;
 }
 
-/// Whether an option is not a number, or a number within its range.
-bool isInRange(const Option& option) {
-  if (const auto* number = std::get_if<Number>(&option.value)) {
-    return number->accepted.contains(*number->value);
-  }
-  const auto* const count = std::get_if<Count>(&option.value);
-  return count == nullptr || count->accepted.contains(static_cast<double>(*count->value));
-}
-
-}  // namespace
-
-std::vector<Option> scenarioOptions(Scenario& s) {
-  constexpr auto kFixedStep = AppliesTo::kFixedStep;
-  constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
-  return {
-      {"method", MethodName{&s.method}, "", "integration method, one of Exercise3 --list-methods"},
-      {"particles", Text{&s.particles, "FILE", "a file"}, "",
-       "particle file, one line 'x y m' or 'x y m vx vy' per particle; the first particle is "
-       "fixed"},
-      {"resume", Flag{&s.resume}, "",
-       "go on from the frame and time of the particle file, which is a file of save_state; frames "
-       "before it stay"},
-      {"output", Text{&s.output, "DIR", "a folder"}, "",
-       "folder for the frame files, created if absent"},
-      {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
-      {"energy", Text{&s.energy, "FILE", "a file", anyText}, "",
-       "CSV file for the energy balance, one row per frame; its folder is created if absent"},
-      {"save_state", Text{&s.save_state, "FILE", "a file", anyText}, "",
-       "file for the state at the last frame, a particle file to resume from; its folder is "
-       "created "
-       "if absent"},
-      {"start", Choice(&s.start, {"file", "at_rest"}), "",
-       "start: as the particle file says, or hanging at rest from its first particle"},
-      {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
-       "after a divergence: stop, or continue as long as every number is finite"},
-      {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",
-       "measure the position error against a reference run: while it is cheap, to the end, or "
-       "never; the frames do not depend on it"},
-      {"frames", Count{&s.frames, Range::atLeast(1)}, "", "number of frames, including the start"},
-      {"steps_per_frame", Count{&s.steps_per_frame, Range::atLeast(1)}, "",
-       "integration steps per frame", kFixedStep},
-      {"time_step", Number{&s.time_step, Range::above(0)}, "s", "integration step size",
-       kFixedStep},
-      {"tolerance", Number{&s.tolerance, Range::above(0)}, "m", "position error to aim at",
-       kErrorControlled},
-      {"frame_interval", Number{&s.frame_interval, Range::between(1e-300, 1e6)}, "s",
-       "simulated time between frames", kErrorControlled},
-      {"stiffness", Number{&s.stiffness, Range::atLeast(0)}, "N/m", "spring constant k_s"},
-      {"damping", Number{&s.damping, Range::atLeast(0)}, "N·s/m", "damping constant k_d"},
-      {"rest_length", Number{&s.rest_length, Range::atLeast(0)}, "m",
-       "length L_0 of an unloaded spring"},
-      {"gravity", Number{&s.gravity, Range::any()}, "m/s²", "gravity g (points down)"},
-      {"air_drag", Number{&s.air_drag, Range::atLeast(0)}, "N·s/m",
-       "drag k_air of the air: the force -k_air v on each particle"},
-      {"threads", Count{&s.threads, Range::atLeast(0)}, "",
-       "largest number of threads; 0: one per processor core; results do not depend on it"},
-      {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",
-       "do not integrate while all particles stay slower than this; 0: always integrate"},
-  };
-}
-
-void checkScenario(const Scenario& scenario) {
-  Scenario copy = scenario;
-  for (const Option& option : scenarioOptions(copy)) {
-    if (isUnused(option, scenario) || isInRange(option)) continue;
+/// Checks the numbers that the method uses.
+void checkRanges(const std::vector<Option>& options, const Plan& plan) {
+  for (const Option& option : options) {
+    const bool is_number = std::holds_alternative<Number>(option.value) || option.isCount();
+    if (!is_number || isUnused(option, plan)) continue;
     try {
       option.assign(option.text());
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", option.key, error.what()));
     }
   }
+}
+
+std::vector<Option> planOptions(Plan& p) {
+  constexpr auto kFixedStep = AppliesTo::kFixedStep;
+  constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
+  return {
+      {"method", MethodName{&p.method}, "", "integration method, one of Exercise3 --list-methods"},
+      {"on_divergence", Choice(&p.on_divergence, {"stop", "continue"}), "",
+       "after a divergence: stop, or continue as long as every number is finite"},
+      {"reference", Choice(&p.reference, {"auto", "always", "never"}), "",
+       "measure the position error against a reference run: while it is cheap, to the end, or "
+       "never; the frames do not depend on it"},
+      {"frames", Count{&p.frames, Range::atLeast(1)}, "", "number of frames, including the start"},
+      {"steps_per_frame", Count{&p.steps_per_frame, Range::atLeast(1)}, "",
+       "integration steps per frame", kFixedStep},
+      {"time_step", Number{&p.time_step, Range::above(0)}, "s", "integration step size",
+       kFixedStep},
+      {"tolerance", Number{&p.tolerance, Range::above(0)}, "m", "position error to aim at",
+       kErrorControlled},
+      {"frame_interval", Number{&p.frame_interval, Range::between(1e-300, 1e6)}, "s",
+       "simulated time between frames", kErrorControlled},
+      {"threads", Count{&p.threads, Range::atLeast(0)}, "",
+       "largest number of threads; 0: one per processor core; results do not depend on it"},
+      {"sleep", Number{&p.sleep, Range::atLeast(0)}, "m/s",
+       "do not integrate while all particles stay slower than this; 0: always integrate"},
+  };
+}
+
+/// Puts options before the one with a key.
+void insertBefore(std::vector<Option>& options, std::string_view key,
+                  std::vector<Option> inserted) {
+  const auto place = std::find_if(options.begin(), options.end(),
+                                  [&](const Option& option) { return option.key == key; });
+  options.insert(place, std::make_move_iterator(inserted.begin()),
+                 std::make_move_iterator(inserted.end()));
+}
+
+}  // namespace
+
+std::vector<Option> scenarioOptions(Scenario& s) {
+  std::vector<Option> options = planOptions(s);
+  insertBefore(
+      options, "on_divergence",
+      {{"particles", Text{&s.particles, "FILE", "a file"}, "",
+        "particle file, one line 'x y m' or 'x y m vx vy' per particle; the first particle is "
+        "fixed"},
+       {"resume", Flag{&s.resume}, "",
+        "go on from the frame and time of the particle file, which is a file of save_state; frames "
+        "before it stay"},
+       {"output", Text{&s.output, "DIR", "a folder"}, "",
+        "folder for the frame files, created if absent"},
+       {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
+       {"energy", Text{&s.energy, "FILE", "a file", anyText}, "",
+        "CSV file for the energy balance, one row per frame; its folder is created if absent"},
+       {"save_state", Text{&s.save_state, "FILE", "a file", anyText}, "",
+        "file for the state at the last frame, a particle file to resume from; its folder is "
+        "created if absent"},
+       {"start", Choice(&s.start, {"file", "at_rest"}), "",
+        "start: as the particle file says, or hanging at rest from its first particle"}});
+  SpringLaw& spring = s.constants.spring;
+  insertBefore(
+      options, "threads",
+      {{"stiffness", Number{&spring.stiffness, Range::atLeast(0)}, "N/m", "spring constant k_s"},
+       {"damping", Number{&spring.damping, Range::atLeast(0)}, "N·s/m", "damping constant k_d"},
+       {"rest_length", Number{&spring.rest_length, Range::atLeast(0)}, "m",
+        "length L_0 of an unloaded spring"},
+       {"gravity", Number{&s.constants.gravity, Range::any()}, "m/s²", "gravity g (points down)"},
+       {"air_drag", Number{&s.constants.air_drag, Range::atLeast(0)}, "N·s/m",
+        "drag k_air of the air: the force -k_air v on each particle"}});
+  return options;
+}
+
+Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& options,
+                      Scenario scenario) {
+  OptionSet set(scenarioOptions(scenario));
+  for (const auto& [key, text] : options) set.set(set.find(key, "", "option"), text, key);
+  const std::vector<std::string_view> unused = unusedKeys(scenario, set);
+  if (!unused.empty()) {
+    throw InputError(fmt::format(
+        "{}: {}", unused.front(),
+        whyUnused(scenario.method, [](std::string_view key) { return std::string(key); })));
+  }
+  checkScenario(scenario);
+  return scenario;
+}
+
+Scene makeScene(const Scenario& scenario, Scene particles) {
+  particles.constants = scenario.constants;
+  if (scenario.start == Start::kAtRest && particles.frame == 0) {
+    particles.state = equilibrium(particles.chain(), particles.state);
+  }
+  return particles;
+}
+
+void checkPlan(const Plan& plan) {
+  Plan copy = plan;
+  checkRanges(planOptions(copy), plan);
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  if (plan.frames > kMost / plan.steps()) {  // frame times are computed from step counts
+    throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
+                                 kMost, plan.frames, plan.steps()));
+  }
+  if (std::isfinite(plan.timeOfFrame(plan.frames - 1))) return;
+  throw InputError(fmt::format(
+      "frames times steps_per_frame times time_step must be finite, got {} times {} times {} s",
+      plan.frames, plan.steps(), numberText(plan.step())));
+}
+
+void checkScenario(const Scenario& scenario) {
+  Scenario copy = scenario;
+  checkRanges(scenarioOptions(copy), scenario);
   if (scenario.resume && scenario.start == Start::kAtRest) {
     throw InputError(
         "start: at_rest and resume exclude each other: a resumed run goes on from its saved state");
   }
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  const FrameSteps step = frameSteps(scenario);
-  if (scenario.frames > kMost / step.steps) {  // frame times are computed from step counts
-    throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
-                                 kMost, scenario.frames, step.steps));
-  }
-  if (std::isfinite(step.timeOfFrame(scenario.frames - 1))) return;
-  throw InputError(fmt::format(
-      "frames times steps_per_frame times time_step must be finite, got {} times {} times {} s",
-      scenario.frames, step.steps, numberText(step.time_step)));
+  checkPlan(scenario);
 }
 
-void checkFirstFrame(const Scenario& scenario, std::int64_t frame) {
-  if (0 <= frame && frame < scenario.frames) return;
+void checkFirstFrame(const Plan& plan, std::int64_t frame) {
+  if (0 <= frame && frame < plan.frames) return;
   throw InputError(
       fmt::format("frames: must be more than {}, the frame of the state to start from, got {}",
-                  frame, scenario.frames));
+                  frame, plan.frames));
 }
 
-std::string remarkOn(const Scenario& scenario) {
-  if (scenario.gravity >= 0.0) return "";
+std::string remarkOn(const Constants& constants) {
+  if (constants.gravity >= 0.0) return "";
   return fmt::format("gravity of {} m/s² points up: the chain falls upwards",
-                     numberText(scenario.gravity));
+                     numberText(constants.gravity));
 }
 
-std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options) {
+std::vector<std::string_view> unusedKeys(const Plan& plan, const OptionSet& options) {
   std::vector<std::string_view> keys;
   for (const Option& option : options.options()) {
-    if (isUnused(option, scenario) && options.isGiven(option.key)) keys.push_back(option.key);
+    if (isUnused(option, plan) && options.isGiven(option.key)) keys.push_back(option.key);
   }
   return keys;
 }

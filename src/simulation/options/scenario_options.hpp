@@ -1,4 +1,4 @@
-// The table of the options of a run, and checks that involve several options.
+// Checks that involve several options of a run.
 #pragma once
 
 #include "simulation/options/option_set.hpp"
@@ -11,25 +11,23 @@
 
 namespace spring_pendulum {
 
-/// All options of a scenario, bound to `scenario`, in the order of the help text. The help text
-/// shows the current values as defaults.
-std::vector<Option> scenarioOptions(Scenario& scenario);
-
-/// Checks a scenario, however it was made.
 /// \throws InputError if a number is out of the range of its option, the steps of the run can't be
-///         counted in 64 bits, or the run would not end at a finite time
+///   counted in 64 bits, or the run would not end at a finite time
+void checkPlan(const Plan& plan);
+
+/// \throws InputError as checkPlan for all options, and if options exclude each other
 void checkScenario(const Scenario& scenario);
 
 /// Checks that a run can start at a frame.
-/// \throws InputError if it is not one of the frames of the scenario
-void checkFirstFrame(const Scenario& scenario, std::int64_t frame);
+/// \throws InputError if it is not one of the frames of the plan
+void checkFirstFrame(const Plan& plan, std::int64_t frame);
 
 /// Returns a remark on values that are allowed but hardly meant; empty if there are none.
-std::string remarkOn(const Scenario& scenario);
+std::string remarkOn(const Constants& constants);
 
 /// Returns the given options that the method does not use: options for error-controlled methods if
 /// the method has a fixed step, and the reverse.
-std::vector<std::string_view> unusedKeys(const Scenario& scenario, const OptionSet& options);
+std::vector<std::string_view> unusedKeys(const Plan& plan, const OptionSet& options);
 
 /// Returns why a method does not use such an option, and the options to use instead: "Auto chooses its
 /// own steps; use tolerance and frame_interval".

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "simulation/options/option_set.hpp"
-#include <spring_pendulum/model/particles.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstdint>
@@ -66,9 +65,9 @@ struct Study {
   Distribution displacement;      ///< of each particle in x and in y, m
   Distribution velocity;          ///< added to that of each particle in x and in y, m/s
   std::vector<const Column*> columns;
-  std::vector<std::string> plot;               ///< arguments of the script that draws the table
-  std::map<std::string, Particles> particles;  ///< content of each particle file
-  std::uint64_t hash = 0;                      ///< of the study and its particle files
+  std::vector<std::string> plot;           ///< arguments of the script that draws the table
+  std::map<std::string, Scene> particles;  ///< content of each particle file
+  std::uint64_t hash = 0;                  ///< of the study and its particle files
 
   std::int64_t cases() const;
   Place placeOf(std::int64_t index) const;
@@ -84,7 +83,9 @@ Study readStudy(const std::string& path);
 struct Case {
   std::int64_t sample = 0;
   Settings settings;
-  Particles particles;
+  Scene particles;  ///< as a particle file would give them
+
+  Scene scene() const { return makeScene(settings.scenario, particles); }
 };
 
 /// Returns case 0 <= index < study.cases().

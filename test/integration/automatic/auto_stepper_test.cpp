@@ -167,7 +167,7 @@ TEST(Auto, TakesTheImplicitMethodAloneForExtremeDampingRates) {
   for (const double rate : {9e11, 1.1e12, 3e12, 1e13, 1e14, 1e18, 1e100}) {
     for (const double tolerance : {1e-2, 1e-6}) {
       const Chain plain(Eigen::Vector4d(1.0, 1e-6, 1e-6, 1e-6), {50.0, 1.0, 1.0}, 9.81);
-      const test::Scene scene{"", plain.inAir(1e-6 * rate), test::straightLine(4, 1.0, 0.0)};
+      const test::Scene scene{"", test::inAir(plain, 1e-6 * rate), test::straightLine(4, 1.0, 0.0)};
       EXPECT_EQ(methodAfter(scene, tolerance, 1.0), "Radau-9") << rate << " " << tolerance;
     }
   }

@@ -23,7 +23,7 @@ State after(const char* method, const test::Scene& scene, int steps) {
 TEST(BackwardEuler, HasOrderOneAgainstRadau) {
   for (const double air_drag : {0.0, 0.5}) {
     test::Scene scene = test::horizontalChain("chain", 7, 1.0);
-    scene.chain = scene.chain.inAir(air_drag);
+    scene.chain = test::inAir(scene.chain, air_drag);
     const State exact = after("Radau-9", scene, 1);
     const auto error = [&](int steps) {
       return (after("Backward-Euler", scene, steps).values() - exact.values()).norm();
@@ -36,7 +36,7 @@ TEST(BackwardEuler, HasOrderOneAgainstRadau) {
 TEST(BackwardEuler, SolvesTheEquationsOfALinearStep) {
   constexpr double kStep = 0.7, kStiffness = 50.0, kDamping = 0.5, kAir = 0.3, kMass = 2.0;
   const Chain still(Eigen::Vector2d(1.0, kMass), SpringLaw{kStiffness, kDamping, 1.0}, 9.81);
-  const Chain chain = still.inAir(kAir);
+  const Chain chain = test::inAir(still, kAir);
   State state(2);
   state.y()[1] = -1.3;
   state.vy()[1] = -0.4;

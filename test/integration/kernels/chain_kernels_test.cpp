@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "support/scene.hpp"
+
 namespace spring_pendulum {
 namespace {
 
@@ -68,8 +70,9 @@ TEST(ChainKernels, StageSlopeHasTheBitsOfThePlainCode) {
       for (const SpringLaw& spring :
            {SpringLaw{}, SpringLaw{200.0, 0.0, 0.3}, SpringLaw{7, 2, 0}}) {
         for (const bool equal_masses : {false, true}) {
-          const Chain chain = randomChain(size, spring, equal_masses, equal_masses ? 0.0 : 9.81)
-                                  .inAir(spring.rest_length == 0.0 ? 0.4 : 0.0);
+          const Chain chain =
+              test::inAir(randomChain(size, spring, equal_masses, equal_masses ? 0.0 : 9.81),
+                          spring.rest_length == 0.0 ? 0.4 : 0.0);
           const KernelConstants constants(chain);
           State state = randomState(size, 1);
           StateBuffer z(size), k1(size), k2(size), slope(size);

@@ -10,22 +10,7 @@
 #include <spring_pendulum/model/energy.hpp>
 #include <spring_pendulum/model/state.hpp>
 
-#include <optional>
-
-#pragma GCC visibility push(default)
 namespace spring_pendulum {
-
-/// One row of the energy balance. Energies in J, relative values in units of the energy scale.
-struct EnergyEntry {
-  double time = 0.0;                 ///< s
-  Energy energy;                     ///< not finite if the state is not
-  double supplied = 0.0;             ///< S(t)
-  double gain = 0.0;                 ///< E(t) - E(0) - S(t)
-  double relative_gain = 0.0;        ///< gain / scale
-  std::optional<double> dissipated;  ///< nothing if not tracked
-  std::optional<double> residual;    ///< E(t) + D(t) - E(0) - S(t)
-  std::optional<double> relative_residual;
-};
 
 /// Computes the balance of states of one motion, relative to the energy scale. The scale is the energy
 /// available to the motion: the difference between the larger of E(0) and 0 (all springs unstretched
@@ -83,4 +68,3 @@ class EnergyBalance {
 };
 
 }  // namespace spring_pendulum
-#pragma GCC visibility pop

@@ -9,9 +9,11 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spring_pendulum {
 
 /// The range of numbers that an option accepts.
@@ -142,8 +144,10 @@ struct Option {
   /// "fixed-step methods", for example; empty: all methods.
   std::string_view users() const;
   bool isFlag() const { return std::holds_alternative<Flag>(value); }
+  bool isCount() const { return std::holds_alternative<Count>(value); }
   /// Whether YAML may put the value in quotes.
   bool isText() const;
 };
 
 }  // namespace spring_pendulum
+#pragma GCC visibility pop

@@ -1,5 +1,6 @@
+#include "simulation/judge.hpp"
+
 #include "base/numbers.hpp"
-#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <fmt/format.h>
 

@@ -18,12 +18,7 @@
 #include <functional>
 #include <memory>
 
-#pragma GCC visibility push(default)
 namespace spring_pendulum {
-
-/// Length in m to which position errors are related at the start: the sum of the rest lengths, but at
-/// least a tenth of the length of the chain (for springs with rest length 0).
-double chainLength(const Chain& chain, const State& start);
 
 /// What the errors of a reference run are measured in, m.
 struct ReferenceScales {
@@ -126,4 +121,3 @@ class ReferenceRun {
 };
 
 }  // namespace spring_pendulum
-#pragma GCC visibility pop
