@@ -23,7 +23,6 @@
 #include "integration/kernels/chain_kernels.hpp"
 #include <spring_pendulum/integration/butcher_tableau.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -119,7 +118,7 @@ class StagePipeline {
   [[gnu::always_inline]] void longSteps(std::ptrdiff_t steps,
                                         std::index_sequence<kStage...> /*stages*/) {
     const Block fixed = load(placeOf<const double>(state_, chain_.pitch, -1));
-    const std::ptrdiff_t tiles = std::max<std::ptrdiff_t>(1, blocks_ / kTile);
+    const std::ptrdiff_t tiles = blocks_ < kTile ? 1 : blocks_ / kTile;
     Span waiting{};
     PlaneVector<Pack> next_forces{};
     for (std::ptrdiff_t n = 0; n < steps; ++n) {
