@@ -233,11 +233,12 @@ StepStatistics AutoStepper::statistics() const {
   return sum;
 }
 
-std::string AutoStepper::report() const {
+std::string AutoStepper::report(double ahead) const {
   std::string text;
   for (const Candidate& candidate : candidates_) {
-    if (candidate.covered == 0.0) continue;
-    text += fmt::format("{} for {:.4g} s, ", candidate.name, candidate.covered);
+    const double covered = candidate.covered - (&candidate == &active() ? ahead : 0.0);
+    if (!(covered > 0.0)) continue;
+    text += fmt::format("{} for {:.4g} s, ", candidate.name, covered);
   }
   return text + counted(switches_, "switch", "es");
 }

@@ -49,7 +49,7 @@ class AutoStepper final : public DenseOutputStepper {
   StepStatistics statistics() const override;
 
   /// "Taylor-8 for 0.4 s, Stabilized-Taylor-8 for 4.6 s, 1 switch"
-  std::string report() const override;
+  std::string report(double ahead) const override;
 
   /// Name of the active method.
   std::string_view method() const { return active().name; }

@@ -56,7 +56,8 @@ class DenseOutputStepper {
   virtual StepStatistics statistics() const = 0;
 
   /// See Integrator::report.
-  virtual std::string report() const { return {}; }
+  /// \param ahead time in s from the last output to the end of the last step
+  virtual std::string report(double /*ahead*/) const { return {}; }
 
  protected:
   DenseOutputStepper() = default;
