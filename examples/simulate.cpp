@@ -6,9 +6,9 @@
 int main(int argc, char** argv) try {
   using namespace spring_pendulum;
   Scene scene = readParticleFile(argc > 1 ? argv[1] : "particle.txt");
-  scene.constants.spring.stiffness = 50.0;                                // N/m
-  const auto integrator = makeIntegrator("Auto", scene.chain(), {1e-6});  // tolerance in m
+  scene.constants.spring.stiffness = 50.0;  // N/m
 
+  const auto integrator = makeIntegrator("Auto", scene.chain(), {1e-6});  // tolerance in m
   State& state = scene.state;
   for (int second = 1; second <= 10; ++second) {
     integrator->advance(state, 1.0, 1);
