@@ -13,7 +13,6 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
-#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -117,7 +116,7 @@ std::string missingFrames(const AllFrames& all) {
   std::int64_t count = 0;
   std::string first;
   for (const FrameNumbers& frame : all.frames) {
-    const std::int64_t gap = frame.index - std::exchange(next, frame.index + 1);
+    const std::int64_t gap = frame.index - next;
     if (gap < 0) throw FileError(fmt::format("frame {} is there twice", frame.index));
     if (gap > kMostMissing) {
       throw FileError(fmt::format("frame {}: {} frames before it are missing, at most {} may be",
@@ -125,6 +124,7 @@ std::string missingFrames(const AllFrames& all) {
     }
     if (gap > 0 && count == 0) first = fmt::format(", the first is frame {}", frame.index - gap);
     count += gap;
+    next = frame.index + 1;
   }
   return count == 0 ? "" : counted(count, "missing frame") + first;
 }
