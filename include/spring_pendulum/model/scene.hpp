@@ -18,7 +18,7 @@ struct Scene {
   Constants constants = {};
 
   /// \throws InputError as Chain
-  Chain chain() const { return Chain(masses, constants); }
+  Chain chain() const { return {masses, constants}; }
 };
 
 }  // namespace spring_pendulum
