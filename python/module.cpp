@@ -28,7 +28,7 @@ Numbers toNumbers(const py::object& argument, const std::string& name, py::ssize
     const auto kind = array.dtype().attr("kind").cast<std::string>();
     if (kind != "f" && kind != "i" && kind != "u") refuse(reprOf(argument));
     if (array.ndim() != dimensions) refuse("shape " + reprOf(array.attr("shape")));
-    return Numbers(array);
+    return {array};
   } catch (py::error_already_set& error) {  // NumPy cannot make an array of this
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
   }
