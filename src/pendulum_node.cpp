@@ -84,7 +84,7 @@ std::string startRos(int argc, char** argv) {
   }
   checkMasterUri(argc, argv);
   refuseForgottenUnderscore(argc, argv, options);
-  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGINT, [](int /*signal*/) { std::_Exit(kDone); });  // ROS may wait for its master
   std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx prints '?' for what the locale lacks
   try {
     // The handler of roscpp would end ROS before the files are closed and the closing line is logged.

@@ -104,8 +104,7 @@ TEST_F(ExtremeOptions, OfExercise3AreRefusedBeforeTheFolderChanges) {
 #ifdef RECORD_BAG
 TEST_F(ExtremeOptions, OfRecordBagAreRefusedBeforeTheFolderChanges) {
   for (int i = 0; i < 100 && !HasFailure(); ++i) {
-    std::vector<std::string> arguments =
-        randomArguments({"--display-rate", "--trail"});
+    std::vector<std::string> arguments = randomArguments({"--display-rate", "--trail"});
     arguments.insert(arguments.end(), {"--bag", "run.bag"});
     check(RECORD_BAG, arguments);
   }

@@ -66,7 +66,8 @@ std::string pathOf(int folder, const char* path) {
 
 void report(const char* call) {
   const std::string path(setting("FAULT_REPORT"));
-  const long file = syscall(SYS_openat, AT_FDCWD, path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  const long file =
+      syscall(SYS_openat, AT_FDCWD, path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
   syscall(SYS_write, file, call, std::strlen(call));
   syscall(SYS_close, file);
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -18,6 +19,7 @@ namespace spring_pendulum {
 namespace {
 
 constexpr Eigen::Index kLinesAtOnce = 4096;
+constexpr std::string_view kHeader = "# state of ";
 
 /// Removes and returns the text before `end`; empty if there is no `end`.
 std::string_view takeUntil(std::string_view& text, std::string_view end) {
@@ -37,7 +39,7 @@ struct StateHead {
 
 std::optional<StateHead> findHead(std::string_view text) {
   std::string_view line = ParticleParser::nextLine(text);
-  if (!takeUntil(line, "# state of ").empty()) return {};
+  if (!takeUntil(line, kHeader).empty()) return {};
   const auto particles = parseInteger(takeUntil(line, " particles at frame "));
   const auto frame = parseInteger(takeUntil(line, ", t = "));
   const auto time = parseNumber(takeUntil(line, " s"));
@@ -89,9 +91,9 @@ std::string stateLines(AlignedNumbers::ConstView masses, const State& state, Eig
 void writeState(OutputFile& file, AlignedNumbers::ConstView masses, const State& state,
                 std::int64_t frame, double time) {
   file.write(
-      fmt::format("# state of {} particles at frame {}, t = {} s\n"
+      fmt::format("{}{} particles at frame {}, t = {} s\n"
                   "# x [m]  y [m]  mass [kg]  vx [m/s]  vy [m/s]\n",
-                  state.size(), frame, numberText(time)));
+                  kHeader, state.size(), frame, numberText(time)));
   for (Eigen::Index first = 0; first < state.size(); first += kLinesAtOnce) {
     file.write(stateLines(masses, state, first, std::min(state.size(), first + kLinesAtOnce)));
   }
@@ -115,6 +117,11 @@ Scene readStateFile(const Scenario& scenario) {
 void writeStateFile(const std::string& path, const Chain& chain, const State& state,
                     std::int64_t frame, double time) {
   OutputFile file(path);
+  std::string earlier;
+  std::getline(std::ifstream(path), earlier);
+  if (!earlier.empty() && earlier.rfind(kHeader, 0) != 0) {
+    throw InputError(path + ": is not a state but another file; give another name");
+  }
   writeState(file, chain.masses(), state, frame, time);
 }
 

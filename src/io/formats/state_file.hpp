@@ -22,7 +22,7 @@ namespace spring_pendulum {
 /// \throws FileError, InputError
 Scene readStateFile(const Scenario& scenario);
 
-/// Writes a state file.
+/// Writes a state file. Replaces no file of another kind.
 /// \throws FileError, InputError as OutputFile
 void writeStateFile(const std::string& path, const Chain& chain, const State& state,
                     std::int64_t frame, double time);

@@ -83,8 +83,8 @@ void Node::spin() {
   ROS_INFO_STREAM("parameters: " << values_);
   run_.advance();
   input_log_.started(run_, run_.time());
-  publisher_.waitForSubscribers(options_);
   catchInterruptions();  // from now on ROS continues after a signal until the files are closed
+  publisher_.waitForSubscribers(options_);
   pacer_.start(run_.time(), ros::SteadyTime::now());
   finishState();
   while (isWanted() && !isAtExit()) {
@@ -282,10 +282,7 @@ std::string Node::on(const LoadState& request) {
   if (last_frame_.size() == 0) throw InputError("the run has not started yet");
   Scenario scenario = scenario_;
   static_cast<Plan&>(scenario) = run_.plan();
-  const std::string& given = scenario.save_state;
-  scenario.particles = !request.file.empty() ? request.file
-                       : !given.empty()      ? given
-                                             : kDefaultStateFile;
+  scenario.particles = request.file.empty() ? kDefaultStateFile : request.file;
   const Scene loaded = readStateFile(scenario);
   if (loaded.masses.size() != run_.chain().size() ||
       loaded.masses.view() != run_.chain().masses()) {
