@@ -178,7 +178,9 @@ void printCase(const Study& study, std::int64_t index, const std::string& folder
 
 Study readCheckedStudy(const CommandLine& line) {
   Study study = readStudy(line.study);
-  TouchedFiles files{{line.study}, {line.sweep.output}, ""};
+  const std::string& table = line.sweep.output;
+  TouchedFiles files{{line.study}, {table, table + ".journal"}, ""};
+  if (line.sweep.shards > 1) files.outputs.push_back(fmt::format("{}.{}", table, line.sweep.shard));
   for (const auto& [path, particles] : study.particles) files.inputs.push_back(path);
   if (line.only_case >= 0) {
     files.frame_folder = line.sweep.output;

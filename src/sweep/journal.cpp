@@ -33,15 +33,15 @@ Journal::Journal(std::string path, std::uint64_t hash)
         ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666));
     if (!file_.isOpen()) refuse(path_);
   } while (!lock());
-  cutTornLine();
-  const std::string text = readTextFile(path_);
-  if (text.empty()) write(head_);
-  if (!text.empty() && text.compare(0, head_.size(), head_) != 0) {
+  const std::string begin = readTextFile(path_).substr(0, head_.size());
+  if (head_.compare(0, begin.size(), begin) != 0) {
     throw InputError(fmt::format(
         "{}: is the journal of another study or version; remove it to start anew, or give another "
         "--output",
         fullPath(path_)));
   }
+  cutTornLine();
+  if (begin.size() < head_.size()) write(head_);
   unlock();
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "io/files/output_file.hpp"
+#include "io/files/paths.hpp"
 #include "io/program/exit_status.hpp"
 #include "io/program/interruption.hpp"
 #include "io/program/progress.hpp"
@@ -126,6 +127,9 @@ class Sweep {
   int conclude(int signal) {
     // Shards that finish at the same moment conclude one after the other.
     if (!journal_->lock()) {
+      if (!std::filesystem::exists(options_.output)) {
+        throw FileError(fullPath(journal_->path()) + ": was removed during the run");
+      }
       printOutput(fmt::format("another process has written {}\n", options_.output));
       return kDone;
     }

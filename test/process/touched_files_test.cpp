@@ -22,7 +22,8 @@ constexpr int kNoRedirection = 126;
 
 /// Where an input may lie: plain, like a frame, a hidden file, or an output whose name follows from another.
 const std::vector<std::string> kPlaces{
-    "e", "o/frame_0001.txt", "o/.frame_0001.txt.tmp", "o/case_0.txt", ".e.tmp", "e.png"};
+    "e",     "o/frame_0001.txt", "o/.frame_0001.txt.tmp", "o/.frames.tmp", "o/case_0.txt", ".e.tmp",
+    "e.png", "e.csv.journal"};
 /// Values of an output option: these places, links to the input, and folders.
 const std::vector<std::string> kValues{
     "e",     "o/frame_0001.txt",     "o/.frame_0001.txt.tmp", "soft", "hard", "o", "e/inside",

@@ -56,7 +56,7 @@ AtomicFile::AtomicFile(const OutputFolder& folder, std::string name, std::string
     : folder_(folder), name_(std::move(name)), hidden_(hiddenName(name_)), path_(std::move(path)) {
   do {
     open(lock == Lock::kNone ? O_EXCL : O_NONBLOCK);
-  } while (lock == Lock::kOneWriter && !takeLock());
+  } while (lock != Lock::kNone && !takeLock(lock));
 }
 
 void AtomicFile::open(int flags) {
@@ -72,7 +72,7 @@ void AtomicFile::open(int flags) {
   refuse("could not be written: " + reason);
 }
 
-bool AtomicFile::takeLock() {
+bool AtomicFile::takeLock(Lock lock) {
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     refuse("another run is writing here; use a different path for each run");
   }  // a file system without locks is not an error
@@ -84,6 +84,7 @@ bool AtomicFile::takeLock() {
       ::fstatat(folder_.descriptor(), hidden_.c_str(), &by_name, AT_SYMLINK_NOFOLLOW) == 0 &&
       isSameFile(by_name, opened);
   if (!has_its_name) return false;
+  if (opened.st_size > 0 && lock == Lock::kEmpty) refuseTaken();
   if (opened.st_size > 0 && ::ftruncate(file_.get(), 0) != 0) refuseForErrno();
   return true;
 }

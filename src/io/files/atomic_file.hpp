@@ -33,7 +33,8 @@ std::string hiddenName(const std::string& name);
 /// Writes a file under its hidden name and renames it at the end, replacing any file of that name.
 class AtomicFile {
  public:
-  enum class Lock { kNone, kOneWriter };
+  /// `kEmpty`: for one writer, which never writes, so that a file with content is somebody else's.
+  enum class Lock { kNone, kOneWriter, kEmpty };
 
   /// Opens the hidden file. With a lock, what a killed run left is overwritten, and a second writer is
   /// refused. Without, the caller has removed what was left, and ensures that there is one writer.
@@ -57,7 +58,7 @@ class AtomicFile {
  private:
   void open(int flags);
   /// \returns false if the run that held the lock has renamed or removed the file meanwhile
-  bool takeLock();
+  bool takeLock(Lock lock);
   [[noreturn]] void refuseTaken() const;
 
   const OutputFolder& folder_;

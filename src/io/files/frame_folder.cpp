@@ -40,7 +40,7 @@ bool isFrameName(const std::string& name) {
 }
 
 FrameFolder::FrameFolder(const std::string& folder, std::int64_t first)
-    : folder_(folder), lock_(folder_, "frames", path(), AtomicFile::Lock::kOneWriter) {
+    : folder_(folder), lock_(folder_, kFramesLock, path(), AtomicFile::Lock::kEmpty) {
   removeEarlier(first);
 }
 

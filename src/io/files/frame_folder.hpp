@@ -10,6 +10,9 @@
 
 namespace spring_pendulum {
 
+/// Its hidden name is that of the file that locks a folder of frames, which is always empty.
+constexpr const char* kFramesLock = "frames";
+
 /// "frame_0042.txt"; indices above 9999 have more digits.
 std::string frameName(std::int64_t index);
 

@@ -44,8 +44,9 @@ bool isInside(const fs::path& path, const fs::path& folder) {
 
 /// Throws if writing `a` would change or remove `b`.
 void checkPair(const Touched& a, const Touched& b) {
-  const bool is_frame = a.use == Touched::kFrames && isFrameName(b.path.filename().string()) &&
-                        areSame(b.path.parent_path(), a.path);
+  const std::string name = b.path.filename().string();
+  const bool is_frame = a.use == Touched::kFrames && areSame(b.path.parent_path(), a.path) &&
+                        (isFrameName(name) || name == hiddenName(kFramesLock));
   if (is_frame) {
     throw InputError(
         fmt::format("{}: has the name of a frame; choose another folder for the frames", b.shown));
