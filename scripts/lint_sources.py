@@ -154,18 +154,18 @@ def folder_errors(files):
 # A change that does not fit takes something else out; a budget only falls.
 BUDGETS = {
     'base, model': (1500, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
-    'integration': (6395, 'src/integration', 'include/spring_pendulum/integration'),
-    'simulation': (2868, 'src/simulation', 'include/spring_pendulum/simulation'),
-    'io': (2763, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),
-    'ros': (4310, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),
+    'integration': (6390, 'src/integration', 'include/spring_pendulum/integration'),
+    'simulation': (2867, 'src/simulation', 'include/spring_pendulum/simulation'),
+    'io': (2720, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),
+    'ros': (4295, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),
     'check': (1790, 'src/check', 'src/check_frames.cpp'),
     'sweep': (1699, 'src/sweep', 'src/sweep.cpp'),
-    'src, include': (22730, 'src', 'include'),
+    'src, include': (21280, 'src', 'include'),
     'web': (3000, 'web'),
-    'python': (1000, 'python'),
-    'test': (19780, 'test'),
+    'python': (995, 'python'),
+    'test': (19525, 'test'),
 }
-MOST_TRACKED = 760  # files
+MOST_TRACKED = 612  # files
 
 
 def budget_errors():

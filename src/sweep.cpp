@@ -164,12 +164,8 @@ void printCase(const Study& study, std::int64_t index, const std::string& folder
   if (!folder.empty()) scenario.output = folder;
   const Run checked(made.scene(), scenario);  // before anything is written
   if (study.changesParticles(made.settings)) {
-    if (folder.empty()) {
-      throw InputError(
-          fmt::format("--case: case {} has particles that are in no file; give a folder for "
-                      "them with --output",
-                      index));
-    }
+    if (folder.empty())
+      throw InputError("--case: its particles are in no file; give a folder with --output");
     scenario.particles = particlesPath(folder, index);
     writeStateFile(scenario.particles, checked.chain(), made.particles.state, 0, 0.0);
   }
@@ -178,16 +174,16 @@ void printCase(const Study& study, std::int64_t index, const std::string& folder
 
 Study readCheckedStudy(const CommandLine& line) {
   Study study = readStudy(line.study);
-  const std::string& table = line.sweep.output;
-  TouchedFiles files{{line.study}, {table, table + ".journal"}, ""};
-  if (line.sweep.shards > 1) files.outputs.push_back(fmt::format("{}.{}", table, line.sweep.shard));
+  const std::string& output = line.sweep.output;
+  TouchedFiles files{{line.study}, {}, ""};
   for (const auto& [path, particles] : study.particles) files.inputs.push_back(path);
-  if (line.only_case >= 0) {
-    files.frame_folder = line.sweep.output;
-    files.outputs = {particlesPath(line.sweep.output, line.only_case)};
-    if (line.sweep.output.empty()) files.outputs.clear();
+  if (line.only_case < 0) {
+    files.outputs = {output, output + ".journal", fmt::format("{}.{}", output, line.sweep.shard)};
+  } else if (!output.empty()) {
+    files.frame_folder = output;
+    files.outputs = {particlesPath(output, line.only_case)};
   }
-  if (line.sweep.plot) files.outputs.push_back(picturePath(line.sweep.output));
+  if (line.sweep.plot) files.outputs.push_back(picturePath(output));
   checkTouchedFiles(files);
   if (!line.sweep.plot || !study.plot.empty()) return study;
   throw InputError("--plot: the study has no entry plot");
@@ -196,9 +192,8 @@ Study readCheckedStudy(const CommandLine& line) {
 int run(int argc, const char* const* argv) {
   const CommandLine line = parseCommandLine(argc, argv);
   printOutput(line.answer);
-  if (line.answer.empty() && line.only_case >= 0) {
+  if (line.answer.empty() && line.only_case >= 0)
     printCase(readCheckedStudy(line), line.only_case, line.sweep.output);
-  }
   if (!line.answer.empty() || line.only_case >= 0) return kDone;
   const std::unique_ptr<CaseCounter> counter = makeCaseCounter();
   try {

@@ -127,9 +127,8 @@ class Sweep {
   int conclude(int signal) {
     // Shards that finish at the same moment conclude one after the other.
     if (!journal_->lock()) {
-      if (!std::filesystem::exists(options_.output)) {
+      if (!std::filesystem::exists(options_.output))
         throw FileError(fullPath(journal_->path()) + ": was removed during the run");
-      }
       printOutput(fmt::format("another process has written {}\n", options_.output));
       return kDone;
     }

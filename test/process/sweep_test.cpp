@@ -362,7 +362,7 @@ TEST_F(Sweep, RefusesBadArguments) {
       {{"--case", "0", "-o", "x", "--plot"}, "--case: runs a single case; leave out --plot"},
       {{"--threads", "0"}, "--threads: must be a whole number from 1 to 1024, got '0'"},
       {{"--case", "400"}, "--case: must be from 0 to 399, got 400"},
-      {{"--case", "3"}, "has particles that are in no file; give a folder for them with --output"},
+      {{"--case", "3"}, "--case: its particles are in no file; give a folder with --output"},
       {{"--outptu", "x"}, "did you mean '--output'?"},
       {{"-o", "chain.txt"}, "is an input of this run"},
       {{"-o", "study.png", "--plot"}, "choose another file"},
