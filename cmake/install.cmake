@@ -20,8 +20,7 @@ endif()
 install(TARGETS spring_pendulum EXPORT spring_pendulumTargets
   LIBRARY DESTINATION ${install_lib} ARCHIVE DESTINATION ${install_lib})
 install(TARGETS Exercise3 check_frames sweep RUNTIME DESTINATION ${install_bin})
-install(PROGRAMS scripts/plot_table.py DESTINATION ${install_bin})
-install(FILES scripts/method_styles.py DESTINATION ${install_bin})
+install(PROGRAMS scripts/plot_table.py scripts/method_styles.py DESTINATION ${install_bin})
 install(DIRECTORY include/spring_pendulum DESTINATION include)
 install(DIRECTORY data config DESTINATION ${install_share})
 
