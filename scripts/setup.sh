@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian or Ubuntu packages that are missing. Usage: scripts/setup.sh COMPONENT ...
 #   core       compiler, CMake and the libraries of the simulator, Exercise3 and the GIF
-#   mpi        Open MPI, optional: sweeps and long chains on many machines
+#   mpi        Open MPI, optional: sweeps on many machines
 #   ros        ROS 1: packages for the node, the messages and the bags
 #   rviz       the viewer
 #   python     the Python module, its plots and notebooks
