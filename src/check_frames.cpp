@@ -57,7 +57,8 @@ const Method& registerTableau(const std::string& path) {
     tableau.a[tableau.stages] = tableau.b;
   }
   tableau.a[tableau.stages] = {};
-  registerMethod(methodOfTableau(std::filesystem::path(path).filename(), tableau));
+  const std::string name = std::filesystem::path(path).filename();
+  registerMethod(methodOfTableau("tableau " + onOneLine(name), tableau));
   return methodTable().back();
 }
 
@@ -67,23 +68,25 @@ constexpr int kStatus[] = {kDone, 5, 4, kFileFailed};
 /// Checks a folder and prints the result, in a table with columns of this width, or alone if it is 0.
 /// \returns the index of its exit status
 int check(const std::string& folder, const Scenario& scenario, const Scene& particles,
-          const CheckOptions& options, bool in_json, std::size_t width) {
-  std::string text;
+          bool method_is_given, std::size_t width) {
+  std::string row;
   int severity = 3;
   try {
-    const FrameCheck result = checkFrames(scenario, particles, readFrameFolder(folder), options);
+    const FrameCheck result = checkFrames(scenario, particles, readFrameFolder(folder),
+                                          {method_is_given, [] { return interruption() != 0; }});
     severity = static_cast<int>(result.verdict);
-    text = in_json ? jsonOf(result, folder) : width > 0 ? shortReportOf(result) : reportOf(result);
+    if (width == 0) printOutput(reportOf(result));
+    row = result.result;
+    for (const std::string& note : result.notes) row += "; note: " + note;
   } catch (const FileError& error) {
     if (interruption() != 0) {
       printError(fmt::format("{}: {}\n", folder, error.what()));
       return severity;
     }
-    if (!in_json && width == 0) throw;
-    text =
-        in_json ? jsonOfError(error.what(), folder) : fmt::format("unreadable: {}", error.what());
+    if (width == 0) throw;
+    row = fmt::format("unreadable: {}", error.what());
   }
-  printOutput(width > 0 && !in_json ? fmt::format("{:<{}}  {}\n", folder, width, text) : text);
+  if (width > 0) printOutput(fmt::format("{:<{}}  {}\n", folder, width, row));
   flushOutput();
   return severity;
 }
@@ -96,14 +99,11 @@ int checkAll(const Scenario& scenario, const OptionSet& options, const Switches&
   std::size_t width = 0;
   for (const std::string& folder : switches.folders) width = std::max(width, folder.size());
   if (switches.folders.size() == 1) width = 0;
+  const bool is_given = options.isGiven("method") || options.isGiven("tableau");
   int severity = 0;
   for (const std::string& folder : switches.folders) {
-    const bool is_given = options.isGiven("method") || options.isGiven("tableau");
-    const int one =
-        check(folder, scenario, particles, {is_given, [] { return interruption() != 0; }},
-              switches.has("json"), width);
+    severity = std::max(severity, check(folder, scenario, particles, is_given, width));
     if (interruption() != 0) return kSignalled + interruption();
-    severity = std::max(severity, one);
   }
   return kStatus[severity];
 }
@@ -113,8 +113,7 @@ int runCommandLine(int argc, const char* const* argv) {
       "check_frames",
       "Compares frames with each method, and says which mistake is in the program that wrote them.",
       "frames --particles particle.txt",
-      {{"json", "print a line of JSON for each folder"},
-       {"list-mistakes", "describe the known mistakes", listOfMistakes}},
+      {{"list-mistakes", "describe the known mistakes", listOfMistakes}},
       "DIR ...",
       "0 equal, 1 could not read, 2 wrong use or bad input, 4 different,\n"
       "5 undecided: frames are missing or too sensitive to compare, 128 + n stopped by signal n.",
@@ -131,6 +130,7 @@ int runCommandLine(int argc, const char* const* argv) {
   if (options.isGiven("tableau")) {
     if (options.isGiven("method")) throw InputError("tableau: not together with method");
     scenario.method = registerTableau(tableau);
+    refuseUnused(options, scenario);
   }
   if (switches.answer.empty()) return checkAll(scenario, options, switches);
   printOutput(switches.answer);

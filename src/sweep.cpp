@@ -95,7 +95,6 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
     if (!line.answer.empty()) return line;
     const std::string text = argument.value.empty() ? "true" : argument.value.front();
     if (!key.empty()) {
-      if (options.isGiven(key)) throw InputError("--" + key + ": is given twice");
       options.set(options.find(key, ""), text, "--" + key);
     } else if (line.study.empty()) {
       line.study = text;

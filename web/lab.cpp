@@ -356,7 +356,7 @@ val checkFrameTexts(const val& settings, bool method_is_given, const val& indice
                                        {method_is_given, [stop] { return stop().as<bool>(); }});
   val result = val::object();
   result.set("report", reportOf(check));
-  if (check.departure) result.set("time", check.time);
+  if (check.departure_time) result.set("time", *check.departure_time);
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "check/check_frames.hpp"
 
 #include "base/numbers.hpp"
-#include "base/spelling.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
@@ -9,10 +8,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "check/mistakes.hpp"
+#include "check/search.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -28,20 +26,6 @@ bool isOfCourse(const Method& method) {
                      [&](const auto& other) { return method.name == other.first; });
 }
 
-/// "particle 2, by 6.9e-06 m along its spring"
-std::string textOf(const Departure& departure) {
-  constexpr double kMostly = 0.9;
-  if (!departure.impossible.empty()) return "which " + departure.impossible;
-  const std::string particle = fmt::format("particle {}, ", departure.particle);
-  if (!std::isfinite(departure.distance))
-    return particle + "where the frame has a number that is not finite";
-  const double along = departure.along_spring;
-  return fmt::format("{}by {} m{}", particle, roundedText(departure.distance, 2),
-                     along > kMostly                       ? " along its spring"
-                     : along >= 0 && along < 1.0 - kMostly ? " across its spring"
-                                                           : "");
-}
-
 class Checker {
  public:
   Checker(const Scenario& scenario, const Scene& particles, AllFrames frames,
@@ -51,146 +35,138 @@ class Checker {
       const bool is_wanted =
           options.method_is_given ? &method == &scenario.method.get() : !isOfCourse(method);
       (is_wanted ? wanted_ : others_).push_back(&method);
-      if (is_wanted && StudentProgram::isWritten(method))
+      if (is_wanted && kindOf(method) != 0)
         wanted_written_.insert(wanted_written_.begin(), &method);
     }
-    result_.frames = static_cast<std::int64_t>(frames_.frames.size());
-    result_.digits = frames_.digits;
   }
 
   FrameCheck check() {
     compareWith(wanted_);
-    if (result_.methods.empty() && frames_.renumber(particles_.state.positions())) {
-      result_.departure.reset();
+    if (methods_.empty() && frames_.renumber(particles_.state.positions())) {
+      departure_.reset();
       compareWith(wanted_);
     }
     if (options_.stop && options_.stop())
       throw FileError("stopped before the frames were compared");
-    result_.remarks = frames_.remarks;
-    if (result_.methods.empty() && result_.departure) {
-      if (result_.departure->impossible.empty()) explain();
-      describeDifferent();
-      return result_;
-    }
-    result_.departure.reset();
-    // Programs differ by a frame or so in how they count.
-    const std::int64_t wanted = scenario_.frames - 1;
-    if (result_.last_frame >= std::min(wanted - 2, wanted * 49 / 50))
-      result_.verdict = FrameVerdict::kEqual;
-    describeEqual();
-    return result_;
+    FrameCheck result;
+    result.notes = frames_.notes;
+    methods_.empty() && departure_ ? describeDifferent(result) : describeEqual(result);
+    return result;
   }
 
  private:
-  static constexpr double kMostWork = 4e9;  ///< some 10 s
+  static constexpr double kMostWork = 10.0;  ///< s
 
   /// Notes the methods that agree, and the departure from the nearest of those that students write, or
   /// from the only one.
   void compareWith(const Methods& methods) {
-    const Chain chain = Chain(particles_.masses, scenario_.constants);
+    const Chain chain(particles_.masses, scenario_.constants);
     for (const Method* method : methods) {
-      WorkLimit work{kMostWork, options_.stop};
+      Plan plan = scenario_;
+      plan.method = *method;
+      WorkLimit work{kMostWork / static_cast<double>(methods.size()), options_.stop};
       const Agreement agreement = compare(
-          frames_, [&] { return motionOf(*method, scenario_, particles_); }, work, &chain);
+          frames_, [&] { return motionOf(plan, chain, particles_); }, work, &chain);
       if (work.isStopped()) return;
       if (agreement.complete) {
-        const bool is_best = agreement.last_frame > result_.last_frame;
-        if (is_best) result_.last_frame = agreement.last_frame;
-        result_.methods.insert(is_best ? result_.methods.begin() : result_.methods.end(),
-                               method->name);
+        if (agreement.last_frame > last_frame_) methods_.clear();
+        last_frame_ = std::max(last_frame_, agreement.last_frame);
+        if (agreement.last_frame == last_frame_) methods_.push_back(method->name);
       } else if (agreement.departure && &methods == &wanted_ &&
-                 (StudentProgram::isWritten(*method) || methods.size() == 1)) {
-        noteDeparture(*method, agreement);
+                 (kindOf(*method) != 0 || methods.size() == 1)) {
+        noteDeparture(plan, agreement);
       }
     }
   }
 
-  void noteDeparture(const Method& method, const Agreement& agreement) {
-    const bool is_nearer = !result_.departure || agreement.frames > known_frames_ ||
-                           (agreement.frames == known_frames_ &&
-                            agreement.departure->distance < result_.departure->distance);
+  void noteDeparture(const Plan& plan, const Agreement& agreement) {
+    const bool is_nearer =
+        !departure_ || agreement.frames > known_frames_ ||
+        (agreement.frames == known_frames_ && agreement.departure->distance < departure_->distance);
     if (!is_nearer) return;
     known_frames_ = agreement.frames;
-    result_.nearest = method.name;
-    result_.departure = agreement.departure;
-    Plan with_method = scenario_;
-    with_method.method = method;
-    result_.time = with_method.timeOfFrame(agreement.departure->frame);
+    departure_ = agreement.departure;
+    nearest_ = plan;
   }
 
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
-  void explain() {
+  std::vector<Explanation> explain(FrameCheck& result) {
     Search search{scenario_, particles_, frames_, known_frames_, {kMostWork, options_.stop}};
-    result_.explanations = findMistakes(search, wanted_written_, true);
-    if (!result_.explanations.empty()) return;
+    std::vector<Explanation> found = findMistakes(search, wanted_written_, true);
+    if (!found.empty()) return found;
     compareWith(others_);
-    if (result_.last_frame > frames_.start) return;
-    result_.methods.clear();
+    if (last_frame_ > frames_.start) return found;
+    methods_.clear();
     Methods written = wanted_written_;
     for (const char* const name : kExercise) {
       const Method* const method = &findMethod(name);
       if (std::find(wanted_.begin(), wanted_.end(), method) == wanted_.end())
         written.push_back(method);
     }
-    result_.explanations = findMistakes(search, written);
-    if (search.gave_up && result_.explanations.empty())
-      result_.remarks.emplace_back("the search for mistakes stopped before all were tried");
+    found = findMistakes(search, written);
+    if (search.gave_up && found.empty())
+      result.notes.emplace_back("the search for mistakes stopped before all were tried");
+    return found;
   }
 
   std::string comparedText() const {
-    const bool has_all = result_.last_frame == frames_.frames.back().index;
-    return fmt::format("{} in the {} printed",
-                       has_all ? "all " + counted(result_.frames, "frame")
-                               : fmt::format("frames up to {}", result_.last_frame),
-                       counted(result_.digits, "digit"));
+    const auto count = static_cast<std::int64_t>(frames_.frames.size());
+    const bool has_all = last_frame_ == frames_.frames.back().index;
+    return fmt::format(
+        "{} in the {} printed",
+        has_all ? "all " + counted(count, "frame") : fmt::format("frames up to {}", last_frame_),
+        counted(frames_.digits, "digit"));
   }
 
-  void describeEqual() {
+  void describeEqual(FrameCheck& result) const {
     constexpr const char* kTooLate = "rounding errors grow too much, or it takes too long";
-    result_.text = result_.verdict == FrameVerdict::kEqual ? "" : "undecided: ";
-    if (result_.methods.empty()) {
-      result_.text += fmt::format("frame {} is the first one, and too late to be compared: {}",
-                                  frames_.frames.front().index, kTooLate);
+    const std::int64_t last = scenario_.frames - 1;
+    // Programs differ by a frame or so in how they count.
+    const bool has_last = last_frame_ >= std::max(std::min(last, frames_.start + 1),
+                                                  std::min(last - 2, last * 49 / 50));
+    result.verdict = has_last ? FrameVerdict::kEqual : FrameVerdict::kUndecided;
+    result.result = has_last ? "" : "undecided: ";
+    if (methods_.empty()) {
+      result.result += fmt::format("frame {} is the first one, and too late to be compared: {}",
+                                   frames_.frames.front().index, kTooLate);
       return;
     }
-    result_.text += fmt::format("equal to {}: {}", result_.methods.front(), comparedText());
-    if (result_.last_frame != frames_.frames.back().index) {
-      result_.text += fmt::format("; later frames are not compared: {}", kTooLate);
-    } else if (result_.verdict == FrameVerdict::kUndecided) {
-      result_.text += fmt::format("; the frames up to {} are missing (--frames {})",
-                                  scenario_.frames - 1, scenario_.frames);
+    result.result += fmt::format("equal to {}: {}", methods_.front(), comparedText());
+    if (last_frame_ != frames_.frames.back().index) {
+      result.result += fmt::format("; later frames are not compared: {}", kTooLate);
+    } else if (!has_last) {
+      result.result +=
+          fmt::format("; the frames up to {} are missing (--frames {})", last, scenario_.frames);
     }
-    if (result_.methods.size() == 1) return;
-    result_.remarks.push_back(
-        fmt::format("{} would look the same in these digits",
-                    fmt::join(result_.methods.begin() + 1, result_.methods.end(), " and ")));
+    if (methods_.size() == 1) return;
+    result.notes.push_back(fmt::format("{} would look the same in these digits",
+                                       fmt::join(methods_.begin() + 1, methods_.end(), " and ")));
   }
 
-  void describeDifferent() {
-    result_.verdict = FrameVerdict::kDifferent;
-    result_.text = fmt::format("different: depart from {} at frame {}, t = {} s, {}\n",
-                               result_.nearest, result_.departure->frame,
-                               roundedText(result_.time, 6), textOf(*result_.departure));
-    if (!result_.methods.empty()) {
-      result_.text += fmt::format("They are frames of {}: {}.", fmt::join(result_.methods, " or "),
-                                  comparedText());
-      return;
-    }
-    if (result_.explanations.empty()) {
-      result_.text += "No known mistake reproduces them.";
-      return;
-    }
+  void describeDifferent(FrameCheck& result) {
     constexpr std::size_t kMostShown = 3;
-    std::vector<std::string> texts;
-    for (const Explanation& one : result_.explanations) {
-      if (texts.size() == kMostShown) break;
-      texts.push_back(
-          fmt::format("{}: the program {}", one.method, fmt::join(one.sentences, " and ")));
+    const std::vector<Explanation> found =
+        departure_->is_compared ? explain(result) : std::vector<Explanation>{};
+    result.verdict = FrameVerdict::kDifferent;
+    result.departure_time = nearest_.timeOfFrame(departure_->frame);
+    result.details = {fmt::format("depart from {} at frame {}, t = {} s, {}",
+                                  nearest_.method.get().name, departure_->frame,
+                                  roundedText(*result.departure_time, 6), departure_->text)};
+    result.result = "different: no known mistake reproduces the frames";
+    if (!methods_.empty())
+      result.result =
+          fmt::format("different: frames of {}: {}", fmt::join(methods_, " or "), comparedText());
+    for (std::size_t i = 0; i < std::min(found.size(), kMostShown); ++i) {
+      const auto& [program, last] = found[i];
+      const std::string& method = program.method.get().name;
+      if (i == 0)
+        result.result =
+            fmt::format("different: {} with {}", method, fmt::join(program.mistakes, " + "));
+      result.details.push_back(
+          fmt::format("{}{}: the program {} (reproduces the frames{})", i == 0 ? "" : "or ", method,
+                      fmt::join(program.sentences, " and "),
+                      last == frames_.frames.back().index ? "" : fmt::format(" up to {}", last)));
     }
-    const std::int64_t last = result_.explanations.front().last_frame;
-    result_.text += fmt::format(
-        "{} (reproduces the frames{})", fmt::join(texts, " or, in these frames the same, "),
-        last == frames_.frames.back().index ? "" : fmt::format(" up to {}", last));
   }
 
   const Scenario& scenario_;
@@ -198,50 +174,13 @@ class Checker {
   AllFrames frames_;
   const CheckOptions& options_;
   Methods wanted_, others_;
-  Methods wanted_written_;        ///< those that students write
-  std::size_t known_frames_ = 0;  ///< number of frames before the departure
-  FrameCheck result_;
+  Methods wanted_written_;            ///< those that students write
+  std::vector<std::string> methods_;  ///< those that the frames equal longest
+  std::int64_t last_frame_ = -1;      ///< the last one that could be compared
+  std::size_t known_frames_ = 0;      ///< number of frames before the departure
+  std::optional<Departure> departure_;
+  Plan nearest_;  ///< with the method from which the frames depart
 };
-
-/// \param text without control characters except the end of a line
-std::string inJson(std::string_view text) {
-  std::string quoted;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c == '\n' ? "\\n" : std::string(1, c);
-  }
-  return '"' + quoted + '"';
-}
-
-/// A list of what a function makes of each item.
-template <typename Items, typename Function>
-std::string listInJson(const Items& items, const Function& function) {
-  std::string list;
-  for (const auto& item : items) list += (list.empty() ? "" : ", ") + function(item);
-  return '[' + list + ']';
-}
-
-std::string departureInJson(const FrameCheck& check) {
-  if (!check.departure) return "null";
-  const Departure& departure = *check.departure;
-  return fmt::format(R"({{"from": {}, "frame": {}, "time": {}, "particle": {}, "distance": {}}})",
-                     inJson(check.nearest), departure.frame, numberText(check.time),
-                     departure.particle,
-                     std::isfinite(departure.distance) ? numberText(departure.distance) : "null");
-}
-
-std::string conclusionOf(const FrameCheck& check) {
-  const std::string method = check.methods.empty() ? "" : check.methods.front();
-  if (check.verdict == FrameVerdict::kEqual) return "equal to " + method;
-  if (check.verdict == FrameVerdict::kUndecided)
-    return fmt::format("undecided: equal to {} up to frame {}", method, check.last_frame);
-  if (!method.empty()) return "different: frames of " + method;
-  if (check.explanations.empty()) {
-    return fmt::format("different from frame {} on, no known mistake", check.departure->frame);
-  }
-  const Explanation& first = check.explanations.front();
-  return fmt::format("different: {} with {}", first.method, fmt::join(first.mistakes, " + "));
-}
 
 }  // namespace
 
@@ -260,38 +199,10 @@ FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
 }
 
 std::string reportOf(const FrameCheck& check) {
-  std::string report = check.text + "\n";
-  for (const std::string& remark : check.remarks) report += "note: " + remark + "\n";
+  std::string report = check.result + "\n";
+  for (const std::string& line : check.details) report += line + "\n";
+  for (const std::string& note : check.notes) report += "note: " + note + "\n";
   return report;
-}
-
-std::string shortReportOf(const FrameCheck& check) {
-  std::string report = conclusionOf(check);
-  for (const std::string& remark : check.remarks) report += "; note: " + remark;
-  return report;
-}
-
-std::string jsonOf(const FrameCheck& check, const std::string& folder) {
-  const auto explanation = [](const Explanation& one) {
-    return fmt::format(R"({{"method": {}, "mistakes": {}, "sentences": {}, "last_frame": {}}})",
-                       inJson(one.method), listInJson(one.mistakes, inJson),
-                       listInJson(one.sentences, inJson), one.last_frame);
-  };
-  return fmt::format(
-      R"({{"folder": {}, "equal": {}, "undecided": {}, "methods": {}, "frames": {}, )"
-      R"("last_frame": {}, "digits": {}, "departure": {}, )"
-      R"("explanations": {}, "remarks": {}, "text": {}}})"
-      "\n",
-      inJson(onOneLine(folder)), check.verdict == FrameVerdict::kEqual,
-      check.verdict == FrameVerdict::kUndecided, listInJson(check.methods, inJson), check.frames,
-      check.last_frame, check.digits, departureInJson(check),
-      listInJson(check.explanations, explanation), listInJson(check.remarks, inJson),
-      inJson(check.text));
-}
-
-std::string jsonOfError(const std::string& message, const std::string& folder) {
-  return fmt::format("{{\"folder\": {}, \"error\": {}}}\n", inJson(onOneLine(folder)),
-                     inJson(message));
 }
 
 std::string listOfMistakes() {

@@ -6,17 +6,12 @@
 #pragma once
 
 #include "io/files/frame_folder_reader.hpp"
-#include <spring_pendulum/model/scene.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "check/motion.hpp"
-#include "check/search.hpp"
 
 namespace spring_pendulum {
 
@@ -29,19 +24,10 @@ enum class FrameVerdict {
 
 struct FrameCheck {
   FrameVerdict verdict = FrameVerdict::kUndecided;
-  /// Method that the frames equal as far as they can be compared, best first. Not empty for different
-  /// frames if they are those of another method than wanted.
-  std::vector<std::string> methods;
-  std::int64_t frames = 0;                ///< number of frames compared
-  std::int64_t last_frame = -1;           ///< index of the last one that could be compared
-  int digits = 0;                         ///< significant digits printed
-  std::string nearest;                    ///< method that the frames follow longest
-  std::optional<Departure> departure;     ///< from `nearest`
-  double time = 0.0;                      ///< of the departure, s
-  std::vector<Explanation> explanations;  ///< indistinguishable ones; empty: none found
-  std::vector<std::string> remarks;       ///< one line each
-  /// The result in one or two lines, without remarks.
-  std::string text;
+  std::string result;                    ///< "different: Euler with no_damping"
+  std::vector<std::string> details;      ///< where different frames depart, and the mistakes
+  std::vector<std::string> notes;        ///< on missing frames, for example
+  std::optional<double> departure_time;  ///< s
 };
 
 struct CheckOptions {
@@ -65,18 +51,8 @@ void registerCourseMethods();
 FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
                        const std::vector<FrameText>& frames, const CheckOptions& options = {});
 
-/// Returns the result and the remarks, each on a line of its own.
+/// Returns the result, the details and the notes, each on a line of its own.
 std::string reportOf(const FrameCheck& check);
-
-/// Returns the result and the remarks on one line without details: "equal to Euler", "heun + g".
-std::string shortReportOf(const FrameCheck& check);
-
-/// Returns a JSON object on one line.
-/// \param folder name of the frames
-std::string jsonOf(const FrameCheck& check, const std::string& folder);
-
-/// Returns a JSON object on one line for frames that can't be read.
-std::string jsonOfError(const std::string& message, const std::string& folder);
 
 /// Returns a line for each known mistake: its name and its sentence.
 std::string listOfMistakes();

@@ -136,7 +136,7 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
   if (shift == 0 || !frames.front().equals(positions, 1.0)) return false;
   for (FrameNumbers& frame : frames) frame.index -= shift;
   // Instead of the missing frames.
-  remarks.front() =
+  notes.front() =
       fmt::format("the frames are numbered from {}; {} would be right", start + shift, start);
   return true;
 }
@@ -158,11 +158,11 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles
     frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
   all.digits = format.digits;
   all.are_floats = areFloats(all, particles.state.positions());
-  if (const std::string gaps = missingFrames(all); !gaps.empty()) all.remarks.push_back(gaps);
+  if (const std::string gaps = missingFrames(all); !gaps.empty()) all.notes.push_back(gaps);
   if (all.digits <= kFewDigits) {
-    all.remarks.push_back("few digits: " + counted(all.digits, "digit") +
-                          " printed, too few to show small mistakes; print 17, for example with "
-                          "std::setprecision(17)");
+    all.notes.push_back("few digits: " + counted(all.digits, "digit") +
+                        " printed, too few to show small mistakes; print 17, for example with "
+                        "std::setprecision(17)");
   }
   return all;
 }

@@ -28,7 +28,7 @@ struct AllFrames {
   int digits = 0;                    ///< largest number of significant digits
   bool are_floats = false;           ///< whether a program in float has written them
   std::int64_t start = 0;            ///< index of the frame that should be the start
-  std::vector<std::string> remarks;  ///< on missing frames and on the format
+  std::vector<std::string> notes;    ///< on missing frames and on the format
 
   /// If the first frame is the start with another index, lets it have that of the start.
   bool renumber(const Eigen::ArrayX2d& positions);

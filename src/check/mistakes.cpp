@@ -14,7 +14,6 @@ using Particle = StudentParticle;
 using Move = StudentMove;
 using Numbers = Eigen::Array4Xd;
 using Order = P::Order;
-using Implicit = P::Implicit;
 
 constexpr unsigned kTwo = P::kMidpoint | P::kHeun;
 constexpr unsigned kFour = P::kRungeKutta4;
@@ -44,9 +43,12 @@ Eigen::Array2d inDegrees(const Eigen::Array2d& d) {
   return {std::cos(angle), std::sin(angle)};
 }
 
+}  // namespace
+
 unsigned kindOf(const Method& method) {
-  if (isImplicit(method)) return P::kImplicit;
-  if (method.symplectic) return P::kSymplectic;
+  if (method.name == "Backward-Euler") return P::kImplicit;
+  if (method.name == "Semi-Implicit-Euler") return P::kSymplectic;
+  if (!method.hasFixedStep() || method.tableau == nullptr) return 0;
   const ButcherTableau& tableau = *method.tableau;
   if (tableau.stages == 1) return P::kEuler;
   if (method.name == "Runge-Kutta-4") return P::kRungeKutta4;
@@ -54,25 +56,26 @@ unsigned kindOf(const Method& method) {
   return tableau.b[0] == 0.0 ? P::kMidpoint : tableau.a[1][0] == 1.0 ? P::kHeun : P::kOtherTableau;
 }
 
-}  // namespace
-
-bool isImplicit(const Method& method) {
-  return method.name == "Backward-Euler";
-}
-
-bool StudentProgram::isWritten(const Method& method) {
-  const bool has_tableau = method.hasFixedStep() && method.tableau != nullptr;
-  return has_tableau || isImplicit(method) || method.name == "Semi-Implicit-Euler";
-}
-
 StudentProgram::StudentProgram(const Method& wanted, const Scenario& scenario)
     : Plan(scenario),
       Constants(scenario.constants),
       kinds(kindOf(wanted)),
       tableau(wanted.tableau != nullptr ? *wanted.tableau : kEulerTableau) {
+  method = wanted;
   if (air_drag != 0.0) kinds |= kInAir;
-  if (isImplicit(wanted)) implicit = Implicit::kSolved;
   if (wanted.symplectic) moves.push_back([](Move& m) { m.moveWith(m.result.tail<2>()); });
+}
+
+bool StudentProgram::canMake(const Mistake& mistake) const {
+  return (mistake.kinds & kinds) != 0 && (mistakes.empty() || mistakes.back() != mistake.name);
+}
+
+StudentProgram StudentProgram::with(const Mistake& mistake) const {
+  StudentProgram other = *this;
+  mistake.make(other);
+  other.mistakes.emplace_back(mistake.name);
+  other.sentences.emplace_back(mistake.sentence);
+  return other;
 }
 
 // clang-format off
@@ -85,7 +88,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"stage_fraction", P::kHeun, "goes half a step to its second slope instead of a whole one", [](P& p) { stage(p, 2, 0.5); }},
       {"weights", P::kHeun, "takes only the slope at the end of the step", [](P& p) { weights(p, 0, 1); }},
       {"half_square", P::kEuler, "adds h²/2 times the acceleration to the positions", [](P& p) { p.moves.push_back([](Move& m) { m.result.head<2>() += 0.5 * m.step * (m.result - m.start).tail<2>(); }); }},
-      {"one_iteration", P::kImplicit, "solves one linear system per step instead of iterating until the equation holds", [](P& p) { p.implicit = Implicit::kOneIteration; }},
+      {"one_iteration", P::kImplicit, "solves one linear system per step instead of iterating until the equation holds", [](P& p) { p.is_linearised = true; }},
       {"semi_implicit", kExplicit, "moves the positions with the velocities that are already updated (semi-implicit)", [](P& p) { p.moves.push_back([](Move& m) { if (m.ends_step) m.moveWith(m.result.tail<2>()); }); }},
       {"semi_implicit_stages", kSeveral, "moves the positions of a stage with the velocities of the same stage", [](P& p) { p.moves.push_back([](Move& m) { if (!m.ends_step) m.moveWith(m.result.tail<2>()); }); }},
       {"semi_implicit_stages", kSeveral, "moves the positions with the velocities already updated, in stages and at the end of the step", [](P& p) { p.moves.push_back([](Move& m) { m.moveWith(m.result.tail<2>()); }); }},

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -60,6 +60,8 @@ struct StudentMove {
   }
 };
 
+struct Mistake;
+
 /// The exercise with whatever is changed in it, also in plan and constants: a time step of 0 moves nothing.
 struct StudentProgram : Plan, Constants {
   /// Kinds of programs, as bits: a mistake concerns some of them.
@@ -81,11 +83,10 @@ struct StudentProgram : Plan, Constants {
     kParticlesInPlace,  ///< a particle takes its whole step before the next one
     kForceAfterMove     ///< all positions take the step before the forces are computed
   };
-  enum class Implicit { kNone, kSolved, kOneIteration };
 
-  unsigned kinds = 0;
+  unsigned kinds;
   ButcherTableau tableau;
-  Implicit implicit = Implicit::kNone;
+  bool is_linearised = false;  ///< an implicit method that solves a linear system per step
   Order order = Order::kTogether;
   std::int64_t first_step = 0;  ///< steps before frame 0; negative: the start is repeated
   bool single_precision = false;
@@ -94,19 +95,18 @@ struct StudentProgram : Plan, Constants {
   std::vector<void (*)(StudentParticle&)> particles = {};
   std::vector<void (*)(StudentMove&)> moves = {};
   std::vector<void (*)(Eigen::Array4Xd&)> prints = {};
+  /// Short names of the mistakes that were made, "heun" or "g", and for each a sentence for the student.
+  std::vector<std::string> mistakes = {}, sentences = {};
 
-  /// The right program for a method that `isWritten` by students.
+  /// The right program for a method that students write.
   StudentProgram(const Method& wanted, const Scenario& scenario);
 
-  static bool isWritten(const Method& method);
-
-  std::int64_t stepOfFrame(std::int64_t frame) const {
-    return std::max<std::int64_t>(0, first_step + frame * steps_per_frame);
-  }
+  bool canMake(const Mistake& mistake) const;
+  StudentProgram with(const Mistake& mistake) const;
 };
 
-/// Whether a method solves equations, which students do to fewer digits than a number has.
-bool isImplicit(const Method& method);
+/// Returns the kind of the programs for a method; 0 if students do not write them.
+unsigned kindOf(const Method& method);
 
 struct Mistake {
   std::string_view name;      ///< several rows may share a name

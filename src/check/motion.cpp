@@ -1,8 +1,10 @@
 #include "check/motion.hpp"
 
-#include <spring_pendulum/simulation/plan.hpp>
+#include "base/numbers.hpp"
+#include <spring_pendulum/model/energy.hpp>
 
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,67 +15,31 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kPrecision = std::numeric_limits<double>::epsilon();
-constexpr double kPrecisionOfSolvers = 1e-9;  ///< at which students end an iteration
-
-/// Adds rounding errors to one column of the state, except to the first particle; nothing if all
-/// numbers are equal, like x in a vertical chain: their differences are exact.
-/// \param precision relative precision of the numbers of the program
-template <typename Numbers>
-void disturbNumbers(Numbers&& numbers, double precision, std::int64_t steps, std::mt19937& random) {
-  // Errors of a step in units of the last digit; measured: at most 3 in other orders of summation.
-  constexpr double kRoundingErrors = 16.0;
-  if (numbers.minCoeff() == numbers.maxCoeff()) return;
-  const double size = kRoundingErrors * std::sqrt(static_cast<double>(steps)) * precision *
-                      numbers.abs().maxCoeff();
-  for (Eigen::Index i = 1; i < numbers.size(); ++i) {
-    const double share = static_cast<double>(random()) / std::mt19937::max();
-    numbers[i] += (2.0 * share - 1.0) * size;
-  }
-}
-
 class MethodMotion : public Motion {
  public:
-  MethodMotion(const Method& method, const Scenario& scenario, const Scene& particles)
-      : tolerance_(method.hasFixedStep() ? 0.0 : scenario.tolerance),
-        precision_(isImplicit(method) ? kPrecisionOfSolvers : kPrecision),
-        chain_(particles.masses, scenario.constants),
-        state_(particles.state),
-        integrator_(makeIntegrator(method, chain_, {scenario.tolerance, false, 0})),
-        plan_(scenario),
-        frame_(particles.frame) {
-    plan_.method = method;
-  }
+  MethodMotion(const Plan& plan, const Chain& chain, const Scene& particles)
+      : Motion(plan, particles),
+        integrator_(makeIntegrator(plan.method, chain, {plan.tolerance})) {}
 
   bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
-    const std::int64_t before = integrator_->forceEvaluations();
     const std::int64_t steps = (frame - frame_) * plan_.steps();
-    const auto stop = [&limit] { return limit.isStopped(); };
-    if (integrator_->advance(state_, plan_.step(), steps, stop) < steps) return false;
-    limit.done += static_cast<double>((integrator_->forceEvaluations() - before) * state_.size());
+    const double before = limit.done - integrator_->work();
+    const auto stop = [&] {
+      limit.done = before + integrator_->work();
+      return limit.isOver();
+    };
+    State state(state_.cols());
+    state.values() = state_.transpose().matrix();
+    if (std::exchange(is_disturbed_, false)) integrator_->restart();
+    if (integrator_->advance(state, plan_.step(), steps, stop) < steps) return false;
+    limit.done = before + integrator_->work();
+    state_ = state.values().transpose().array();
     frame_ = frame;
     return true;
   }
 
-  Eigen::ArrayX2d positions() const override { return state_.positions(); }
-
-  void disturb(std::mt19937& random) override {
-    for (int column = 0; column < 4; ++column) {
-      disturbNumbers(state_.values().col(column).array(), precision_, plan_.steps(), random);
-    }
-    integrator_->restart();
-  }
-
-  double tolerance() const override { return tolerance_; }
-
  private:
-  double tolerance_;  ///< m
-  double precision_;
-  Chain chain_;
-  State state_;
   std::unique_ptr<Integrator> integrator_;
-  Plan plan_;
-  std::int64_t frame_;
 };
 
 class ProgramMotion : public Motion {
@@ -82,14 +48,14 @@ class ProgramMotion : public Motion {
   using Row = Eigen::Array4d;       ///< x, y, vx, vy
   using Rows = Eigen::Array4Xd;     ///< by particle
   using Order = StudentProgram::Order;
-  using Implicit = StudentProgram::Implicit;
 
  public:
   ProgramMotion(const StudentProgram& program, const Scene& particles)
-      : program_(program),
-        first_frame_(particles.frame),
-        state_(particles.state.values().transpose().array()) {
-    if (program.single_precision) state_ = state_.cast<float>().cast<double>().eval();
+      : Motion(program, particles), program_(program) {
+    if (program.single_precision) {
+      state_ = state_.cast<float>().cast<double>().eval();
+      precision_ = std::numeric_limits<float>::epsilon();
+    }
     const AlignedNumbers& masses = particles.masses;
     const Eigen::Index last = masses.size() - 1;
     for (Eigen::Index i = 0; i <= last; ++i) {
@@ -104,12 +70,13 @@ class ProgramMotion : public Motion {
   }
 
   bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
-    const std::int64_t target = program_.stepOfFrame(frame - first_frame_);
-    const bool is_implicit = program_.implicit != Implicit::kNone;
+    constexpr double kWorkOfSpring = 2.5e-8;  // s, ten times that of a kernel of the library
+    const std::int64_t target = std::max<std::int64_t>(
+        0, program_.first_step + (frame - frame_) * program_.steps_per_frame);
+    const bool is_implicit = (program_.kinds & StudentProgram::kImplicit) != 0;
     const auto size = static_cast<double>(state_.cols());
-    // Relative to a kernel of the library.
-    const double work_of_spring = is_implicit ? (200.0 + 3.0 * size) * size : 10.0;
-    limit.done += static_cast<double>(target - step_) * work_of_spring * size *
+    const double springs = size * (is_implicit ? (20.0 + 0.3 * size) * size : 1.0);
+    limit.done += static_cast<double>(target - step_) * kWorkOfSpring * springs *
                   static_cast<double>(slopes_.size());
     for (; step_ < target; ++step_) {
       if (limit.isOver()) return false;
@@ -122,14 +89,6 @@ class ProgramMotion : public Motion {
     Rows numbers = state_;
     for (const auto change : program_.prints) change(numbers);
     return numbers.topRows<2>().transpose();
-  }
-
-  void disturb(std::mt19937& random) override {
-    const double precision = program_.single_precision ? std::numeric_limits<float>::epsilon()
-                             : program_.implicit != Implicit::kNone ? kPrecisionOfSolvers
-                                                                    : kPrecision;
-    for (Eigen::Index row = 0; row < 4; ++row)
-      disturbNumbers(state_.row(row), precision, program_.steps_per_frame, random);
   }
 
  private:
@@ -212,69 +171,181 @@ class ProgramMotion : public Motion {
     return result;
   }
 
-  /// The change of the accelerations with a change of the state.
-  Vectors changeOf(const Rows& z, const Rows& change) const {
+  /// The accelerations at the end of a step, or what they are linearised at its begin.
+  Vectors accelerationsAt(const Rows& end, const Rows& begin) const {
+    if (!program_.is_linearised) return accelerations(end);
     constexpr double kPart = 1e-4;
-    return (accelerations(z + kPart * change) - accelerations(z - kPart * change)) / (2.0 * kPart);
-  }
-
-  static Eigen::VectorXd flat(const Vectors& vectors) {
-    return Eigen::Map<const Eigen::VectorXd>(vectors.data(), vectors.size());
+    const Rows part = kPart * (end - begin);
+    return accelerations(begin) +
+           (accelerations(begin + part) - accelerations(begin - part)) / (2.0 * kPart);
   }
 
   /// Newton's method for v' = v + h a(p + h v', v').
   void stepImplicitly() {
     constexpr int kMostIterations = 30;
     constexpr double kConverged = 1e-11;
+    constexpr double kChange = 1e-6;  // m/s, for the derivatives
     const double h = program_.time_step;
-    const bool once = program_.implicit == Implicit::kOneIteration;
-    const Vectors positions = state_.topRows<2>();
-    const Vectors velocities = state_.bottomRows<2>();
-    Rows way = Rows::Zero(4, state_.cols());
-    way.topRows<2>() = h * velocities;
-    if (!once) state_ += way;
+    const Rows begin = state_;
+    const auto missing = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+      const Eigen::Map<const Vectors> velocities(v.data(), 2, begin.cols());
+      state_ << begin.topRows<2>() + h * velocities, velocities;
+      const Vectors difference =
+          begin.bottomRows<2>() + h * accelerationsAt(state_, begin) - velocities;
+      return Eigen::Map<const Eigen::VectorXd>(difference.data(), v.size());
+    };
+    const Vectors velocities = begin.bottomRows<2>();
+    Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(velocities.data(), velocities.size());
+    const double scale = 1.0 + v.cwiseAbs().maxCoeff();
     for (int n = 0; n < kMostIterations; ++n) {
-      Vectors missing = velocities + h * accelerations(state_) - state_.bottomRows<2>();
-      if (once) missing += h * changeOf(state_, way);
-      const Eigen::VectorXd change = matrixOf(h).partialPivLu().solve(flat(missing));
-      state_.bottomRows<2>() += Eigen::Map<const Vectors>(change.data(), 2, state_.cols());
-      state_.topRows<2>() = positions + h * state_.bottomRows<2>();
-      const double scale = 1.0 + velocities.abs().maxCoeff();
-      if (once || !(change.cwiseAbs().maxCoeff() > kConverged * scale)) break;
+      const Eigen::VectorXd error = missing(v);
+      Eigen::MatrixXd matrix(v.size(), v.size());
+      for (Eigen::Index k = 0; k < v.size(); ++k) {
+        const Eigen::VectorXd changed = v + kChange * Eigen::VectorXd::Unit(v.size(), k);
+        matrix.col(k) = (error - missing(changed)) / kChange;
+      }
+      const Eigen::VectorXd change = matrix.partialPivLu().solve(error);
+      v += change;
+      if (!(change.cwiseAbs().maxCoeff() > kConverged * scale)) break;
     }
-  }
-
-  /// 1 - h da/dv - h² da/dp
-  Eigen::MatrixXd matrixOf(double h) const {
-    const Eigen::Index size = 2 * state_.cols();
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
-    for (Eigen::Index k = 0; k < size; ++k) {
-      Rows way = Rows::Zero(4, state_.cols());
-      way(k % 2, k / 2) = h;
-      way(k % 2 + 2, k / 2) = 1.0;
-      matrix.col(k) -= flat(h * changeOf(state_, way));
-    }
-    return matrix;
+    missing(v);
   }
 
   StudentProgram program_;
-  std::int64_t first_frame_;
-  Rows state_, seen_, next_;  ///< seen: what the forces are computed from
+  Rows seen_, next_;          ///< seen: what the forces are computed from
   std::vector<Rows> slopes_;  ///< by stage
   std::vector<StudentParticle> particles_;
   std::vector<double> start_lengths_;  ///< of the spring before each particle, m
   std::int64_t step_ = 0;
 };
 
+/// NaN if one of the numbers is not finite.
+double largestDistance(const Eigen::ArrayX2d& a, const Eigen::ArrayX2d& b) {
+  const Eigen::ArrayX2d distance = (a - b).abs();
+  return distance.allFinite() ? distance.maxCoeff() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The first particle of a frame that differs from a motion by more than a unit of the last digit and
+/// `error` m.
+std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::ArrayX2d& motion,
+                                     double error) {
+  constexpr double kMostly = 0.9;
+  const auto agrees = ((frame.positions - motion).abs() <= frame.units + error) ||
+                      (!frame.positions.isFinite() && !motion.isFinite());
+  for (Eigen::Index i = 0; i < motion.rows(); ++i) {
+    if (agrees.row(i).all()) continue;
+    const Eigen::RowVector2d offset = (frame.positions.row(i) - motion.row(i)).matrix();
+    const double distance = offset.norm();
+    const std::string particle = fmt::format("particle {}, ", i + 1);
+    if (!std::isfinite(distance))
+      return Departure{frame.index, distance, particle + "where a number is not finite"};
+    const Eigen::RowVector2d spring =
+        (motion.row(i) - motion.row(std::max<Eigen::Index>(i - 1, 0))).matrix();
+    const double along = std::abs(offset.dot(spring)) / (distance * spring.norm());
+    return Departure{frame.index, distance,
+                     fmt::format("{}by {} m{}", particle, roundedText(distance, 2),
+                                 along > kMostly         ? " along its spring"
+                                 : along < 1.0 - kMostly ? " across its spring"
+                                                         : "")};
+  }
+  return std::nullopt;
+}
+
+/// Potential energy, J.
+double energyOf(const Chain& chain, const Eigen::ArrayX2d& positions) {
+  State state(chain.size());
+  state.positions() = positions.matrix();
+  return computeEnergy(chain, state).total();
+}
+
+/// A departure of a frame that is too late to be compared, if no motion between these potential
+/// energies can have it.
+std::optional<Departure> impossibleIn(const FrameNumbers& frame, const Chain& chain, double least,
+                                      double most) {
+  constexpr double kMargin = 1.1;
+  if (!frame.positions.allFinite())
+    return Departure{frame.index, 0.0, "which has a number that is not finite", false};
+  if (energyOf(chain, frame.positions) <= least + kMargin * (most - least)) return std::nullopt;
+  return Departure{frame.index, 0.0, "which has more energy than any frame before", false};
+}
+
 }  // namespace
 
-std::unique_ptr<Motion> motionOf(const Method& method, const Scenario& scenario,
-                                 const Scene& particles) {
-  return std::make_unique<MethodMotion>(method, scenario, particles);
+Motion::Motion(const Plan& plan, const Scene& particles)
+    : plan_(plan), frame_(particles.frame), state_(particles.state.values().transpose().array()) {
+  constexpr double kPrecisionOfSolvers = 1e-9;  // at which students end an iteration
+  if (kindOf(plan.method) == StudentProgram::kImplicit) precision_ = kPrecisionOfSolvers;
+}
+
+void Motion::disturb(std::mt19937& random) {
+  // Errors of a step in units of the last digit; measured: at most 3 in other orders of summation.
+  constexpr double kRoundingErrors = 16.0;
+  const double size = kRoundingErrors * std::sqrt(static_cast<double>(plan_.steps())) * precision_;
+  for (Eigen::Index row = 0; row < state_.rows(); ++row) {
+    auto numbers = state_.row(row);
+    // Nothing if all are equal, like x in a vertical chain: their differences are exact.
+    if (numbers.minCoeff() == numbers.maxCoeff()) continue;
+    const double error = size * numbers.abs().maxCoeff();
+    for (Eigen::Index i = 1; i < numbers.size(); ++i) {
+      const double share = static_cast<double>(random()) / std::mt19937::max();
+      numbers[i] += (2.0 * share - 1.0) * error;
+    }
+  }
+  is_disturbed_ = true;
+}
+
+std::unique_ptr<Motion> motionOf(const Plan& plan, const Chain& chain, const Scene& particles) {
+  return std::make_unique<MethodMotion>(plan, chain, particles);
 }
 
 std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& particles) {
   return std::make_unique<ProgramMotion>(program, particles);
+}
+
+Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& limit,
+                  const Chain* chain) {
+  constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
+  const std::unique_ptr<Motion> motion = make();
+  const std::unique_ptr<Motion> companion = make();
+  double least_energy = std::numeric_limits<double>::infinity();  // J
+  double most_energy = -least_energy;
+  std::mt19937 random(1);  // the same on every machine
+  Agreement agreement;
+  bool is_comparable = true;
+  double rounding = 0.0;  // m
+  double scale = 0.0;     // largest coordinate, m
+  companion->disturb(random);
+  std::int64_t index = frames.start;
+  for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
+    if (limit.isOver() || !motion->advanceTo(index, limit)) break;
+    const Eigen::ArrayX2d positions = motion->positions();
+    if (chain != nullptr && positions.allFinite()) {
+      least_energy = std::min(least_energy, energyOf(*chain, positions));
+      most_energy = std::max(most_energy, energyOf(*chain, positions));
+    }
+    if (is_comparable) {
+      if (!companion->advanceTo(index, limit)) break;
+      const double spread = largestDistance(positions, companion->positions());
+      rounding = spread <= rounding ? rounding : spread;  // NaN replaces it
+      scale = std::max(scale, positions.isFinite().select(positions.abs(), 0.0).maxCoeff());
+      is_comparable = rounding <= kComparable * scale || scale == 0.0;
+      if (motion->tolerance() == 0.0) companion->disturb(random);
+    }
+    if (!is_comparable && chain == nullptr) break;
+    if (index < frame->index) continue;  // missing
+    if (is_comparable) {
+      agreement.departure = departureOf(*frame, positions, rounding + motion->tolerance());
+      if (agreement.departure) return agreement;
+      ++agreement.frames;
+      agreement.last_frame = index;
+    } else if (positions.allFinite()) {
+      agreement.departure = impossibleIn(*frame, *chain, least_energy, most_energy);
+      if (agreement.departure) return agreement;
+    }
+    ++frame;
+  }
+  agreement.complete = agreement.frames > 0 && !limit.isStopped();
+  return agreement;
 }
 
 }  // namespace spring_pendulum

@@ -3,14 +3,13 @@
 // by more rounding errors than there are.
 #pragma once
 
-#include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/scene.hpp>
-#include <spring_pendulum/simulation/scenario.hpp>
 
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <random>
@@ -23,7 +22,7 @@ namespace spring_pendulum {
 
 /// Limits the work of comparisons and fits.
 struct WorkLimit {
-  double most;                 ///< spring forces of the library; others count more
+  double most;                 ///< nominal computing time as in Integrator::work(), s
   std::function<bool()> stop;  ///< empty: never
   double done = 0.0;
 
@@ -41,33 +40,35 @@ class Motion {
   /// \returns false if `limit` ended it on the way, after which the motion is of no use
   virtual bool advanceTo(std::int64_t frame, WorkLimit& limit) = 0;
   /// N×2 positions as the program prints them, m.
-  virtual Eigen::ArrayX2d positions() const = 0;
+  virtual Eigen::ArrayX2d positions() const { return state_.topRows<2>().transpose(); }
   /// Changes all numbers by some rounding errors of the steps of a frame.
-  virtual void disturb(std::mt19937& random) = 0;
+  void disturb(std::mt19937& random);
   /// Error in m that two right results may have besides rounding. If it is not 0, `disturb` must be
   /// called at the start only.
-  virtual double tolerance() const { return 0.0; }
+  double tolerance() const { return plan_.method.get().hasFixedStep() ? 0.0 : plan_.tolerance; }
 
  protected:
-  Motion() = default;
+  Motion(const Plan& plan, const Scene& particles);
+
+  Plan plan_;
+  std::int64_t frame_;                                         ///< of the state
+  Eigen::Array4Xd state_;                                      ///< x, y, vx, vy by particle
+  double precision_ = std::numeric_limits<double>::epsilon();  ///< relative, of the numbers
+  bool is_disturbed_ = false;
 };
 
-/// The motion of a method of the table. It starts at the frame of the particles.
-std::unique_ptr<Motion> motionOf(const Method& method, const Scenario& scenario,
-                                 const Scene& particles);
+/// The motion of the method of a plan. It starts at the frame of the particles.
+std::unique_ptr<Motion> motionOf(const Plan& plan, const Chain& chain, const Scene& particles);
 
 /// The motion of a program. Copies the program.
 std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& particles);
 
 /// Where frames depart from a motion.
 struct Departure {
-  std::int64_t frame = 0;
-  std::ptrdiff_t particle = 0;  ///< the first one, counted from 1
-  double distance = 0.0;        ///< m; NaN if the frame has a number that is not finite
-  /// Share of the distance along the spring to the previous particle; -1 if there is none.
-  double along_spring = -1.0;
-  /// What is impossible in a frame that is too late to be compared; empty: it was compared.
-  std::string impossible = {};
+  std::int64_t frame;
+  double distance;          ///< m; NaN if the frame has a number that is not finite
+  std::string text;         ///< "particle 2, by 6.9e-06 m along its spring"
+  bool is_compared = true;  ///< else, the frame is too late to be compared, but impossible
 };
 
 struct Agreement {

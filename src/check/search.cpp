@@ -6,51 +6,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
-
-#include "check/mistakes.hpp"
 
 namespace spring_pendulum {
 namespace {
 
-struct Candidate {
-  StudentProgram program;
-  Explanation explanation;
-
-  Candidate with(const Mistake& mistake) const {
-    Candidate other = *this;
-    mistake.make(other.program);
-    other.add(mistake.name, std::string(mistake.sentence));
-    return other;
-  }
-  bool canMake(const Mistake& mistake) const {
-    return (mistake.kinds & program.kinds) != 0 &&
-           (explanation.mistakes.empty() || explanation.mistakes.back() != mistake.name);
-  }
-  void add(std::string_view name, std::string sentence) {
-    explanation.mistakes.emplace_back(name);
-    explanation.sentences.push_back(std::move(sentence));
-  }
-};
-
-/// Tries candidates and keeps those that explain the frames.
+/// Tries programs and keeps those that explain the frames.
 class Trials {
  public:
   explicit Trials(Search& search) : search_(search) {}
 
   std::vector<Explanation> found;
 
-  Candidate rightProgram(const Method& method) const {
-    const Candidate right{StudentProgram(method, search_.scenario), {method.name, {}, {}, 0}};
-    return search_.frames.are_floats ? inSinglePrecision(right) : right;
+  StudentProgram rightProgram(const Method& method) const {
+    const StudentProgram right(method, search_.scenario);
+    return search_.frames.are_floats ? right.with(knownMistakes().back()) : right;
   }
 
-  void tryMistakes(const Candidate& base) {
+  void tryMistakes(const StudentProgram& base) {
     if (!search_.frames.are_floats || !explains(base)) tryMistakesFrom(0, base);
   }
 
-  void tryConstants(const Candidate& base) {
+  void tryConstants(const StudentProgram& base) {
     for (const Constant& constant : fittedConstants()) {
       for (const double factor : {1.0, 0.1, 10.0, -1.0}) {
         if (isOver() || fit(base, constant, factor)) break;
@@ -58,38 +35,34 @@ class Trials {
     }
   }
 
-  void trySinglePrecision(const Candidate& base) {
+  void trySinglePrecision(const StudentProgram& base) {
     constexpr int kDigitsOfFloat = 9;  // more digits show whether the numbers are floats
     if (!search_.frames.are_floats && search_.frames.digits <= kDigitsOfFloat)
-      explains(inSinglePrecision(base));
+      explains(base.with(knownMistakes().back()));
   }
 
-  void tryTwoMistakes(const Candidate& base) {
+  void tryTwoMistakes(const StudentProgram& base) {
     const std::vector<Mistake>& table = knownMistakes();
     for (std::size_t i = 0; i + 1 < table.size(); ++i) {
       if (base.canMake(table[i])) tryMistakesFrom(i + 1, base.with(table[i]));
     }
   }
 
-  void tryMistakeAndConstant(const Candidate& base) {
-    Candidate right = base;
+  void tryMistakeAndConstant(const StudentProgram& base) {
+    StudentProgram right = base;
     for (const Constant& constant : fittedConstants()) {
       for (const Mistake& mistake : knownMistakes()) {
         if (!base.canMake(mistake) || isOver()) continue;
-        Candidate wrong = base.with(mistake);
-        if (constant.in(wrong.program) == constant.in(right.program)) fit(wrong, constant);
+        StudentProgram wrong = base.with(mistake);
+        if (constant.in(wrong) == constant.in(right)) fit(wrong, constant);
       }
     }
   }
 
  private:
-  static Candidate inSinglePrecision(const Candidate& base) {
-    return base.with(knownMistakes().back());
-  }
-
   bool isOver() { return search_.gave_up |= search_.limit.isOver(); }
 
-  void tryMistakesFrom(std::size_t first, const Candidate& base) {
+  void tryMistakesFrom(std::size_t first, const StudentProgram& base) {
     const std::vector<Mistake>& table = knownMistakes();
     for (std::size_t i = first; i < table.size() && !isOver(); ++i) {
       if (base.canMake(table[i])) explains(base.with(table[i]));
@@ -103,11 +76,10 @@ class Trials {
   bool isExplanation(const Agreement& agreement) {
     return agreement.complete && agreement.frames > search_.known_frames && !isOver();
   }
-  bool explains(Candidate candidate) {
-    const Agreement agreement = agreementOf(candidate.program);
+  bool explains(const StudentProgram& program) {
+    const Agreement agreement = agreementOf(program);
     if (!isExplanation(agreement)) return false;
-    candidate.explanation.last_frame = agreement.last_frame;
-    found.push_back(std::move(candidate.explanation));
+    found.push_back({program, agreement.last_frame});
     return true;
   }
 
@@ -136,33 +108,33 @@ class Trials {
   }
 
   /// Fits a constant, starting from its value times `factor`, to more and more frames, and rounds it.
-  bool fit(Candidate candidate, const Constant& constant, double factor = 1.0) {
+  bool fit(StudentProgram program, const Constant& constant, double factor = 1.0) {
     constexpr double kSmallestMistake = 1e-5;  // relative; smaller ones are rounding errors
     constexpr int kMostDigits = 15;
     const std::vector<FrameNumbers>& frames = search_.frames.frames;
-    double& value = constant.in(candidate.program);
+    double& value = constant.in(program);
     const double right = value;
     value *= factor;
-    Agreement agreement = agreementOf(candidate.program);
+    Agreement agreement = agreementOf(program);
     while (!agreement.complete && !isOver()) {
       const std::size_t before = agreement.frames;
-      improve(candidate.program, constant,
-              frames[std::min(frames.size() - 1, before + before / 2)]);
-      agreement = agreementOf(candidate.program);
+      improve(program, constant, frames[std::min(frames.size() - 1, before + before / 2)]);
+      agreement = agreementOf(program);
       if (!agreement.complete && agreement.frames <= before) return false;
     }
     if (!isExplanation(agreement)) return false;
     const double fitted = value;
     for (int digits = 1; digits <= kMostDigits; ++digits) {
       value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
-      if (isExplanation(agreementOf(candidate.program))) break;
+      if (isExplanation(agreementOf(program))) break;
     }
     const double scale = right == 0.0 ? 1.0 : std::abs(right);
     if (std::abs(value - right) <= kSmallestMistake * scale) return false;
     std::string sentence(constant.sentence);
     sentence.replace(sentence.find("{}"), 2, roundedText(value, kMostDigits));
-    candidate.add(constant.name, fmt::format("{} instead of {}", sentence, roundedText(right, 6)));
-    return explains(std::move(candidate));
+    program.mistakes.emplace_back(constant.name);
+    program.sentences.push_back(fmt::format("{} instead of {}", sentence, roundedText(right, 6)));
+    return explains(program);
   }
 
   Search& search_;
@@ -171,7 +143,7 @@ class Trials {
 }  // namespace
 
 std::vector<Explanation> findMistakes(Search& search, const Methods& methods, bool only_single) {
-  constexpr void (Trials::*kLevels[])(const Candidate&) = {
+  constexpr void (Trials::*kLevels[])(const StudentProgram&) = {
       &Trials::tryMistakes, &Trials::tryConstants, &Trials::trySinglePrecision,
       &Trials::tryTwoMistakes, &Trials::tryMistakeAndConstant};
   constexpr std::size_t kEvidence = 20;  // frames after the departure that a strong explanation has
@@ -188,7 +160,7 @@ std::vector<Explanation> findMistakes(Search& search, const Methods& methods, bo
         found.begin(), found.end(), [&](const Explanation& one) { return one.last_frame >= far; });
     if (weak != found.begin()) return {found.begin(), weak};
     if (only_single) break;
-    if (best.empty() && !found.empty() && found.front().mistakes.size() == 1) best = found;
+    if (best.empty() && !found.empty() && found.front().program.mistakes.size() == 1) best = found;
   }
   return best;
 }

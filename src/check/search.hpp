@@ -1,23 +1,16 @@
 // Searches for the mistakes that reproduce frames.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "check/motion.hpp"
 
 namespace spring_pendulum {
 
 using Methods = std::vector<const Method*>;
 
-/// Mistakes that together reproduce the frames.
+/// A program whose mistakes reproduce the frames.
 struct Explanation {
-  std::string method;                  ///< the method in which they are made
-  std::vector<std::string> mistakes;   ///< short names: "heun", "g"
-  std::vector<std::string> sentences;  ///< for the student, one per mistake: "uses g = 10 m/s²"
-  std::int64_t last_frame = 0;         ///< reproduced up to this frame
+  StudentProgram program;
+  std::int64_t last_frame;  ///< reproduced up to this frame
 };
 
 struct Search {

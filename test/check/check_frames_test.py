@@ -4,9 +4,9 @@
 Usage: check_frames_test.py CHECK_FRAMES EXERCISE3 [FRAMES [SEED [WRONG [RIGHT]]]]
 The programs are those of student.py, with random mistakes, scenes and digits.
 """
-import json
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -136,17 +136,22 @@ class Lab:
         self.count += 1
         folder = self.folder / f'frames_{self.count}'
         student.write(folder, result, form, first=first)
-        command = [self.check, folder, '--particles', particles, '--json', '--frames', str(frames or len(result))]
         asked = ['--tableau' if isinstance(method, pathlib.Path) else '--method', method]
-        done = subprocess.run(command + [*asked, *options], stdout=subprocess.PIPE, check=False)
-        return done.returncode, json.loads(done.stdout)
+        command = [self.check, folder, '--particles', particles, '--frames', str(frames or len(result)), *asked, *options]
+        done = subprocess.run(command, stdout=subprocess.PIPE, check=False, universal_newlines=True)
+        return done.returncode, done.stdout
 
 
-def named(names, verdict):
+def mistakes_in(report):
+    """The mistakes of the first explanation."""
+    found = re.match('different: .+ with (.+)\n', report)
+    return found.group(1).split(' + ') if found else []
+
+
+def named(names, report):
     """Whether the first explanation names exactly these mistakes, also by fitted values."""
-    found = verdict['explanations'][0]['mistakes'] if verdict['explanations'] else []
     same = {'gravity_9.8': 'g', 'gravity_10': 'g', 'gravity_up': 'g'}
-    return sorted(same.get(name, name) for name in found) == sorted(same.get(name, name) for name in names)
+    return sorted(same.get(name, name) for name in mistakes_in(report)) == sorted(same.get(name, name) for name in names)
 
 
 def try_wrong(lab, frames, number):
@@ -166,7 +171,7 @@ def try_wrong(lab, frames, number):
         good = status == 4 and named(names, verdict)
         right += good
         if not good:
-            print('not named:', names, change, method, scene_name, form, status, verdict['text'], path, sep='  ')
+            print('not named:', names, change, method, scene_name, form, status, verdict, path, sep='  ')
     return right
 
 
@@ -242,7 +247,7 @@ def garbage_is_not_equal(lab):
         }
         for name, (frames, expected) in cases.items():
             status, verdict = lab.verdict(frames, '10g', path, 'Runge-Kutta-4', 300, '--damping', str(damping))
-            if status not in expected or verdict['explanations'] or verdict['undecided'] != (status == 5):
+            if status not in expected or mistakes_in(verdict) or verdict.startswith('undecided') != (status == 5):
                 print('garbage:', name, damping, status, verdict)
                 return False
     return True
@@ -275,9 +280,8 @@ def other_courses_are_judged(lab):
     for program, form, first, (asked, *options), expected, names in cases:
         status, verdict = lab.verdict(student.frames(scene, count=40, **program), form, path, asked, 40, *options,
                                       first=first)
-        found = verdict['explanations'][0]['mistakes'] if verdict['explanations'] else []
-        is_named = verdict['methods'] == [names] if isinstance(names, str) else found == names
-        if status != expected or not is_named or any('numbered' in line for line in verdict['remarks']) != (first == 1):
+        is_named = f'frames of {names}:' in verdict if isinstance(names, str) else mistakes_in(verdict) == names
+        if status != expected or not is_named or ('numbered' in verdict) != (first == 1):
             print('course:', program, form, first, asked, options, status, verdict)
             good = False
     return good
@@ -311,9 +315,27 @@ def stops_inside_a_frame(lab):
     return True
 
 
+def misuse_is_refused(lab):
+    """Whether options that would be ignored are refused by name."""
+    file = lab.folder / 'Heun'  # the name of a method
+    file.write_text('1\n1/2 1/2\n')
+    cases = [(('--tableau', file, '--tolerance', '1e-3'), 2, '--tolerance: tableau Heun takes fixed steps'),
+             (('--frames', '4', '--frames', '5'), 2, '--frames: is given twice'),
+             (('--tableau', file, '--frames', '1'), 0, '')]
+    for options, status, message in cases:
+        process = start_with_frames(lab, ['frame_0000.txt'], *options)
+        errors = process.communicate()[1]
+        if process.returncode != status or not errors.startswith(message) or errors.count('\n') != (status != 0):
+            print('misuse:', options, process.returncode, errors)
+            return False
+    return True
+
+
 def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
     with tempfile.TemporaryDirectory() as folder:
         lab = Lab(pathlib.Path(folder), (check, exercise), int(seed))
+        endless = start_with_frames(lab, ['frame_0000.txt', 'frame_0001.txt'], '--frames', '2', '--method', 'Euler',
+                                    '--steps-per-frame', '2000000000')
         named_rightly = try_wrong(lab, int(frames), int(number_wrong))
         accused = try_right(lab, int(frames), int(number_right))
         assert late_frames_fail(lab, ['frame_0000.txt', 'frame_99999999999.txt'])
@@ -322,6 +344,8 @@ def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
         assert other_courses_are_judged(lab)
         assert resumed_run_is_equal(lab, 'Runge-Kutta-4') and resumed_run_is_equal(lab, 'Auto')
         assert stops_inside_a_frame(lab)
+        assert misuse_is_refused(lab)
+        assert 'it takes too long' in endless.communicate()[0] and endless.returncode == 5
     print(f'{named_rightly} of {number_wrong} wrong programs named, {accused} of {number_right} right ones accused')
     # Measured: 40 and 0 with these defaults.
     return 0 if named_rightly >= 0.95 * int(number_wrong) and accused == 0 else 1

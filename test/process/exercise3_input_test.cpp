@@ -130,6 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                  {"Euler", "--no\nway"},
                  2,
                  "unknown option '--no?way'; known options: "},
+        BadInput{
+            "Twice", {"Euler", "--frames", "4", "--frames", "5"}, 2, "--frames: is given twice\n"},
         BadInput{"NoValue", {"Euler", "--frames"}, 2, "--frames: needs a value, see --help\n"},
         BadInput{"NothingAfterTheEqualsSign",
                  {"Euler", "--output="},

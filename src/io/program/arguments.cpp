@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 namespace spring_pendulum {
@@ -34,9 +35,13 @@ std::vector<po::option> splitArguments(int argc, const char* const* argv,
                                           .style(style::unix_style & ~style::allow_guessing)
                                           .run()
                                           .options;
+    std::set<std::string> given;
     for (const po::option& option : options) {
       const std::vector<std::string>& tokens = option.original_tokens;
-      if (option.string_key.empty() || tokens.size() < 2 || tokens[1].rfind("--", 0) != 0) continue;
+      if (option.string_key.empty()) continue;
+      if (!given.insert(option.string_key).second)
+        throw InputError(fmt::format("--{}: is given twice", option.string_key));
+      if (tokens.size() < 2 || tokens[1].rfind("--", 0) != 0) continue;
       throw InputError(fmt::format("--{}: needs a value, see --help", option.string_key));
     }
     return options;

@@ -170,32 +170,27 @@ void setOptions(const std::vector<po::option>& given, OptionSet& options) {
   }
 }
 
-/// On the command line, unlike in a file, an option without effect is an error.
-void refuseUnused(const std::vector<po::option>& given, const OptionSet& options,
-                  const Scenario& scenario) {
-  for (const std::string_view key : unusedKeys(scenario, options)) {
-    if (!has(given, optionName(key))) continue;
-    throw InputError(fmt::format(
-        "--{}: {}", optionName(key),
-        whyUnused(scenario.method, [](std::string_view name) { return "--" + optionName(name); })));
-  }
-}
-
 /// \returns the path of the file; empty: none
 std::string readConfig(const std::vector<po::option>& given, OptionSet& options) {
-  std::string path;
   for (const po::option& option : given) {
-    if (option.string_key == "config") path = option.value.front();
-  }
-  if (!path.empty()) {
+    if (option.string_key != "config") continue;
+    const std::string& path = option.value.front();
+    if (path.empty()) throw InputError("--config: must be a file, got ''");
     parseOptions(readTextFile(path), path, options);
-  } else if (has(given, "config")) {
-    throw InputError("--config: must be a file, got ''");
+    return path;
   }
-  return path;
+  return "";
 }
 
 }  // namespace
+
+void refuseUnused(const OptionSet& options, const Scenario& scenario) {
+  const auto dashed = [](std::string_view name) { return "--" + optionName(name); };
+  for (const std::string_view key : unusedKeys(scenario, options)) {
+    if (options.placeOf(key) != dashed(key)) continue;
+    throw InputError(fmt::format("{}: {}", dashed(key), whyUnused(scenario.method, dashed)));
+  }
+}
 
 std::string optionHelp(const Option& option) {
   std::string help(option.meaning);
@@ -233,7 +228,7 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
                                  program.name, program.example));
   }
   checkScenario(scenario);
-  if (options.isGiven(kMethodKey)) refuseUnused(given, options, scenario);
+  if (options.isGiven(kMethodKey)) refuseUnused(options, scenario);
   return switches;
 }
 

@@ -58,6 +58,10 @@ struct Switches {
 Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& program,
                           OptionSet& options, const Scenario& scenario);
 
+/// On the command line, unlike in a file, an option that the method does not use is an error.
+/// \throws InputError
+void refuseUnused(const OptionSet& options, const Scenario& scenario);
+
 /// Returns the meaning of an option with its default in brackets, for the help text.
 std::string optionHelp(const Option& option);
 
