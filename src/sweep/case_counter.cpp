@@ -30,8 +30,6 @@ class MpiCounter : public CaseCounter {
     MPI_Win_free(&window_);
     MPI_Finalize();
   }
-  MpiCounter(const MpiCounter&) = delete;
-  MpiCounter& operator=(const MpiCounter&) = delete;
 
   void check() const {
     int size = 0;

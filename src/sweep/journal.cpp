@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <optional>
+#include <sstream>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -46,16 +47,17 @@ Journal::Journal(std::string path, std::uint64_t hash)
 }
 
 void Journal::read(
-    const std::function<void(std::int64_t index, std::string_view text)>& take) const {
-  const std::string file = readTextFile(path_);
-  const std::string_view text(file);
-  std::size_t begin = 0;
-  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string_view::npos;
-       begin = end + 1) {
-    const std::string_view line = text.substr(begin, end - begin);
+    const std::function<bool(std::int64_t index, std::string_view text)>& take) const {
+  std::istringstream lines(readTextFile(path_));
+  std::string line;
+  std::getline(lines, line);  // the head
+  // A line that ends with the file is unfinished.
+  for (int number = 2; std::getline(lines, line) && !lines.eof(); ++number) {
     const std::size_t comma = std::min(line.find(','), line.size());
     const std::optional<std::int64_t> index = parseInteger(line.substr(0, comma));
-    if (index) take(*index, line.substr(comma));
+    if (index && take(*index, line.substr(comma))) continue;
+    throw InputError(fmt::format("{}:{}: is damaged; remove the line to run its case anew",
+                                 fullPath(path_), number));
   }
 }
 
@@ -78,10 +80,6 @@ bool Journal::lock() {
 
 void Journal::unlock() {
   ::flock(file_.get(), LOCK_UN);
-}
-
-void Journal::remove() {
-  ::unlink(path_.c_str());
 }
 
 void Journal::cutTornLine() {

@@ -21,8 +21,9 @@ class Journal {
   /// \throws FileError, and InputError for a journal of another study or version
   Journal(std::string path, std::uint64_t hash);
 
-  /// Passes all finished cases to `take`, in any order. \throws FileError
-  void read(const std::function<void(std::int64_t index, std::string_view text)>& take) const;
+  /// Passes all finished cases to `take`, in any order.
+  /// \throws FileError, and InputError for a line that `take` does not accept
+  void read(const std::function<bool(std::int64_t index, std::string_view text)>& take) const;
   /// Appends a case. \throws FileError
   void append(std::int64_t index, std::string_view text);
 
@@ -30,8 +31,6 @@ class Journal {
   /// \returns false if the file was removed meanwhile: another process has written the table
   bool lock();
   void unlock();
-  /// Removes the file.
-  void remove();
 
   const std::string& path() const { return path_; }
 

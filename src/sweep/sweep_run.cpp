@@ -165,7 +165,9 @@ class Sweep {
   /// Takes over what this and other processes have finished.
   void readJournal() {
     journal_->read([this](std::int64_t index, std::string_view text) {
-      if (index >= 0 && index < study_.cases()) rows_[static_cast<std::size_t>(index)] = text;
+      const bool is_case = index >= 0 && index < study_.cases() && hasColumns(study_, text);
+      if (is_case) rows_[static_cast<std::size_t>(index)] = text;
+      return is_case;
     });
   }
 
@@ -173,7 +175,7 @@ class Sweep {
     OutputFile table(options_.output);
     writeRows(table);
     table.finish();
-    journal_->remove();
+    std::filesystem::remove(journal_->path());
     std::string text = fmt::format("{}: {}, table {}", study_.name, counted(study_.cases(), "case"),
                                    options_.output);
     if (options_.plot) {

@@ -29,22 +29,13 @@ double energyError(const Run& run) {
   return std::abs(run.energyEntry().relative_residual.value_or(kNan));
 }
 
-double duration(const Run& run) {
-  return run.plan().timeOfFrame(run.plan().frames - 1);
-}
-
-double largestStableStep(const Run& run) {
-  if (!(duration(run) > 0.0)) return kNan;
-  return largestStableStep(run.chain(), run.start(), run.plan()).step;
+double divergenceTime(const Run& run) {
+  return run.verdict().kind == VerdictKind::kDiverged ? run.verdict().time : kNan;
 }
 
 double linearStep(const Run& run) {
-  if (!(duration(run) > 0.0)) return kNan;
-  return linearStepLimit(run.plan().method, run.chain(), duration(run));
-}
-
-double divergenceTime(const Run& run) {
-  return run.verdict().kind == VerdictKind::kDiverged ? run.verdict().time : kNan;
+  const double duration = run.plan().timeOfFrame(run.plan().frames - 1);
+  return duration > 0.0 ? linearStepLimit(run.plan().method, run.chain(), duration) : kNan;
 }
 
 /// A text as a field of CSV.
@@ -59,30 +50,27 @@ std::string field(const std::string& text) {
 
 const std::vector<Column>& allColumns() {
   static const std::vector<Column> kColumns{
-      {"verdict", "", "verdict on the run, as Exercise3 reports it", nullptr,
-       [](const Run& run) { return std::string(toString(run.verdict().kind)); }},
+      {"verdict", "", "verdict on the run, as Exercise3 reports it", nullptr},
       {"position_error", "m", "largest position error at the frames, against the reference run",
-       nullptr, [](const Run& run) { return numberText(run.positionError().largest); }},
+       [](const Run& run) { return run.positionError().largest; }},
       {"error_bound", "m", "largest sum of position error and uncertainty of the reference run",
-       nullptr, [](const Run& run) { return numberText(run.positionError().bound); }},
-      {"measured_until", "s", "time until which the position error is known", nullptr,
-       [](const Run& run) { return numberText(run.positionError().measured_until); }},
-      {"energy_error", "", "largest residual of the energy balance, in energy scales", energyError},
-      {"largest_stretch", "m", "largest elongation of a spring at the frames", largestStretch},
-      {"tip_x", "m", "position of the last particle at the end", nullptr,
-       [](const Run& run) { return numberText(run.state().x()[run.chain().size() - 1]); }},
-      {"tip_y", "m", "position of the last particle at the end", nullptr,
-       [](const Run& run) { return numberText(run.state().y()[run.chain().size() - 1]); }},
-      {"diverged_at", "s", "time of the divergence", nullptr,
-       [](const Run& run) { return numberText(divergenceTime(run)); }},
-      {"seconds", "s", "nominal computing time of the method, counted and not measured", nullptr,
-       [](const Run& run) { return roundedText(run.integrator().work(), 6); }},
-      {"force_evaluations", "", "evaluations of the forces on the whole chain", nullptr,
-       [](const Run& run) { return std::to_string(run.integrator().forceEvaluations()); }},
-      {"largest_stable_step", "s", "largest stable step size of a fixed-step method, by trial runs",
-       nullptr, [](const Run& run) { return numberText(largestStableStep(run)); }},
-      {"linear_step", "s", "stability limit of the linearised chain, with a margin", nullptr,
-       [](const Run& run) { return numberText(linearStep(run)); }},
+       [](const Run& run) { return run.positionError().bound; }},
+      {"measured_until", "s", "time until which the position error is known",
+       [](const Run& run) { return run.positionError().measured_until; }},
+      {"energy_error", "", "largest residual of the energy balance, in energy scales", energyError,
+       true},
+      {"largest_stretch", "m", "largest elongation of a spring at the frames", largestStretch,
+       true},
+      {"tip_x", "m", "position of the last particle at the end",
+       [](const Run& run) { return run.state().x()[run.chain().size() - 1]; }},
+      {"tip_y", "m", "position of the last particle at the end",
+       [](const Run& run) { return run.state().y()[run.chain().size() - 1]; }},
+      {"diverged_at", "s", "time of the divergence", divergenceTime},
+      {"seconds", "s", "nominal computing time of the method, counted and not measured",
+       [](const Run& run) { return *parseNumber(roundedText(run.integrator().work(), 6)); }},
+      {"force_evaluations", "", "evaluations of the forces on the whole chain",
+       [](const Run& run) { return static_cast<double>(run.integrator().forceEvaluations()); }},
+      {"linear_step", "s", "stability limit of the linearised chain, with a margin", linearStep},
   };
   return kColumns;
 }
@@ -123,18 +111,31 @@ std::optional<std::string> runCase(const Study& study, const Case& a_case,
   std::vector<double> largest(study.columns.size(), kNan);
   while (run.advance()) {
     for (std::size_t i = 0; i < largest.size(); ++i) {
-      if (const auto at_frame = study.columns[i]->at_frame) {
-        largest[i] = std::fmax(largest[i], at_frame(run));
-      }
+      const Column& column = *study.columns[i];
+      if (column.at_frames) largest[i] = std::fmax(largest[i], column.value(run));
     }
   }
   if (run.wasStopped()) return std::nullopt;
   std::string text;
   for (std::size_t i = 0; i < largest.size(); ++i) {
-    const auto at_end = study.columns[i]->at_end;
-    text += ',' + (at_end != nullptr ? at_end(run) : numberText(largest[i]));
+    const auto& [name, unit, meaning, value, at_frames] = *study.columns[i];
+    text += ',' + (value == nullptr ? std::string(toString(run.verdict().kind))
+                                    : numberText(at_frames ? largest[i] : value(run)));
   }
   return text;
+}
+
+bool hasColumns(const Study& study, std::string_view text) {
+  for (const Column* const column : study.columns) {
+    if (text.empty()) return false;
+    text.remove_prefix(1);
+    const std::string_view value = text.substr(0, text.find(','));
+    const bool is_number = parseNumber(value) || value == "nan" || value == "-nan" ||
+                           value == "inf" || value == "-inf";
+    if (!is_number && column->value != nullptr) return false;
+    text.remove_prefix(value.size());
+  }
+  return text.empty();
 }
 
 }  // namespace spring_pendulum::sweep

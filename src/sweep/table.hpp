@@ -18,8 +18,8 @@ struct Column {
   std::string_view name;
   std::string_view unit;  ///< empty: none
   std::string_view meaning;
-  double (*at_frame)(const Run&);  ///< the column is the largest of these; null: given at the end
-  std::string (*at_end)(const Run&) = nullptr;
+  double (*value)(const Run&);  ///< null: the verdict
+  bool at_frames = false;  ///< whether it is the largest value at the frames, not that at the end
 };
 
 const std::vector<Column>& allColumns();
@@ -36,6 +36,9 @@ std::string rowStart(const Study& study, std::int64_t index);
 /// \returns the columns as comma-separated text; nothing if `stop` has stopped the run
 std::optional<std::string> runCase(const Study& study, const Case& a_case,
                                    const std::function<bool()>& stop);
+
+/// Whether a text has as many columns as a row, and numbers where a row has them.
+bool hasColumns(const Study& study, std::string_view text);
 
 /// Draws a table with the script plot_table.py, which lies beside the program. It gets the plot entries as
 /// arguments: no text of a study is ever a command.

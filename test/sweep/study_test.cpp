@@ -26,9 +26,11 @@ TEST(Study, LastAxisVariesFastestAndSamplesSlowest) {
   const TemporaryFolder folder;
   const Study study = studyOf(folder,
                               "axes:\n  method: [Euler, Auto]\n  stiffness: {linear: [10, 30, 3]}\n"
+                              "  damping: {list: [1, 2, 3], with: stiffness}\n"
                               "random: {samples: 2, displacement: {normal: [0, 0.01]}}\n");
   ASSERT_EQ(study.cases(), 12);
   const Case made = caseOf(study, 4);
+  EXPECT_EQ(made.settings.scenario.constants.spring.damping, 2.0);
   EXPECT_EQ(made.settings.scenario.method.get().name, "Auto");
   EXPECT_EQ(made.settings.scenario.constants.spring.stiffness, 20.0);
   EXPECT_EQ(made.sample, 0);
@@ -65,6 +67,13 @@ TEST(Study, DurationGivesFramesAndSteps) {
     EXPECT_EQ(scenario.steps_per_frame, expected[i][1]) << i;
   }
   EXPECT_EQ(caseOf(study, 7).settings.scenario.frames, 21);
+  const Study steps = studyOf(folder,
+                              "base: {duration: 1}\naxes:\n  method: [Runge-Kutta-4, Auto]\n"
+                              "  time_step: {log: [0.0003, 0.1, 9]}\n");
+  for (std::int64_t i = 0; i < steps.cases(); ++i) {
+    const Scenario scenario = caseOf(steps, i).settings.scenario;
+    EXPECT_NEAR(scenario.timeOfFrame(scenario.frames - 1), 1.0, 1e-12) << i;
+  }
 }
 
 TEST(Study, OptionsThatSomeCaseUsesAreAccepted) {
@@ -75,16 +84,6 @@ TEST(Study, OptionsThatSomeCaseUsesAreAccepted) {
         "base: {frame_interval: 1, time_step: 1}\naxes: {method: all}\n"}) {
     EXPECT_NO_THROW(studyOf(folder, text)) << text;
   }
-}
-
-TEST(Study, JoinedAxesVaryTogether) {
-  const TemporaryFolder folder;
-  const Study study = studyOf(folder,
-                              "axes:\n  method: [Auto, Euler]\n  time_step: {list: [0.1, 0.01]}\n"
-                              "  tolerance: {list: [1e-3, 1e-6], with: time_step}\n");
-  ASSERT_EQ(study.cases(), 4);
-  EXPECT_EQ(caseOf(study, 1).settings.scenario.tolerance, 1e-6);
-  EXPECT_EQ(caseOf(study, 1).settings.scenario.time_step, 0.01);
 }
 
 TEST(Study, HashDependsOnTheParticles) {
@@ -153,6 +152,10 @@ TEST(Study, BadInputIsFoundBeforeTheFirstCase) {
       {"base: {method: Auto}\naxes: {tolerance: [1e-6, 1e-30]}\n", "case 1: tolerance: must be at"},
       {"axes: {mass_factor: [1, 1e308]}\n", "case 1: particle 3: mass must be positive and finite"},
       {"axes: {gravity: [1, 1e308]}\n", "case 1: the initial energy exceeds"},
+      {"base: {duration: 1}\naxes: {time_step: [0.1, 0.3]}\n",
+       "case 1: time_step: whole steps must"},
+      {"base: {time_step: 0.3}\naxes: {duration: [0.9, 1]}\n",
+       "case 1: time_step: whole steps must"},
   };
   const TemporaryFolder folder;
   for (const auto& [text, message] : bad) {
