@@ -13,9 +13,8 @@ namespace {
 using Vector = PlaneVector<double>;
 
 constexpr int kMostIterations = 200;
-constexpr double kShortest = 1e-12;  ///< shortest part of a Newton step
-/// Largest remaining force on a particle, relative to the sum of the magnitudes of the forces on it.
-constexpr double kMostUnbalanced = 1e-6;
+constexpr double kShortest = 1e-12;  ///< least part of a Newton step
+constexpr double kClosed = 1e-11;  ///< largest remaining gap, relative to the length of the springs
 
 Vector operator+(const Vector& a, const Vector& b) {
   return {a.x + b.x, a.y + b.y};
@@ -37,105 +36,62 @@ Vector separationAt(const SpringLaw& spring, const Vector& f) {
   return (spring.rest_length / force + 1.0 / spring.stiffness) * f;
 }
 
-/// The springs between two held particles.
-class Segment {
- public:
-  Segment(const Chain& chain, Eigen::Index first, Eigen::Index last, const Vector& span)
-      : chain_(chain), first_(first), last_(last), span_(span) {}
+/// Where the springs between two held particles end if the first one has a given force.
+struct Gap {
+  Vector size{};         ///< from the second held particle to the end of the last spring, m
+  double springs = 0.0;  ///< length of the springs, m
+  double xx = 0.0, xy = 0.0, yy = 0.0;  ///< derivative by the force, m/N: the Hessian of the energy
 
-  /// Complementary energy of the force of the first spring, J, with gradient and Hessian.
-  struct Energy {
-    double value = 0.0;
-    Vector gradient{};
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-
-    double unbalanced() const { return lengthOf(gradient); }
-    Vector newtonStep() const {
-      const double determinant = xx * yy - xy * xy;
-      return {(xy * gradient.y - yy * gradient.x) / determinant,
-              (xy * gradient.x - xx * gradient.y) / determinant};
-    }
-  };
-
-  Energy energyOf(const Vector& first_force) const {
-    const SpringLaw& spring = chain_.spring();
-    Energy energy;
-    energy.value = -(first_force.x * span_.x + first_force.y * span_.y);
-    energy.gradient = -1.0 * span_;
-    Vector f = first_force;
-    for (Eigen::Index i = first_; i < last_; ++i) {
-      if (i > first_) f = f + -1.0 * loadOn(chain_, i);
-      const double force = std::max(lengthOf(f), std::numeric_limits<double>::min());
-      const Vector r = (1.0 / force) * f;
-      const double turn = spring.rest_length / force, stretch = 1.0 / spring.stiffness;
-      energy.value += force * (spring.rest_length + 0.5 * force * stretch);
-      energy.gradient = energy.gradient + (turn + stretch) * f;
-      energy.xx += turn * r.y * r.y + stretch;
-      energy.xy -= turn * r.x * r.y;
-      energy.yy += turn * r.x * r.x + stretch;
-    }
-    return energy;
+  double length() const { return lengthOf(size); }
+  Vector newtonStep() const {
+    const double determinant = xx * yy - xy * xy;
+    return {(xy * size.y - yy * size.x) / determinant, (xy * size.x - xx * size.y) / determinant};
   }
-
-  /// Returns the force of the first spring in equilibrium: the minimum.
-  Vector solve() const {
-    Vector f{};
-    for (Eigen::Index i = first_ + 1; i < last_; ++i) f = f + 0.5 * loadOn(chain_, i);
-    const double pull = lengthOf(f) + chain_.spring().stiffness * chain_.spring().rest_length;
-    f = f + (0.1 * pull / std::max(lengthOf(span_), 1e-9)) * span_;
-    double length = 1.0;
-    for (int i = 0; i < kMostIterations && length > kShortest; ++i) {
-      const Energy energy = energyOf(f);
-      const Vector step = energy.newtonStep();
-      const double slope = step.x * energy.gradient.x + step.y * energy.gradient.y;
-      length = 1.0;
-      while (length > kShortest &&
-             !(energyOf(f + length * step).value <= energy.value + 1e-4 * length * slope)) {
-        length *= 0.5;
-      }
-      if (length > kShortest) f = f + length * step;
-    }
-    // The energy no longer resolves the minimum, but its gradient does.
-    for (Energy energy = energyOf(f);;) {
-      const Vector better = f + energy.newtonStep();
-      const Energy next = energyOf(better);
-      if (!(next.unbalanced() < energy.unbalanced())) return f;
-      f = better;
-      energy = next;
-    }
-  }
-
- private:
-  const Chain& chain_;
-  Eigen::Index first_, last_;
-  Vector span_;
 };
 
-/// Whether a spring has no length, and so no direction.
-bool hasShrunkSpring(const State& state) {
-  for (Eigen::Index i = 0; i + 1 < state.size(); ++i) {
-    if (state.x()[i] == state.x()[i + 1] && state.y()[i] == state.y()[i + 1]) return true;
+Gap gapOf(const Chain& chain, Eigen::Index first, Eigen::Index last, const Vector& span,
+          const Vector& first_force) {
+  Gap gap{-1.0 * span};
+  Vector f = first_force;
+  for (Eigen::Index i = first; i < last; ++i) {
+    if (i > first) f = f + -1.0 * loadOn(chain, i);
+    const double force = std::max(lengthOf(f), std::numeric_limits<double>::min());
+    const Vector r = (1.0 / force) * f;
+    const double turn = chain.spring().rest_length / force;
+    const double stretch = 1.0 / chain.spring().stiffness;
+    gap.size = gap.size + (turn + stretch) * f;
+    gap.springs += chain.spring().rest_length + stretch * force;
+    gap.xx += turn * r.y * r.y + stretch;
+    gap.xy -= turn * r.x * r.y;
+    gap.yy += turn * r.x * r.x + stretch;
   }
-  return false;
+  return gap;
 }
 
-/// Whether gravity, forces and springs balance on each particle that is not held.
-bool isBalanced(const Chain& chain, const State& state) {
-  Vector left{};
-  for (Eigen::Index i = 0; i < chain.size(); ++i) {
-    const Vector right = i + 1 < chain.size() ? springForceOn(chain, state, i) : Vector{};
-    const Vector load = loadOn(chain, i);
-    const Vector sum = right + -1.0 * left + load;
-    const double all = std::abs(right.x) + std::abs(right.y) + std::abs(left.x) + std::abs(left.y) +
-                       std::abs(load.x) + std::abs(load.y);
-    const double rounding =
-        1e-13 * chain.spring().stiffness *
-        (std::abs(state.x()[i]) + std::abs(state.y()[i]) + chain.spring().rest_length);
-    const double unbalanced = std::abs(sum.x) + std::abs(sum.y);
-    if (!chain.isHeld(i) && !(unbalanced <= kMostUnbalanced * all + rounding)) return false;
-    left = right;
+/// Returns the force of the first spring in equilibrium, where the gap is closed.
+Vector firstForce(const Chain& chain, Eigen::Index first, Eigen::Index last, const Vector& span) {
+  Vector f{};
+  for (Eigen::Index i = first + 1; i < last; ++i) f = f + 0.5 * loadOn(chain, i);
+  const double pull = lengthOf(f) + chain.spring().stiffness * chain.spring().rest_length;
+  f = f + (0.1 * pull / std::max(lengthOf(span), 1e-9)) * span;
+  Gap gap = gapOf(chain, first, last, span, f);
+  for (int i = 0; i < kMostIterations; ++i) {
+    const Vector step = gap.newtonStep();
+    // Along a Newton step, the length of the gap decreases at first.
+    double part = 1.0;
+    Gap next = gapOf(chain, first, last, span, f + step);
+    while (part > kShortest && !(next.length() < gap.length())) {
+      part *= 0.5;
+      next = gapOf(chain, first, last, span, f + part * step);
+    }
+    if (part <= kShortest) break;
+    f = f + part * step;
+    gap = next;
   }
-  return true;
+  if (gap.length() <= kClosed * gap.springs) return f;
+  throw InputError(
+      "found no rest position of the chain in which all springs are stretched: move its held "
+      "particles apart");
 }
 
 }  // namespace
@@ -160,13 +116,15 @@ State equilibrium(const Chain& chain, const State& state) {
   for (Eigen::Index last = 1; last < chain.size(); ++last) {
     if (!chain.isHeld(last)) continue;
     const Vector span{state.x()[last] - state.x()[first], state.y()[last] - state.y()[first]};
-    if (last > first + 1) hang(first, last, Segment(chain, first, last, span).solve());
+    if (last > first + 1) hang(first, last, firstForce(chain, first, last, span));
     first = last;
   }
   Vector weight{};
   for (Eigen::Index i = first + 1; i < chain.size(); ++i) weight = weight + loadOn(chain, i);
   hang(first, chain.size(), weight);
-  if (hasShrunkSpring(result)) {
+  const Eigen::Index springs = chain.size() - 1;
+  const auto x = result.x().array(), y = result.y().array();
+  if ((x.head(springs) == x.tail(springs) && y.head(springs) == y.tail(springs)).any()) {
     throw InputError(
         "a chain at rest with a spring of length 0 cannot move on: give it a rest length, gravity, "
         "or held particles that are apart");
@@ -174,11 +132,6 @@ State equilibrium(const Chain& chain, const State& state) {
   if (!result.values().allFinite()) {
     throw InputError(
         "the chain at rest is longer than a double can hold: the stiffness must be larger");
-  }
-  if (!isBalanced(chain, result)) {
-    throw InputError(
-        "found no rest position of the chain in which all springs are stretched: move its held "
-        "particles apart");
   }
   return result;
 }
