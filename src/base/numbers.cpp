@@ -20,30 +20,6 @@ std::string_view withoutPlus(std::string_view text) {
   return sign_then_digit ? text.substr(1) : text;
 }
 
-/// Removes leading digits and returns how many there were.
-std::size_t skipDigits(std::string_view& text) {
-  const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
-  text.remove_prefix(end);
-  return end;
-}
-
-bool skipAny(std::string_view& text, std::string_view characters) {
-  if (text.empty() || characters.find(text.front()) == std::string_view::npos) return false;
-  text.remove_prefix(1);
-  return true;
-}
-
-/// Whether the text has the form that std::from_chars accepts for a finite number.
-bool isDecimal(std::string_view text) {
-  skipAny(text, "-");
-  std::size_t digits = skipDigits(text);
-  if (skipAny(text, ".")) digits += skipDigits(text);
-  if (digits == 0) return false;
-  if (!skipAny(text, "eE")) return text.empty();
-  skipAny(text, "+-");
-  return skipDigits(text) > 0 && text.empty();
-}
-
 std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
@@ -52,9 +28,13 @@ std::optional<double> finite(double value) {
 
 std::optional<double> parseNumberPortably(std::string_view text) {
   static const locale_t kClassic = newlocale(LC_ALL_MASK, "C", nullptr);
-  text = withoutPlus(text);
-  if (!isDecimal(text)) return std::nullopt;
-  return finite(strtod_l(std::string(text).c_str(), nullptr, kClassic));
+  const std::string number(withoutPlus(text));
+  // strtod also accepts a second sign, blanks, hexadecimal numbers and "inf".
+  const bool is_plain = number.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  if (number.empty() || number.front() == '+' || !is_plain) return std::nullopt;
+  char* end = nullptr;
+  const double value = strtod_l(number.c_str(), &end, kClassic);
+  return *end == '\0' ? finite(value) : std::nullopt;
 }
 
 std::optional<double> parseNumber(std::string_view text) {
