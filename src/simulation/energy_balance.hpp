@@ -39,9 +39,6 @@ class EnergyBalance {
   EnergyEntry entry(double time, const State& state, double dissipated,
                     double supplied = 0.0) const;
 
-  /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
-  Energy energyOf(const State& state) const;
-
   /// Continues with another chain of as many particles, and from another state.
   /// \param track_dissipation whether the dissipated energy is known from the start on
   /// \param supplied          energy supplied before the change, J
@@ -50,10 +47,13 @@ class EnergyBalance {
   double change(const Chain& chain, const State& before, const State& after, bool track_dissipation,
                 double supplied);
 
+  const Chain& chain() const { return chain_; }
   /// Energy scale at a time in s, J; positive.
   double scale(double time) const;
 
  private:
+  /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
+  Energy energyOf(const State& state) const;
   void widenScale(const State& start, double energy);
 
   Chain chain_;

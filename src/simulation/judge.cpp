@@ -74,16 +74,16 @@ Verdict notMeasured(double time, const ReferenceRun* reference) {
                         "positions cannot be determined",
                         time)};
   }
-  std::string_view reason = "a reference run would cost more than the run itself";
-  if (reference->status() == ReferenceRun::Status::kFailed) reason = "the reference run diverged";
-  if (reference->status() == ReferenceRun::Status::kChanged) {
-    reason = "the chain was driven or changed, and the reference run does not follow";
-  }
-  if (reference->status() == ReferenceRun::Status::kRounded) {
-    reason = "positions are so large that their rounding errors matter; start nearer to the origin";
-  }
+  constexpr std::string_view kReasons[] = {
+      "",  // measuring
+      "a reference run would cost more than the run itself",
+      "",  // sensitive
+      "positions are so large that their rounding errors matter; start nearer to the origin",
+      "the reference run diverged",
+      "the chain was driven or changed, and the reference run does not follow"};
   return {VerdictKind::kNotChecked, time, 0,
-          fmt::format("not checked from t = {:.6g} s on: {}", time, reason)};
+          fmt::format("not checked from t = {:.6g} s on: {}", time,
+                      kReasons[static_cast<int>(reference->status())])};
 }
 
 }  // namespace
@@ -95,11 +95,7 @@ std::string_view toString(VerdictKind kind) {
 }
 
 Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
-    : chain_(chain),
-      balance_(chain, start, options.track_dissipation, options.start_time),
-      symplectic_step_(options.symplectic_step),
-      tolerance_(options.tolerance),
-      start_time_(options.start_time) {}
+    : options_(options), balance_(chain, start, options.track_dissipation, options.start_time) {}
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference, double supplied) {
@@ -131,9 +127,9 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
 }
 
 void Judge::noteTolerance(const ReferenceRun& reference) {
-  if (tolerance_ == 0.0 || sensitive_time_ > 0.0) return;
-  const bool unknown = position_error_.uncertainty > kPromise * tolerance_;
-  if (!unknown && position_error_.now <= kPromise * tolerance_) return;
+  if (options_.tolerance == 0.0 || sensitive_time_ > 0.0) return;
+  const bool unknown = position_error_.uncertainty > kPromise * options_.tolerance;
+  if (!unknown && position_error_.now <= kPromise * options_.tolerance) return;
   if (unknown || reference.isSensitive()) {
     sensitive_time_ = entry_.time;
   } else if (exceeded_time_ == 0.0) {
@@ -141,29 +137,29 @@ void Judge::noteTolerance(const ReferenceRun& reference) {
   }
 }
 
-void Judge::change(const Chain& chain, EnergyBalance balance, const JudgeOptions& options) {
-  chain_ = chain;
-  balance_ = std::move(balance);
-  symplectic_step_ = options.symplectic_step;
-  tolerance_ = options.tolerance;
+double Judge::change(const Chain& chain, const State& before, const State& after,
+                     const JudgeOptions& options, double supplied) {
+  options_ = options;
+  return balance_.change(chain, before, after, options.track_dissipation, supplied);
 }
 
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
   entry_ = balance_.entry(time, state, dissipated, supplied);
-  const double spread = 2.0 * kPromise * tolerance_;  // m, of the length of a spring
+  const Chain& chain = balance_.chain();
+  const double spread = 2.0 * kPromise * options_.tolerance;  // m, of the length of a spring
   const double tolerated =
-      static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
+      static_cast<double>(chain.size() - 1) * 0.5 * chain.spring().stiffness * spread * spread;
   double allowance = tolerated > 0.0 ? tolerated / balance_.scale(time) : 0.0;
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
     Verdict verdict{VerdictKind::kDiverged, time, 0, divergedText(entry_)};
-    locate(verdict, chain_, state);
+    locate(verdict, chain, state);
     return verdict;
   }
   double gain = entry_.relative_gain;
   double residual = entry_.relative_residual.value_or(0.0);
   worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
-  if (symplectic_step_ > 0.0) {
+  if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t.
     gain_sum_ += gain;
@@ -171,8 +167,8 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
     frames_ += 1.0;
     gain = gain_sum_ / frames_;
     residual = residual_sum_ / frames_;
-    const double elapsed = time - start_time_;
-    allowance += elapsed > 0.0 ? symplectic_step_ / elapsed : 0.0;
+    const double elapsed = time - options_.start_time;
+    allowance += elapsed > 0.0 ? options_.symplectic_step / elapsed : 0.0;
   }
   if (gain > kGainThreshold + allowance) {
     return {VerdictKind::kGainedEnergy, time, 0, gainedEnergyText(entry_)};
@@ -186,7 +182,8 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
 // In a stiff transient, the dissipated energy can be wrong although the state is right.
 bool Judge::hasEnergyOf(const ReferenceRun* reference) const {
   if (reference == nullptr || !reference->isMeasuring()) return false;
-  const double error = entry_.energy.total() - computeEnergy(chain_, *reference->state()).total();
+  const double error =
+      entry_.energy.total() - computeEnergy(balance_.chain(), *reference->state()).total();
   return std::abs(error) <= kDriftThreshold * balance_.scale(entry_.time);
 }
 
@@ -205,13 +202,6 @@ Verdict Judge::positionVerdict(const ReferenceRun* reference) const {
 bool Judge::isShown(bool continues_after_divergence) const {
   return latest_.kind != VerdictKind::kDiverged ||
          (continues_after_divergence && std::isfinite(entry_.energy.total()));
-}
-
-void Judge::restart() {
-  gain_sum_ = residual_sum_ = frames_ = worst_residual_ = exceeded_time_ = sensitive_time_ = 0.0;
-  entry_ = {};
-  position_error_ = {};
-  latest_ = worst_ = {};
 }
 
 const Verdict& Judge::remember(Verdict verdict) {
@@ -249,7 +239,7 @@ std::string Judge::toleranceRemark() const {
   return text + fmt::format(
                     "sensitive from t = {:.6g} s on: small errors grow so much that no method can "
                     "promise a tolerance of {:.3g} m",
-                    sensitive_time_, tolerance_);
+                    sensitive_time_, options_.tolerance);
 }
 
 }  // namespace spring_pendulum

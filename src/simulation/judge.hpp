@@ -46,11 +46,9 @@ class Judge {
   const Verdict& judge(double time, const State& state, double dissipated,
                        const ReferenceRun* reference, double supplied = 0.0);
 
-  /// Discards all judged frames.
-  void restart();
-
-  /// Continues with another chain and its balance, see EnergyBalance::change.
-  void change(const Chain& chain, EnergyBalance balance, const JudgeOptions& options);
+  /// Continues with another chain and from another state, see EnergyBalance::change.
+  double change(const Chain& chain, const State& before, const State& after,
+                const JudgeOptions& options, double supplied);
 
   const EnergyBalance& balance() const { return balance_; }
   /// The energy balance of the last judged state.
@@ -77,11 +75,8 @@ class Judge {
   Verdict positionVerdict(const ReferenceRun* reference) const;
   const Verdict& remember(Verdict verdict);
 
-  Chain chain_;
+  JudgeOptions options_;
   EnergyBalance balance_;
-  double symplectic_step_;
-  double tolerance_;           ///< m; 0 for fixed steps
-  double start_time_;          ///< s
   double gain_sum_ = 0.0;      ///< sum of the relative gains of the judged frames
   double residual_sum_ = 0.0;  ///< sum of the relative residuals of the judged frames
   double frames_ = 0.0;

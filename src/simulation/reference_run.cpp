@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
-#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -97,94 +96,51 @@ ReferenceScales scalesOf(const Chain& chain, const State& start, double run_tole
 
 }  // namespace
 
-/// Reference and companion.
-class ReferenceTrajectories {
- public:
-  ReferenceTrajectories(const Chain& chain, const State& start, const ReferenceScales& scales)
-      : reference_{makeIntegrator("Auto", chain, {scales.tolerance, false, 1}), start},
-        companion_{makeIntegrator(companionMethod(chain), chain,
-                                  {kCompanionTolerance * scales.tolerance, false, 1}),
-                   moved(chain, start, scales.rounding)} {}
-
-  /// Advances both until `work()` reaches `allowed_work` or `stop` returns true. To go on after that,
-  /// call it again with the same arguments.
-  /// \returns whether both have taken all steps
-  bool advance(double time_step, std::int64_t steps, double allowed_work,
-               const std::function<bool()>& stop) {
-    if (reference_.left == 0 && companion_.left == 0) reference_.left = companion_.left = steps;
-    const auto ends = [&] { return work() >= allowed_work || (stop && stop()); };
-    const auto finish = [&](Trajectory& trajectory) {
-      trajectory.left -=
-          trajectory.integrator->advance(trajectory.state, time_step, trajectory.left, ends);
-      return trajectory.left == 0;
-    };
-    return finish(reference_) && finish(companion_);
-  }
-
-  double work() const { return reference_.integrator->work() + companion_.integrator->work(); }
-  double distance() const { return largestDistance(reference_.state, companion_.state); }
-  const State& state() const { return reference_.state; }
-
- private:
-  struct Trajectory {
-    std::unique_ptr<Integrator> integrator;
-    State state;
-    std::int64_t left = 0;  ///< steps
-  };
-
-  Trajectory reference_;
-  Trajectory companion_;
-};
-
 ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
     : chain_(chain),
-      first_(scalesOf(chain, start, options.tolerance)),
-      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork) {
-  if (start.size() <= kMostParticles || options.always) start_ = start;
-  restart();
-}
-
-ReferenceRun::~ReferenceRun() = default;
-ReferenceRun::ReferenceRun(ReferenceRun&& other) noexcept = default;
-ReferenceRun& ReferenceRun::operator=(ReferenceRun&& other) noexcept = default;
-
-void ReferenceRun::restart() {
-  trajectories_.reset();
-  allowed_work_ = free_work_;
-  gave_up_ = false;
-  work_at_stop_ = 0.0;
-  status_ = Status::kMeasuring;
-  distance_ = 0.0;
-  scales_ = first_;
-  uncertainty_ = scales_.rounding;
-  if (start_.size() < chain_.size()) stop(Status::kCostTooMuch);
+      scales_(scalesOf(chain, start, options.tolerance)),
+      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
+      allowed_work_(free_work_),
+      uncertainty_(scales_.rounding) {
+  if (start.size() <= kMostParticles || options.always) {
+    start_ = start;
+  } else {
+    stop(Status::kCostTooMuch);
+  }
 }
 
 bool ReferenceRun::advance(double time_step, std::int64_t steps,
                            const std::function<bool()>& stop) {
-  requireFinitePositive("time_step", time_step, "s");
-  requireAtLeastZero("steps", steps);
   if (!isMeasuring() || gave_up_ || chain_.size() < 2) return true;
-  bool stopped = false;
-  const auto stops = [&stopped, &stop] { return stopped = stop && stop(); };
-  if (!trajectories_) {
-    trajectories_ = std::make_unique<ReferenceTrajectories>(chain_, start_, first_);
+  if (trajectories_.empty()) {
+    trajectories_.push_back(
+        {makeIntegrator("Auto", chain_, {scales_.tolerance, false, 1}), start_});
+    trajectories_.push_back({makeIntegrator(companionMethod(chain_), chain_,
+                                            {kCompanionTolerance * scales_.tolerance, false, 1}),
+                             moved(chain_, start_, scales_.rounding)});
   }
-  gave_up_ = !trajectories_->advance(time_step, steps, allowed_work_, stops);
+  bool stopped = false;
+  const auto ends = [&] { return work() >= allowed_work_ || (stopped = stop && stop()); };
+  for (Trajectory& trajectory : trajectories_) {
+    if (gave_up_) break;
+    gave_up_ = trajectory.integrator->advance(trajectory.state, time_step, steps, ends) < steps;
+  }
   return !stopped;
 }
 
 double ReferenceRun::work() const {
-  return trajectories_ ? trajectories_->work() : work_at_stop_;
+  double work = work_at_stop_;
+  for (const Trajectory& trajectory : trajectories_) work += trajectory.integrator->work();
+  return work;
 }
 
 // The work at a frame does not depend on the parts of the frame, and it exceeds the allowed work if
 // `advance` gave up inside the frame. So the parts do not matter.
 void ReferenceRun::measure(double run_work) {
-  if (!isMeasuring() || !trajectories_) return;
+  if (!isMeasuring() || trajectories_.empty()) return;
   if (gave_up_ || work() >= allowed_work_) return stop(Status::kCostTooMuch);
   allowed_work_ = std::max(free_work_, run_work);
-  distance_ = trajectories_->distance();
+  distance_ = largestDistance(trajectories_[0].state, trajectories_[1].state);
   if (std::isnan(distance_)) return stop(Status::kFailed);
   scales_.length =
       std::max(scales_.length, kShareOfLength * springLengths(*state(), 0, chain_.size() - 1));
@@ -203,7 +159,7 @@ bool ReferenceRun::isSensitive() const {
 
 const State* ReferenceRun::state() const {
   if (!isMeasuring() || gave_up_) return nullptr;
-  return trajectories_ ? &trajectories_->state() : &start_;
+  return trajectories_.empty() ? &start_ : &trajectories_[0].state;
 }
 
 double ReferenceRun::errorOf(const State& state) const {
@@ -217,7 +173,7 @@ void ReferenceRun::stop(Status status) {
   status_ = status;
   uncertainty_ = std::numeric_limits<double>::quiet_NaN();
   work_at_stop_ = work();
-  trajectories_.reset();
+  trajectories_.clear();
 }
 
 }  // namespace spring_pendulum

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace spring_pendulum {
 
@@ -26,8 +27,6 @@ struct ReferenceScales {
   double rounding;   ///< smallest distance that can be resolved
   double tolerance;  ///< of the reference
 };
-
-class ReferenceTrajectories;
 
 struct ReferenceOptions {
   /// Tolerance in m of the measured run; 0 for a fixed-step method. The tolerance of the reference is
@@ -54,13 +53,10 @@ class ReferenceRun {
   /// Allocates the trajectories in the first `advance`.
   /// \throws InputError if the size of the start is not that of the chain
   ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options = {});
-  ~ReferenceRun();
-  ReferenceRun(ReferenceRun&& other) noexcept;
-  ReferenceRun& operator=(ReferenceRun&& other) noexcept;
 
   /// Advances the reference to the next frame or, in several calls, through parts of it; see
   /// Integrator::advance. Does nothing once the measurement has stopped.
-  /// \param stop asked every few milliseconds whether to give up; only `restart` may follow then
+  /// \param stop asked every few milliseconds whether to give up; the measurement is over then
   /// \returns false if `stop` returned true
   /// \throws InputError as Integrator::advance
   bool advance(double time_step, std::int64_t steps, const std::function<bool()>& stop = {});
@@ -71,11 +67,8 @@ class ReferenceRun {
   ///   cost as much or 0.12 s, whichever is more.
   void measure(double run_work);
 
-  /// Work since the start or the last `restart`, s, see Integrator::work.
+  /// Work so far, s, see Integrator::work.
   double work() const;
-
-  /// Returns to the start.
-  void restart();
 
   /// Stops measuring, because the measured run is no longer that of the same chain.
   void stopAtChange() { stop(Status::kChanged); }
@@ -104,20 +97,25 @@ class ReferenceRun {
   bool isSensitive() const;
 
  private:
+  struct Trajectory {
+    std::unique_ptr<Integrator> integrator;
+    State state;
+  };
+
   void stop(Status status);
 
   Chain chain_;
   State start_;
-  ReferenceScales first_;      ///< at the start
-  ReferenceScales scales_;     ///< at the last frame
-  double free_work_;           ///< s
-  double allowed_work_ = 0.0;  ///< until the next frame, s
-  bool gave_up_ = false;       ///< inside a frame
+  ReferenceScales scales_;  ///< at the last frame
+  double free_work_;        ///< s
+  double allowed_work_;     ///< until the next frame, s
+  bool gave_up_ = false;    ///< inside a frame
   Status status_ = Status::kMeasuring;
   double distance_ = 0.0;      ///< of the companion from the reference, m
-  double uncertainty_ = 0.0;   ///< m
+  double uncertainty_;         ///< m
   double work_at_stop_ = 0.0;  ///< s
-  std::unique_ptr<ReferenceTrajectories> trajectories_;
+  std::vector<Trajectory>
+      trajectories_;  ///< reference and companion; empty: not started or stopped
 };
 
 }  // namespace spring_pendulum

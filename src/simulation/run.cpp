@@ -37,6 +37,11 @@ double toleranceOf(const Plan& plan) {
   return plan.method.get().hasFixedStep() ? 0.0 : plan.tolerance;
 }
 
+JudgeOptions judgeOptions(const Plan& plan, bool track_dissipation, std::int64_t first_frame) {
+  return {track_dissipation, plan.method.get().symplectic ? plan.time_step : 0.0, toleranceOf(plan),
+          plan.timeOfFrame(first_frame)};
+}
+
 /// Number of states shown per frame.
 std::int64_t partsPerFrame(const Plan& plan, double display_interval) {
   // `sleep` is checked once per frame: states between the frames would not move.
@@ -97,37 +102,22 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
       first_frame_(scene.frame),
       state_(start_),
       track_dissipation_(chain_.isDissipative() &&
-                         (options.track_dissipation || dissipationIsCheap(chain_, plan))),
-      judge_(std::make_unique<Judge>(chain_, start_, judgeOptions(first_frame_))),
-      frame_(first_frame_) {
+                         (options.track_dissipation || dissipationIsCheap(chain_, plan))) {
   checkMemory(plan, chain_.size());
   if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
   divideFrames();
   makeIntegrator();
-  startReference(start_);
-  judgeFrame();
+  begin(first_frame_, start_);
 }
 
 Run::Run(Run&&) noexcept = default;
 Run::~Run() = default;
-
-JudgeOptions Run::judgeOptions(std::int64_t first_frame) const {
-  const Method& method = plan_.method;
-  return {track_dissipation_, method.symplectic ? plan_.time_step : 0.0, toleranceOf(plan_),
-          plan_.timeOfFrame(first_frame)};
-}
 
 void Run::divideFrames() {
   parts_ = partsPerFrame(plan_, options_.display_interval);
   const bool fixed_step = plan_.method.get().hasFixedStep();
   step_ = fixed_step ? plan_.time_step : plan_.frame_interval / static_cast<double>(parts_);
   steps_ = fixed_step ? plan_.steps_per_frame : parts_;
-}
-
-void Run::startReference(const State& start) {
-  if (plan_.reference == ReferenceUse::kNever) return;
-  const ReferenceOptions reference{toleranceOf(plan_), plan_.reference == ReferenceUse::kAlways};
-  reference_ = std::make_unique<ReferenceRun>(chain_, start, reference);
 }
 
 void Run::makeIntegrator() {
@@ -160,8 +150,7 @@ bool Run::advanceTo(std::int64_t part) {
   supplied_ = supplied_before_ + integrator_->suppliedEnergy();
   if (part_ != 0) return true;
   ++frame_;
-  work_ = integrator_->work() - work_at_start_;
-  judgeFrame();
+  judgeFrame(integrator_->work() - work_at_start_);
   if (!isShown()) return false;
   ++totals_.frames;
   ++(asleep_ ? totals_.slept_frames : totals_.integrated_frames);
@@ -196,39 +185,35 @@ bool Run::advanceReference(std::int64_t steps) {
   return reference_->advance(step_, steps, options_.stop);
 }
 
-void Run::judgeFrame() {
-  if (reference_) reference_->measure(work_);
+void Run::judgeFrame(double work) {
+  if (reference_) reference_->measure(work);
   judge_->judge(time(), state_, dissipated_, reference_.get(), supplied_);
 }
 
 void Run::reset() {
-  if (changed_) {
-    *judge_ = Judge(chain_, start_, judgeOptions(first_frame_));
-    startReference(start_);
-    changed_ = false;
-  } else {
-    judge_->restart();
-    if (reference_) reference_->restart();
-  }
   begin(first_frame_, start_);
+  changed_ = false;
 }
 
 void Run::goTo(std::int64_t frame, const State& state) {
   checkFirstFrame(plan_, frame);
   checkState(state);
-  changed_ = true;
-  *judge_ = Judge(chain_, state, judgeOptions(frame));
-  startReference(state);
   begin(frame, state);
+  changed_ = true;
 }
 
 void Run::begin(std::int64_t frame, const State& state) {
+  judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_, frame));
+  if (plan_.reference != ReferenceUse::kNever) {
+    const ReferenceOptions options{toleranceOf(plan_), plan_.reference == ReferenceUse::kAlways};
+    reference_ = std::make_unique<ReferenceRun>(chain_, state, options);
+  }
   integrator_->restart();
   state_ = state;
   frame_ = frame;
   part_ = 0;
   started_ = stopped_ = asleep_ = false;
-  dissipated_before_ = dissipated_ = supplied_before_ = supplied_ = work_ = 0.0;
+  dissipated_before_ = dissipated_ = supplied_before_ = supplied_ = 0.0;
   judgeFrame();
 }
 
@@ -252,15 +237,16 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   checkState(state);
   if (!fixed_step) checkTolerance(next.tolerance, chain, state);
   const bool knows_dissipation = track_dissipation_ || (!chain_.isDissipative() && !changed_);
-  EnergyBalance balance = judge_->balance();
-  const double supplied = balance.change(chain, state_, state, knows_dissipation, supplied_);
+  Judge judge = *judge_;
+  const double supplied = judge.change(
+      chain, state_, state, judgeOptions(next, knows_dissipation, first_frame_), supplied_);
 
   chain_ = std::move(chain);
   plan_ = next;
   state_ = state;
   track_dissipation_ = knows_dissipation;
   changed_ = true;
-  judge_->change(chain_, std::move(balance), judgeOptions(first_frame_));
+  *judge_ = std::move(judge);
   if (reference_) reference_->stopAtChange();
   if (other_control) divideFrames();
   dissipated_before_ = dissipated_;

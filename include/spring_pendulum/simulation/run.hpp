@@ -26,7 +26,6 @@
 namespace spring_pendulum {
 
 class Judge;
-struct JudgeOptions;
 class ReferenceRun;
 
 struct RunOptions {
@@ -119,8 +118,6 @@ class Run {
   const Verdict& verdict() const;
   /// The energy balance of the current state.
   EnergyEntry energyEntry() const;
-  /// Whether the dissipated energy is computed.
-  bool tracksDissipation() const { return track_dissipation_; }
   /// Position error of the current state, and the largest one at the frames so far.
   PositionError positionError() const;
   /// Work of the reference run so far, s, see Integrator::work.
@@ -147,8 +144,6 @@ class Run {
     double reference_seconds = 0.0;      ///< wall-clock time of the reference run
   };
 
-  JudgeOptions judgeOptions(std::int64_t first_frame) const;
-  void startReference(const State& start);
   void begin(std::int64_t frame, const State& state);
   void checkState(const State& state) const;
   void divideFrames();
@@ -157,7 +152,7 @@ class Run {
   bool integrate(std::int64_t steps);
   bool advanceReference(std::int64_t steps);
   bool sleeps();
-  void judgeFrame();
+  void judgeFrame(double work = 0.0);
   std::int64_t stepOfPart(std::int64_t part) const;
   double timeOfPart(std::int64_t part) const;
 
@@ -174,9 +169,9 @@ class Run {
   bool track_dissipation_;
   std::unique_ptr<Judge> judge_;
   std::unique_ptr<ReferenceRun> reference_;  ///< null: none
-  bool started_ = false;   ///< whether `advance` was called since the start or a reset
-  std::int64_t frame_;     ///< last frame
-  std::int64_t part_ = 0;  ///< completed parts of the next frame
+  bool started_ = false;    ///< whether `advance` was called since the start or a reset
+  std::int64_t frame_ = 0;  ///< last frame
+  std::int64_t part_ = 0;   ///< completed parts of the next frame
   bool stopped_ = false;
   bool asleep_ = false;
   bool changed_ = false;                 ///< since construction or the last reset
@@ -186,7 +181,6 @@ class Run {
   double supplied_ = 0.0;                ///< J
   std::int64_t evaluations_before_ = 0;  ///< by earlier integrators
   double work_at_start_ = 0.0;           ///< of the integrator, s
-  double work_ = 0.0;                    ///< until the last judged frame, s
   Totals totals_;
 };
 
