@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -44,33 +45,25 @@ class Range {
 ///   text()         the value as text that `assign` accepts
 ///   range()        the accepted values in words
 ///   placeholder()  placeholder for the value in the help text; empty for an option without value
-struct Number {
-  double* value;
+template <typename Value>
+struct Ranged {
+  Value* value;
   Range accepted;
 
   bool assign(std::string_view text) const;
   std::string text() const;
   std::string range() const;
-  static std::string placeholder() { return "X"; }
+  static std::string placeholder() { return std::is_same_v<Value, double> ? "X" : "N"; }
 };
-
-struct Count {
-  std::int64_t* value;
-  Range accepted;
-
-  bool assign(std::string_view text) const;
-  std::string text() const;
-  std::string range() const;
-  static std::string placeholder() { return "N"; }
-};
+using Number = Ranged<double>;
+using Count = Ranged<std::int64_t>;
 
 struct Flag {
   bool* value;
-  std::string_view accepted = "true or false";
 
   bool assign(std::string_view text) const;
   std::string text() const { return *value ? "true" : "false"; }
-  std::string range() const { return std::string(accepted); }
+  static std::string range() { return "true or false"; }
   /// `--flag` turns a flag on. A flag that is on by default takes a value, so that it can be turned
   /// off.
   std::string placeholder() const { return *value ? "true|false" : ""; }

@@ -13,11 +13,6 @@
 namespace spring_pendulum {
 namespace {
 
-std::string withRange(std::string_view noun, const Range& range) {
-  const std::string text = range.text();
-  return text.empty() ? fmt::format("a finite {}", noun) : fmt::format("a {} {}", noun, text);
-}
-
 /// Whether the text would be a number with a point instead of the comma.
 bool hasDecimalComma(std::string_view text) {
   std::string with_point(text);
@@ -38,35 +33,34 @@ std::string Range::text() const {
   return fmt::format("{} {:g}", least_allowed_ ? "of at least" : "above", least_);
 }
 
-bool Number::assign(std::string_view text) const {
-  const std::optional<double> number = parseNumber(text);
-  if (!number || !accepted.contains(*number)) return false;
-  *value = *number;
-  return true;
-}
-
-std::string Number::text() const {
-  return numberText(*value);
-}
-
-std::string Number::range() const {
-  return withRange("number", accepted);
-}
-
-bool Count::assign(std::string_view text) const {
-  const std::optional<std::int64_t> number = parseInteger(text);
+template <typename Value>
+bool Ranged<Value>::assign(std::string_view text) const {
+  std::optional<Value> number;
+  if constexpr (std::is_same_v<Value, double>) {
+    number = parseNumber(text);
+  } else {
+    number = parseInteger(text);
+  }
   if (!number || !accepted.contains(static_cast<double>(*number))) return false;
   *value = *number;
   return true;
 }
 
-std::string Count::text() const {
-  return fmt::format("{}", *value);
+template <typename Value>
+std::string Ranged<Value>::text() const {
+  return std::is_same_v<Value, double> ? numberText(static_cast<double>(*value))
+                                       : std::to_string(*value);
 }
 
-std::string Count::range() const {
-  return withRange("whole number", accepted);
+template <typename Value>
+std::string Ranged<Value>::range() const {
+  const std::string noun = std::is_same_v<Value, double> ? "number" : "whole number";
+  const std::string limits = accepted.text();
+  return limits.empty() ? "a finite " + noun : fmt::format("a {} {}", noun, limits);
 }
+
+template struct Ranged<double>;
+template struct Ranged<std::int64_t>;
 
 bool Flag::assign(std::string_view text) const {
   if (text != "true" && text != "false") return false;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <variant>
 
@@ -35,74 +34,57 @@ void checkRanges(const std::vector<Option>& options, const Plan& plan) {
   }
 }
 
-std::vector<Option> planOptions(Plan& p) {
-  constexpr auto kFixedStep = AppliesTo::kFixedStep;
-  constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
-  return {
-      {"method", MethodName{&p.method}, "", "integration method, one of Exercise3 --list-methods"},
-      {"on_divergence", Choice(&p.on_divergence, {"stop", "continue"}), "",
-       "after a divergence: stop, or continue as long as every number is finite"},
-      {"reference", Choice(&p.reference, {"auto", "always", "never"}), "",
-       "measure the position error against a reference run: while it is cheap, to the end, or "
-       "never; the frames do not depend on it"},
-      {"frames", Count{&p.frames, Range::atLeast(1)}, "", "number of frames, including the start"},
-      {"steps_per_frame", Count{&p.steps_per_frame, Range::atLeast(1)}, "",
-       "integration steps per frame", kFixedStep},
-      {"time_step", Number{&p.time_step, Range::above(0)}, "s", "integration step size",
-       kFixedStep},
-      {"tolerance", Number{&p.tolerance, Range::above(0)}, "m", "position error to aim at",
-       kErrorControlled},
-      {"frame_interval", Number{&p.frame_interval, Range::between(1e-300, 1e6)}, "s",
-       "simulated time between frames", kErrorControlled},
-      {"threads", Count{&p.threads, Range::atLeast(0)}, "",
-       "largest number of threads; 0: one per processor core; results do not depend on it"},
-      {"sleep", Number{&p.sleep, Range::atLeast(0)}, "m/s",
-       "do not integrate while all particles stay slower than this; 0: always integrate"},
-  };
-}
-
-/// Puts options before the one with a key.
-void insertBefore(std::vector<Option>& options, std::string_view key,
-                  std::vector<Option> inserted) {
-  const auto place = std::find_if(options.begin(), options.end(),
-                                  [&](const Option& option) { return option.key == key; });
-  options.insert(place, std::make_move_iterator(inserted.begin()),
-                 std::make_move_iterator(inserted.end()));
-}
-
 }  // namespace
 
 std::vector<Option> scenarioOptions(Scenario& s) {
-  std::vector<Option> options = planOptions(s);
-  insertBefore(
-      options, "on_divergence",
-      {{"particles", Text{&s.particles, "FILE", "a file"}, "",
-        "particle file, one line 'x y m' or 'x y m vx vy' per particle; the first particle is "
-        "fixed"},
-       {"resume", Flag{&s.resume}, "",
-        "go on from the frame and time of the particle file, which is a file of save_state; frames "
-        "before it stay"},
-       {"output", Text{&s.output, "DIR", "a folder"}, "",
-        "folder for the frame files, created if absent"},
-       {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
-       {"energy", Text{&s.energy, "FILE", "a file", anyText}, "",
-        "CSV file for the energy balance, one row per frame; its folder is created if absent"},
-       {"save_state", Text{&s.save_state, "FILE", "a file", anyText}, "",
-        "file for the state at the last frame, a particle file to resume from; its folder is "
-        "created if absent"},
-       {"start", Choice(&s.start, {"file", "at_rest"}), "",
-        "start: as the particle file says, or hanging at rest from its first particle"}});
+  constexpr auto kFixedStep = AppliesTo::kFixedStep;
+  constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
   SpringLaw& spring = s.constants.spring;
-  insertBefore(
-      options, "threads",
-      {{"stiffness", Number{&spring.stiffness, Range::atLeast(0)}, "N/m", "spring constant k_s"},
-       {"damping", Number{&spring.damping, Range::atLeast(0)}, "N·s/m", "damping constant k_d"},
-       {"rest_length", Number{&spring.rest_length, Range::atLeast(0)}, "m",
-        "length L_0 of an unloaded spring"},
-       {"gravity", Number{&s.constants.gravity, Range::any()}, "m/s²", "gravity g (points down)"},
-       {"air_drag", Number{&s.constants.air_drag, Range::atLeast(0)}, "N·s/m",
-        "drag k_air of the air: the force -k_air v on each particle"}});
-  return options;
+  return {
+      {"method", MethodName{&s.method}, "", "integration method, one of Exercise3 --list-methods"},
+      {"particles", Text{&s.particles, "FILE", "a file"}, "",
+       "particle file, one line 'x y m' or 'x y m vx vy' per particle; the first particle is "
+       "fixed"},
+      {"resume", Flag{&s.resume}, "",
+       "go on from the frame and time of the particle file, which is a file of save_state; frames "
+       "before it stay"},
+      {"output", Text{&s.output, "DIR", "a folder"}, "",
+       "folder for the frame files, created if absent"},
+      {"no_frames", Flag{&s.no_frames}, "", "write no frame files"},
+      {"energy", Text{&s.energy, "FILE", "a file", anyText}, "",
+       "CSV file for the energy balance, one row per frame; its folder is created if absent"},
+      {"save_state", Text{&s.save_state, "FILE", "a file", anyText}, "",
+       "file for the state at the last frame, a particle file to resume from; its folder is "
+       "created "
+       "if absent"},
+      {"start", Choice(&s.start, {"file", "at_rest"}), "",
+       "start: as the particle file says, or hanging at rest from its first particle"},
+      {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
+       "after a divergence: stop, or continue as long as every number is finite"},
+      {"reference", Choice(&s.reference, {"auto", "always", "never"}), "",
+       "measure the position error against a reference run: while it is cheap, to the end, or "
+       "never; the frames do not depend on it"},
+      {"frames", Count{&s.frames, Range::atLeast(1)}, "", "number of frames, including the start"},
+      {"steps_per_frame", Count{&s.steps_per_frame, Range::atLeast(1)}, "",
+       "integration steps per frame", kFixedStep},
+      {"time_step", Number{&s.time_step, Range::above(0)}, "s", "integration step size",
+       kFixedStep},
+      {"tolerance", Number{&s.tolerance, Range::above(0)}, "m", "position error to aim at",
+       kErrorControlled},
+      {"frame_interval", Number{&s.frame_interval, Range::between(1e-300, 1e6)}, "s",
+       "simulated time between frames", kErrorControlled},
+      {"stiffness", Number{&spring.stiffness, Range::atLeast(0)}, "N/m", "spring constant k_s"},
+      {"damping", Number{&spring.damping, Range::atLeast(0)}, "N·s/m", "damping constant k_d"},
+      {"rest_length", Number{&spring.rest_length, Range::atLeast(0)}, "m",
+       "length L_0 of an unloaded spring"},
+      {"gravity", Number{&s.constants.gravity, Range::any()}, "m/s²", "gravity g (points down)"},
+      {"air_drag", Number{&s.constants.air_drag, Range::atLeast(0)}, "N·s/m",
+       "drag k_air of the air: the force -k_air v on each particle"},
+      {"threads", Count{&s.threads, Range::atLeast(0)}, "",
+       "largest number of threads; 0: one per processor core; results do not depend on it"},
+      {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",
+       "do not integrate while all particles stay slower than this; 0: always integrate"},
+  };
 }
 
 Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& options,
@@ -128,17 +110,9 @@ Scene makeScene(const Scenario& scenario, Scene particles) {
 }
 
 void checkPlan(const Plan& plan) {
-  Plan copy = plan;
-  checkRanges(planOptions(copy), plan);
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  if (plan.frames > kMost / plan.steps()) {  // frame times are computed from step counts
-    throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
-                                 kMost, plan.frames, plan.steps()));
-  }
-  if (std::isfinite(plan.timeOfFrame(plan.frames - 1))) return;
-  throw InputError(fmt::format(
-      "frames times steps_per_frame times time_step must be finite, got {} times {} times {} s",
-      plan.frames, plan.steps(), numberText(plan.step())));
+  Scenario scenario;
+  static_cast<Plan&>(scenario) = plan;
+  checkScenario(scenario);
 }
 
 void checkScenario(const Scenario& scenario) {
@@ -148,7 +122,16 @@ void checkScenario(const Scenario& scenario) {
     throw InputError(
         "start: at_rest and resume exclude each other: a resumed run goes on from its saved state");
   }
-  checkPlan(scenario);
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t steps = scenario.steps();
+  if (scenario.frames > kMost / steps) {  // frame times are computed from step counts
+    throw InputError(fmt::format("frames times steps_per_frame must be at most {}, got {} times {}",
+                                 kMost, scenario.frames, steps));
+  }
+  if (std::isfinite(scenario.timeOfFrame(scenario.frames - 1))) return;
+  throw InputError(fmt::format(
+      "frames times steps_per_frame times time_step must be finite, got {} times {} times {} s",
+      scenario.frames, steps, numberText(scenario.step())));
 }
 
 void checkFirstFrame(const Plan& plan, std::int64_t frame) {
