@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -26,13 +25,14 @@ std::string needOf(const Plan& plan, Eigen::Index particles) {
                      1e-9 * expectedMemory(plan, particles), particles);
 }
 
-/// Expected number of steps of an error-controlled method: about twenty per second, and more if
-/// springs vibrate or stability limits the step size.
-double expectedSteps(const Chain& chain, double duration) {
-  const double mode = largestSpringMode(chain);  // 1/kg
-  const double per_second =
-      20.0 + 0.5 * std::sqrt(chain.spring().stiffness * mode) + 0.1 * largestDampingRate(chain);
-  return per_second * duration;
+/// Returns the memory that this process may use, B: that of the machine, or less if a limit is set
+/// (ulimit -v).
+double usableMemory() {
+  static const double kMemory =  // short runs take little longer than asking for it
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kMemory;
+  return std::min(kMemory, static_cast<double>(limit.rlim_cur));
 }
 
 }  // namespace
@@ -43,8 +43,9 @@ double expectedWork(const Plan& plan, const Chain& chain) {
   if (method.hasFixedStep()) {
     return intervals * method.stages * kFixedStepTime.of(chain.size());
   }
-  return expectedSteps(chain, intervals * plan.step()) * method.stages *
-         kTaylorTime.of(chain.size());
+  // About twenty steps per second, and more if springs vibrate or stability limits the step size.
+  const double rate = 20.0 + 0.5 * fastestVibration(chain) + 0.1 * largestDampingRate(chain);
+  return rate * intervals * plan.step() * method.stages * kTaylorTime.of(chain.size());
 }
 
 double expectedMemory(const Plan& plan, Eigen::Index particles) {
@@ -53,19 +54,12 @@ double expectedMemory(const Plan& plan, Eigen::Index particles) {
          (kBytesPerParticle + plan.method.get().bytes_per_particle + reference);
 }
 
-double usableMemory() {
-  static const double kMemory =  // short runs take little longer than asking for it
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kMemory;
-  return std::min(kMemory, static_cast<double>(limit.rlim_cur));
-}
-
 std::string memoryRemark(const Plan& plan, Eigen::Index particles) {
   return expectedMemory(plan, particles) < kMuch ? "" : needOf(plan, particles);
 }
 
-void checkMemory(const Plan& plan, Eigen::Index particles, double usable) {
+void checkMemory(const Plan& plan, Eigen::Index particles) {
+  const double usable = usableMemory();
   if (expectedMemory(plan, particles) <= usable) return;
   throw std::runtime_error(
       fmt::format("not enough memory: {}, but this process can use only {:.2f} GB",

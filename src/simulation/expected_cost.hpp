@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <cstdint>
 #include <string>
 
 namespace spring_pendulum {
@@ -18,16 +17,12 @@ double expectedWork(const Plan& plan, const Chain& chain);
 /// the node and a bag need more.
 double expectedMemory(const Plan& plan, Eigen::Index particles);
 
-/// Returns the memory that this process may use, B: that of the machine, or less if a limit is set
-/// (ulimit -v).
-double usableMemory();
-
 /// Returns a remark if a run is expected to need 0.5 GB or more, else empty text:
 /// "Radau-9 takes up to 1.35 GB of memory for 1000000 particles".
 std::string memoryRemark(const Plan& plan, Eigen::Index particles);
 
-/// Checks that a run is not expected to need more than `usable` bytes.
+/// Checks that a run is not expected to need more memory than this process may use.
 /// \throws std::runtime_error if it is
-void checkMemory(const Plan& plan, Eigen::Index particles, double usable = usableMemory());
+void checkMemory(const Plan& plan, Eigen::Index particles);
 
 }  // namespace spring_pendulum

@@ -16,9 +16,7 @@ struct Remarks {
   std::string warning;             ///< the step size is too large; empty if it is not
 };
 
-/// \param tries_run whether the run is tried, for about 0.02 s. Else, the step size must be too large
-///   whatever the positions of the particles, and O(N) is enough.
-Remarks remarksOn(const Run& run, bool tries_run = false);
+Remarks remarksOn(const Run& run);
 
 /// What a program says after a run.
 struct Outcome {

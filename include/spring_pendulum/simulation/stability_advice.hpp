@@ -58,9 +58,7 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
 
 /// Returns one line if the time step is clearly above the stability limit of the method, whatever the
 /// positions of the particles; else an empty string. O(N) if it is empty.
-/// \param tries_run whether the run is tried as well, for about 0.02 s
-std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan,
-                             bool tries_run = false);
+std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan);
 
 /// Returns one line with a remedy for a motion that diverged; empty if it was stopped.
 std::string remedyForDivergence(const Chain& chain, const State& start, const Plan& plan,

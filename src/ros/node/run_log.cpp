@@ -44,7 +44,7 @@ void logStart(const Run& run, const Scenario& scenario, const NodeOptions& optio
               const RunFiles& files) {
   ROS_INFO_STREAM(scenario.method.get().name << " on " << fullPath(scenario.particles) << ", "
                                              << files.description());
-  const Remarks remarks = remarksOn(run, true);
+  const Remarks remarks = remarksOn(run);
   if (!remarks.warning.empty()) ROS_WARN_STREAM(remarks.warning);
   for (const std::string& note : remarks.notes) ROS_INFO_STREAM(note);
   if (!options.follow.empty()) {

@@ -7,13 +7,13 @@
 
 namespace spring_pendulum {
 
-Remarks remarksOn(const Run& run, bool tries_run) {
+Remarks remarksOn(const Run& run) {
   Remarks remarks;
   for (const std::string& note :
        {memoryRemark(run.plan(), run.chain().size()), remarkOn(run.chain().constants())}) {
     if (!note.empty()) remarks.notes.push_back(note);
   }
-  remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan(), tries_run);
+  remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan());
   return remarks;
 }
 

@@ -25,18 +25,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Ratio of the step sizes between which a search ends.
 constexpr double kPrecision = 1.02;
-/// Work in s allowed for a trial, without its reference run, and for that of `stabilityWarning`.
+/// Work in s allowed for a trial, without its reference run.
 constexpr double kTrialWork = 0.1;
-constexpr double kShortWork = 0.006;
 /// Work allowed for all trials with their reference runs, in trials.
 constexpr double kMostTrials = 30.0;
 /// Nominal time in s of judging a frame, per particle, and of an evaluation in code without a fast
 /// kernel, beyond what the integrator counts. Measured: 25 ns, and 320 to 470 ns for 6 particles.
 constexpr double kFrameTime = 2.5e-8;
 constexpr double kPlainTime = 4e-7;
-
-constexpr const char* kTooLong = "unknown, as runs take too long to be tried";
-constexpr const char* kNotJudged = "unknown, as a reference run would take too long";
 
 /// Rounds down to three significant digits; `largestSpringMode` is 1e-4 too large at most.
 double roundedDown(double step) {
@@ -49,14 +45,14 @@ double durationOf(const Plan& plan) {
   return std::clamp(plan.timeOfFrame(plan.frames - 1), plan.step(), 1e300);
 }
 
+/// A run to its end.
 struct Trial {
-  bool finished = false;  ///< false: the allowed work was used up, or the trial was stopped
-  bool judged = false;  ///< whether the true positions were known, or are too sensitive to be known
+  bool judged;  ///< whether the true positions were known, or are too sensitive to be known
   Verdict verdict;
   PositionError position_error;
   std::string measurements;
 
-  bool isStable() const { return finished && verdict.kind < VerdictKind::kGainedEnergy; }
+  bool isStable() const { return verdict.kind < VerdictKind::kGainedEnergy; }
 };
 
 /// Trial runs of a scene.
@@ -84,8 +80,9 @@ class Trials {
   bool isExhausted() const { return total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_()); }
 
   /// Runs a variant of `plan()` until the verdict is `enough` or worse.
-  Trial run(const Plan& plan, ReferenceUse reference, VerdictKind enough = VerdictKind::kDiverged,
-            double most_work = kTrialWork) {
+  /// \returns nothing if the allowed work was used up, or the trial was stopped
+  std::optional<Trial> run(const Plan& plan, ReferenceUse reference,
+                           VerdictKind enough = VerdictKind::kDiverged) {
     if (isExhausted()) return {};
     Plan tried = plan;
     tried.reference = reference;
@@ -97,17 +94,18 @@ class Trials {
     };
     // The negated comparison also ends a method whose work is not a number.
     Run run(scene_, tried,
-            {false, 0.0, [&] { return !(work() < most_work) || (stop_ && stop_()); }});
+            {false, 0.0, [&] { return !(work() < kTrialWork) || (stop_ && stop_()); }});
     counted = &run.integrator();
     while (run.advance() && run.verdict().kind < enough) ++frames;
     total_work_ += work() + run.referenceWork();
     const bool is_known =
         run.referenceState() != nullptr || run.verdict().kind == VerdictKind::kSensitive;
-    return {!run.wasStopped(), is_known, run.verdict(), run.positionError(), run.measurements()};
+    if (run.wasStopped()) return {};
+    return Trial{is_known, run.verdict(), run.positionError(), run.measurements()};
   }
 
   /// A run with another step size, with frames at about the same times.
-  Trial runWithStep(double step, ReferenceUse reference, VerdictKind enough) {
+  std::optional<Trial> runWithStep(double step, ReferenceUse reference, VerdictKind enough) {
     constexpr double kMostFrames = 2000.0;
     constexpr double kMostSteps = 1e9;
     if (duration_ / step > kMostSteps) return {};
@@ -130,35 +128,30 @@ class Trials {
   double total_work_ = 0.0;       ///< s
 };
 
-struct Found {
-  double step;   ///< s; 0: none of those tried, infinite: all
-  double tried;  ///< the smallest step size tried, s; infinite: none
-};
-
 /// Returns the largest step size up to `most` that passes, within 2 % and with three digits: `first` if it
 /// passes and a slightly larger one does not. 0.95, 0.9, 0.8 and 0.65 times the result pass, too.
 /// \param failed a step size known to fail, or infinite
 /// \param passes nothing if the step size, and so each smaller one, takes too long to be tried
-Found largestPassingStep(double first, double most, double failed,
-                         const std::function<std::optional<bool>(double)>& passes) {
-  Found found{0.0, failed};
+/// \returns infinity if all pass, 0 if none of those tried
+double largestPassingStep(double first, double most, double failed,
+                          const std::function<std::optional<bool>(double)>& passes) {
+  double found = 0.0;
   double low = 0.0;  // passes or takes too long
   double stride = kPrecision;
   double step = roundedDown(std::min({first, most, failed / kPrecision}));
   for (double ratio = kPrecision; step > low && step < failed; ratio *= ratio) {
     const std::optional<bool> passed = passes(step);
     if (!passed && std::isinf(failed)) return found;
-    if (passed) found.tried = std::min(found.tried, step);
-    if (passed == true) found.step = step;
-    if (passed == true && step >= roundedDown(most)) return {kInfinity, found.tried};
+    if (passed == true) found = step;
+    if (passed == true && step >= roundedDown(most)) return kInfinity;
     (passed == false ? failed : low) = step;
     if (failed <= kPrecision * low) {
       // Nearly undamped chains have narrow intervals of unstable step sizes; below each, the stride
       // grows.
       for (const double share : {0.95, 0.9, 0.8, 0.65}) {
-        if (found.step == 0.0 || passes(share * low) != false) continue;
+        if (found == 0.0 || passes(share * low) != false) continue;
         failed = share * low;
-        low = found.step = 0.0;
+        low = found = 0.0;
         ratio = stride *= stride;
       }
       if (low > 0.0) break;
@@ -176,15 +169,14 @@ StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
   if (!method.hasFixedStep()) return {};
   // Without damping, some methods gain energy with every step size: only trials tell how much.
   const bool has_limit = method.imaginary_stability_limit > 0.0 || chain.isDissipative();
-  const Found found = largestPassingStep(
+  const double found = largestPassingStep(
       has_limit ? springStepLimit(method, chain, trials.duration()) : trials.duration(),
       trials.duration(), kInfinity, [&](double step) -> std::optional<bool> {
-        const Trial trial =
+        const auto trial =
             trials.runWithStep(step, ReferenceUse::kNever, VerdictKind::kGainedEnergy);
-        if (!trial.finished) return std::nullopt;
-        return trial.isStable();
+        return trial ? std::optional(trial->isStable()) : std::nullopt;
       });
-  if (found.step > 0.0) return {found.step, false};
+  if (found > 0.0) return {found, false};
   const double limit = linearStepLimit(method, chain, trials.duration());
   return {std::isfinite(limit) ? roundedDown(limit) : limit, true};
 }
@@ -192,42 +184,35 @@ StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
 /// Returns the largest step size without a bad verdict, up to the stable one.
 /// \param trial of the plan, whose error grows with a power of the step size: the order of the method
 /// \returns NaN if a reference run would take too long
-Found accurateStep(Trials& trials, const Chain& chain, const Plan& plan, const Trial& trial,
-                   double stable) {
+double accurateStep(Trials& trials, const Chain& chain, const Plan& plan, const Trial& trial,
+                    double stable) {
   const Method& method = plan.method;
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, trials.start());
   const double error = trial.position_error.largest;
   const double factor = std::pow(allowed / error, 1.0 / std::max(method.order, 1));
-  double failed = kInfinity;
-  if (isBad(trial.verdict.kind)) failed = plan.time_step;
   bool is_judged = true;
-  Found found = largestPassingStep(
+  const double found = largestPassingStep(
       std::isfinite(error) ? plan.time_step * factor : plan.time_step,
-      std::min(stable, trials.duration()), failed, [&](double step) -> std::optional<bool> {
-        const Trial tried = trials.runWithStep(step, ReferenceUse::kAuto, VerdictKind::kInaccurate);
-        is_judged = is_judged && (tried.judged || !tried.isStable());
-        if (!tried.finished || !is_judged) return std::nullopt;
-        return !isBad(tried.verdict.kind);
+      std::min(stable, trials.duration()), isBad(trial.verdict.kind) ? plan.time_step : kInfinity,
+      [&](double step) -> std::optional<bool> {
+        const auto tried = trials.runWithStep(step, ReferenceUse::kAuto, VerdictKind::kInaccurate);
+        if (!tried) return std::nullopt;
+        is_judged = is_judged && (tried->judged || !tried->isStable());
+        return is_judged ? std::optional(!isBad(tried->verdict.kind)) : std::nullopt;
       });
-  if (std::isinf(found.step)) found.step = stable;
-  if (!is_judged) found.step = kNan;
-  return found;
+  if (!is_judged) return kNan;
+  return std::isinf(found) ? stable : found;
 }
 
 std::string stepText(double step) {
+  if (std::isnan(step)) return "unknown, as a reference run would take too long";
+  if (step == 0.0) return "unknown, as runs take too long to be tried";
   return std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", step);
 }
 
 std::string textOf(const StableStep& stable) {
-  if (stable.step == 0.0) return kTooLong;
-  return stepText(stable.step) + (stable.is_estimate ? " (linear estimate)" : "");
-}
-
-std::string textOf(const Found& accurate) {
-  if (std::isnan(accurate.step)) return kNotJudged;
-  if (accurate.step > 0.0) return stepText(accurate.step);
-  if (std::isinf(accurate.tried)) return kTooLong;
-  return fmt::format("below {}, where runs take too long to be tried", stepText(accurate.tried));
+  return stepText(stable.step) +
+         (stable.is_estimate && stable.step > 0.0 ? " (linear estimate)" : "");
 }
 
 }  // namespace
@@ -244,46 +229,34 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   const Method& method = plan.method;
   const bool fixed = method.hasFixedStep();
   StabilityReport report;
-  const Trial trial = trials.run(trials.plan(), ReferenceUse::kAuto);
-  report.tried = trial.finished;
-  if (trial.finished) {
-    report.verdict = trial.verdict;
-    report.position_error = trial.position_error;
+  const auto trial = trials.run(trials.plan(), ReferenceUse::kAuto);
+  report.tried = trial.has_value();
+  if (trial) {
+    report.verdict = trial->verdict;
+    report.position_error = trial->position_error;
     report.text = fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
                               fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
                                           numberText(fixed ? plan.time_step : plan.tolerance)),
-                              trials.duration(), trial.verdict.text, trial.measurements);
+                              trials.duration(), trial->verdict.text, trial->measurements);
   } else {
     report.text = fmt::format("{}: takes too long to try\n", method.name);
   }
   if (!fixed) return report;
   report.stable = stableStep(trials, chain, plan);
   report.text += fmt::format("largest stable step size: {}\n", textOf(report.stable));
-  if (!trial.finished) return report;
-  const Found accurate = accurateStep(trials, chain, plan, trial, report.stable.step);
-  report.accurate_step = accurate.step;
-  report.text += fmt::format("largest accurate step size: {}\n", textOf(accurate));
+  if (!trial) return report;
+  report.accurate_step = accurateStep(trials, chain, plan, *trial, report.stable.step);
+  report.text += fmt::format("largest accurate step size: {}\n", stepText(report.accurate_step));
   return report;
 }
 
-std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan,
-                             bool tries_run) {
+std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan) {
   const Method& method = plan.method;
   if (!method.hasFixedStep() || plan.frames < 2) return {};
   checkPlan(plan);
-  const bool clearly = isClearlyUnstable(method, chain, plan.time_step, durationOf(plan));
-  std::string found;
-  if (!clearly) {
-    if (!tries_run) return {};
-    Trials trials(chain, start, plan);  // copies the state
-    const Trial trial =
-        trials.run(trials.plan(), ReferenceUse::kNever, VerdictKind::kGainedEnergy, kShortWork);
-    if (trial.verdict.kind < VerdictKind::kGainedEnergy) return {};
-    found = fmt::format(" ({})", trial.verdict.text);
-  }
-  return fmt::format("{} {} unstable with a time step of {} s{}; {}", method.name,
-                     clearly ? "may be" : "is", numberText(plan.time_step), found,
-                     remedyForDivergence(chain, start, plan));
+  if (!isClearlyUnstable(method, chain, plan.time_step, durationOf(plan))) return {};
+  return fmt::format("{} may be unstable with a time step of {} s; {}", method.name,
+                     numberText(plan.time_step), remedyForDivergence(chain, start, plan));
 }
 
 std::string remedyForDivergence(const Chain& chain, const State& start, const Plan& plan,
@@ -304,8 +277,8 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Pl
     other.frame_interval = std::clamp(plan.timeOfFrame(1), 1e-300, 1e6);
     other.tolerance = std::max(method.hasFixedStep() ? Plan{}.tolerance : plan.tolerance,
                                smallestTolerance(chain, trials.start()));
-    if (trials.run(other, ReferenceUse::kNever, VerdictKind::kGainedEnergy).isStable())
-      text += "; or use Auto";
+    const auto trial = trials.run(other, ReferenceUse::kNever, VerdictKind::kGainedEnergy);
+    if (trial && trial->isStable()) text += "; or use Auto";
   }
   return stop && stop() ? "" : text;
 }
