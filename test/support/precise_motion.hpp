@@ -1,5 +1,5 @@
-// The motion of a chain with 113 bits, for motions so chaotic that extended precision loses them. Shares
-// no code with the library: Gragg-Bulirsch-Stoer extrapolation of order 32.
+// The motion of a chain in extended precision, or with 113 bits for motions so chaotic that extended
+// precision loses them. Shares no code with the library: Gragg-Bulirsch-Stoer extrapolation.
 //
 // Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
 // Springer 1993, section II.9.
@@ -22,16 +22,19 @@ __extension__ typedef __float128 Quad;  // NOLINT(modernize-use-using): needs __
 #endif
 
 /// Square root by two of Newton's iterations, from 53 bits.
-inline Quad squareRoot(Quad x) {
-  Quad root = std::sqrt(static_cast<double>(x));
+template <typename Real>
+Real squareRoot(Real x) {
+  Real root = std::sqrt(static_cast<double>(x));
   if (!(root > 0)) return 0;
   for (int i = 0; i < 2; ++i) root = (root + x / root) / 2;
   return root;
 }
 
-class PreciseMotion {
+/// \tparam kColumns of the extrapolation, whose order is twice as large
+template <typename Real, int kColumns>
+class ExtrapolatedMotion {
  public:
-  explicit PreciseMotion(const Scene& scene) : chain_(scene.chain) {
+  explicit ExtrapolatedMotion(const Scene& scene) : chain_(scene.chain) {
     for (Eigen::Index i = 0; i < chain_.size(); ++i) {
       for (int column = 0; column < 4; ++column) z_.push_back(scene.start.values()(i, column));
     }
@@ -41,20 +44,33 @@ class PreciseMotion {
   /// Continues with another drive.
   void drive(const Chain& chain) { chain_ = chain; }
 
-  void advance(double seconds) {
-    for (Quad left = seconds; left > 0;) {
+  /// \param most_work limit of the evaluations so far times particles
+  /// \returns whether that was enough
+  bool advance(double seconds, double most_work = HUGE_VAL) {
+    for (Real left = seconds; left > 0;) {
       const bool last = step_ >= left;
-      const Quad h = last ? left : step_;
+      const Real h = last ? left : step_;
       const double error = std::max(static_cast<double>(extrapolate(h)) / kTolerance, 1e-30);
       const double factor = std::clamp(0.9 * std::pow(error, -1.0 / (2 * kColumns - 1)), 0.2, 4.0);
+      work_ += kColumns * (kColumns + 2) * static_cast<double>(chain_.size());
+      if (work_ > most_work) return false;
       if (error > 1.0) {
         step_ = h * std::min(factor, 0.8);
         continue;
       }
       z_ = table_[0];
-      left = last ? Quad(0) : left - h;
+      left = last ? Real(0) : left - h;
       if (!last || factor < 1.0) step_ = h * factor;
     }
+    return true;
+  }
+
+  State state() const {
+    State state(chain_.size());
+    for (Eigen::Index i = 0; i < 4 * state.size(); ++i) {
+      state.values()(i / 4, i % 4) = static_cast<double>(z_[static_cast<std::size_t>(i)]);
+    }
+    return state;
   }
 
   /// Largest distance of a particle from its true position, m.
@@ -62,17 +78,16 @@ class PreciseMotion {
     double largest = 0.0;
     for (Eigen::Index i = 0; i < state.size(); ++i) {
       const std::size_t at = 4 * static_cast<std::size_t>(i);
-      const Quad dx = z_[at] - state.x()[i];
-      const Quad dy = z_[at + 1] - state.y()[i];
+      const Real dx = z_[at] - state.x()[i];
+      const Real dy = z_[at + 1] - state.y()[i];
       largest = std::max(largest, static_cast<double>(squareRoot(dx * dx + dy * dy)));
     }
     return largest;
   }
 
  private:
-  using Vector = std::vector<Quad>;  // x, y, vx, vy of every particle
-  static constexpr int kColumns = 16;
-  static constexpr double kTolerance = 1e-22;  // m
+  using Vector = std::vector<Real>;  // x, y, vx, vy of every particle
+  static constexpr double kTolerance = kColumns == 16 ? 1e-22 : 1e-13;  // m
 
   void computeSlope(const Vector& z) {
     const SpringLaw& law = chain_.spring();
@@ -80,17 +95,17 @@ class PreciseMotion {
       slope_[i] = z[i + 2];
       slope_[i + 1] = z[i + 3];
       slope_[i + 2] = 0;
-      slope_[i + 3] = -Quad(chain_.gravity());
+      slope_[i + 3] = -Real(chain_.gravity());
     }
     for (std::size_t a = 0, b = 4; b < z.size(); a = b, b += 4) {
-      const Quad dx = z[b] - z[a], dy = z[b + 1] - z[a + 1];
-      const Quad length = squareRoot(dx * dx + dy * dy);
+      const Real dx = z[b] - z[a], dy = z[b + 1] - z[a + 1];
+      const Real length = squareRoot(dx * dx + dy * dy);
       if (!(length > 0)) continue;
-      const Quad rx = dx / length, ry = dy / length;
-      const Quad rate = (z[b + 2] - z[a + 2]) * rx + (z[b + 3] - z[a + 3]) * ry;
-      const Quad tension = law.stiffness * (length - law.rest_length) + law.damping * rate;
+      const Real rx = dx / length, ry = dy / length;
+      const Real rate = (z[b + 2] - z[a + 2]) * rx + (z[b + 3] - z[a + 3]) * ry;
+      const Real tension = law.stiffness * (length - law.rest_length) + law.damping * rate;
       const auto mass = [&](std::size_t at) {
-        return Quad(chain_.masses()[static_cast<Eigen::Index>(at / 4)]);
+        return Real(chain_.masses()[static_cast<Eigen::Index>(at / 4)]);
       };
       slope_[a + 2] += tension * rx / mass(a);
       slope_[a + 3] += tension * ry / mass(a);
@@ -98,16 +113,16 @@ class PreciseMotion {
       slope_[b + 3] -= tension * ry / mass(b);
     }
     for (std::size_t at = 0; at < z.size(); at += 4) {
-      const Quad rate = Quad(chain_.airDrag()) / chain_.masses()[static_cast<Eigen::Index>(at / 4)];
+      const Real rate = Real(chain_.airDrag()) / chain_.masses()[static_cast<Eigen::Index>(at / 4)];
       slope_[at + 2] -= rate * z[at + 2];
       slope_[at + 3] -= rate * z[at + 3];
     }
     for (const AppliedForce& applied : chain_.drive().forces) {
       const auto at = 4 * static_cast<std::size_t>(applied.particle);
-      slope_[at + 2] += Quad(applied.force.x) / chain_.masses()[applied.particle];
-      slope_[at + 3] += Quad(applied.force.y) / chain_.masses()[applied.particle];
+      slope_[at + 2] += Real(applied.force.x) / chain_.masses()[applied.particle];
+      slope_[at + 3] += Real(applied.force.y) / chain_.masses()[applied.particle];
     }
-    std::fill(slope_.begin(), slope_.begin() + 4, Quad(0));
+    std::fill(slope_.begin(), slope_.begin() + 4, Real(0));
     for (const HeldParticle& held : chain_.drive().held) {
       const auto at = 4 * static_cast<std::size_t>(held.particle);
       slope_[at] = z[at + 2];
@@ -118,7 +133,7 @@ class PreciseMotion {
   }
 
   /// Gragg's smoothed midpoint rule with n steps over a time h.
-  Vector midpointRule(Quad h, int n) {
+  Vector midpointRule(Real h, int n) {
     h /= n;
     Vector old = z_, now = z_;
     computeSlope(z_);
@@ -135,21 +150,21 @@ class PreciseMotion {
 
   /// Takes a step of size h into `table_[0]`. Returns the difference of the last two columns; a
   /// velocity counts 0.05 s.
-  Quad extrapolate(Quad h) {
+  Real extrapolate(Real h) {
     Vector before;
     for (int k = 0; k < kColumns; ++k) {
       before = table_[0];
       table_[k] = midpointRule(h, 2 * (k + 1));
       for (int j = k - 1; j >= 0; --j) {
-        const Quad ratio = Quad(k + 1) / (j + 1), factor = 1 / (ratio * ratio - 1);
+        const Real ratio = Real(k + 1) / (j + 1), factor = 1 / (ratio * ratio - 1);
         for (std::size_t i = 0; i < z_.size(); ++i) {
           table_[j][i] = table_[j + 1][i] + (table_[j + 1][i] - table_[j][i]) * factor;
         }
       }
     }
-    Quad largest = 0;
+    Real largest = 0;
     for (std::size_t i = 0; i < z_.size(); ++i) {
-      const Quad change = (table_[0][i] - before[i]) * (i % 4 < 2 ? Quad(1) : Quad(0.05));
+      const Real change = (table_[0][i] - before[i]) * (i % 4 < 2 ? Real(1) : Real(0.05));
       largest = std::max(largest, change < 0 ? -change : change);
     }
     return largest;
@@ -158,7 +173,10 @@ class PreciseMotion {
   Chain chain_;
   Vector z_, slope_;
   std::array<Vector, kColumns> table_;
-  Quad step_ = 1e-6;  // s
+  Real step_ = 1e-6;   // s
+  double work_ = 0.0;  // evaluations x particles
 };
+
+using PreciseMotion = ExtrapolatedMotion<Quad, 16>;
 
 }  // namespace spring_pendulum::test
