@@ -93,10 +93,5 @@ TEST(Spelling, TellsTheKnownNames) {
   EXPECT_LT(unknownName("key", std::string(100000, 'x'), {"frames"}).size(), 100U);
 }
 
-TEST(Spelling, AbbreviationsAreMethods) {
-  EXPECT_EQ(findMethod("rk4").name, "Runge-Kutta-4");
-  EXPECT_EQ(findMethod("RK2").name, "Runge-Kutta-2");
-}
-
 }  // namespace
 }  // namespace spring_pendulum

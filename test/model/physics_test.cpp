@@ -84,14 +84,6 @@ TEST(Force, OfTheDashpotIsDampingTimesTheRateOfTheLength) {
   }
 }
 
-TEST(Force, IsTheLawAsItIsUsuallyWritten) {
-  const SpringLaw law{50.0, 1.0, 1.0};
-  const PlaneVector<double> force = springForce<double>(law, {3.0, 4.0}, {0.5, -0.25});
-  const double along = 50.0 * (5.0 - 1.0) + 1.0 * (0.5 * 0.6 - 0.25 * 0.8);
-  EXPECT_NEAR(force.x, along * 0.6, 1e-13 * along);
-  EXPECT_NEAR(force.y, along * 0.8, 1e-13 * along);
-}
-
 // Recorded bits, the same on every machine. std::hypot, which rounds differently in different C
 // libraries, gives others for every seventh separation, and for these two.
 TEST(SpringLength, HasTheRecordedBits) {
@@ -102,36 +94,6 @@ TEST(SpringLength, HasTheRecordedBits) {
   EXPECT_EQ(springLength(state, 2), 0x1.b98cdb7582c47p+1);
   EXPECT_EQ(springLengths(state, 0, 3), 2.0 * springLength(state, 0) + springLength(state, 2));
   EXPECT_EQ(springLengths(state, 1, 1), 0.0);
-}
-
-TEST(Energy, OfASpringComesFromItsLength) {
-  State state(2);
-  state.x()[1] = -0.89461131730248233;
-  state.y()[1] = 2.4681482874670611;
-  const double length = springLength(state, 0);
-  const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{1.0, 0.0, 0.0}, 0.0);
-  EXPECT_EQ(computeEnergy(chain, state).spring, 0.5 * length * length);
-}
-
-TEST(Force, VanishesWhereASpringHasNoLength) {
-  const PlaneVector<double> force = springForce<double>(SpringLaw{}, {0.0, 0.0}, {1.0, -2.0});
-  EXPECT_EQ(force.x, 0.0);
-  EXPECT_EQ(force.y, 0.0);
-}
-
-TEST(Momentum, OfTheFreePartChangesByGravityAndTheFirstSpringAlone) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    const RandomScene scene(seed);
-    const Chain chain(scene.masses, scene.spring, scene.gravity);
-    const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
-    const Eigen::RowVector2d change = chain.masses().tail(chain.size() - 1).transpose() *
-                                      accelerations.bottomRows(chain.size() - 1);
-    const PlaneVector<double> first = springForceOn(chain, scene.state, 0);
-    const double weight = scene.gravity * chain.masses().tail(chain.size() - 1).sum();
-    // Measured: 1.2e-13 N at the most.
-    EXPECT_NEAR(change.x(), -first.x, 1e-11);
-    EXPECT_NEAR(change.y(), -first.y - weight, 1e-11);
-  }
 }
 
 TEST(Power, LostIsThatOfTheDashpots) {
@@ -153,18 +115,6 @@ TEST(Power, LostIsThatOfTheDashpots) {
     EXPECT_GT(lost, 0.0);
     // Measured: 4e-7 W at the most, of up to 400 W.
     EXPECT_NEAR((energy[1] - energy[0]) / (2.0 * h), -lost, 1e-5);
-  }
-}
-
-TEST(FreeFall, MovesAChainWithoutAnchorForceByGravityAlone) {
-  RandomScene scene(7);
-  scene.spring = {0.0, 0.0, 0.0};
-  const Chain chain(scene.masses, scene.spring, scene.gravity);
-  const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
-  EXPECT_EQ(accelerations.row(0).norm(), 0.0);
-  for (Eigen::Index i = 1; i < chain.size(); ++i) {
-    EXPECT_EQ(accelerations(i, 0), 0.0);
-    EXPECT_EQ(accelerations(i, 1), -9.81);
   }
 }
 

@@ -89,26 +89,12 @@ TEST(ReferenceRun, MeasuresTheLargestDistanceOfAParticle) {
   EXPECT_TRUE(std::isnan(reference.errorOf(state)));
 }
 
-TEST(ReferenceRun, HasTheSameBitsHoweverItIsSampledAndAfterARestart) {
+TEST(ReferenceRun, HasTheSameBitsHoweverItIsSampled) {
   const test::Scene scene = test::horizontalChain("11 particles", 11, 1.0);
   ReferenceRun seldom(scene.chain, scene.start), often(scene.chain, scene.start);
   advance(seldom, 0.1, 20);
   for (int n = 0; n < 20; ++n) advance(often, 0.1, 1);
   EXPECT_EQ(seldom.state()->values(), often.state()->values());
-  often.restart();
-  EXPECT_EQ(often.state()->values(), scene.start.values());
-  advance(often, 0.1, 20);
-  EXPECT_EQ(seldom.state()->values(), often.state()->values());
-}
-
-// A chain of 50 particles of 1e-6 kg takes 780 ms for 5 s.
-TEST(ReferenceRun, StopsWhereItWouldCostTooMuch) {
-  const test::Scene scene = test::horizontalChain("feather", 50, 1e-6);
-  ReferenceRun reference(scene.chain, scene.start);
-  while (reference.isMeasuring()) advance(reference, 0.01, 1);
-  EXPECT_EQ(reference.status(), ReferenceRun::Status::kCostTooMuch);
-  EXPECT_TRUE(std::isnan(reference.errorOf(scene.start)));
-  EXPECT_TRUE(std::isnan(reference.uncertainty()));
 }
 
 TEST(ReferenceRun, MayCostAsMuchAsTheRun) {
@@ -154,16 +140,6 @@ TEST(ReferenceRun, LeavesOutVeryLongChainsUnlessItIsAskedFor) {
   EXPECT_TRUE(ReferenceRun(scene.chain, scene.start, always).isMeasuring());
 }
 
-// An undamped chain of 10 links let go from the horizontal: chaotic, the two part at 11.7 s.
-TEST(ReferenceRun, TellsFromWhenOnAMotionIsTooSensitive) {
-  const test::Scene scene = test::horizontalChain("undamped", 11, 1.0, {500.0, 0.0, 1.0});
-  ReferenceRun reference(scene.chain, scene.start);
-  int frames = 0;
-  for (; reference.isMeasuring() && frames < 500; ++frames) advance(reference, 0.1, 1);
-  EXPECT_NEAR(frames, 117, 5);
-  EXPECT_EQ(reference.status(), ReferenceRun::Status::kSensitive);
-}
-
 // Rounding errors of two trajectories with similar steps do not cancel out, so the start of the companion
 // is moved. Measured: at most 0.02 of the uncertainty; otherwise up to 38 times the uncertainty.
 TEST(ReferenceRun, StaysWithinItsUncertaintyBesideChaoticMotions) {
@@ -183,16 +159,8 @@ TEST(ReferenceRun, StaysWithinItsUncertaintyBesideChaoticMotions) {
   }
 }
 
-TEST(ReferenceRun, BlamesRoundingOnlyWherePositionsAreLarge) {
-  const test::Scene near = test::horizontalChain("3 particles", 3, 1.0);
-  State far = near.start;
-  far.x().array() += 2e12;
-  ReferenceRun reference(near.chain, far);
-  advance(reference, 0.1, 1);
-  EXPECT_EQ(reference.status(), ReferenceRun::Status::kRounded);
-}
-
-// The cost is compared with its limit at frames, however many parts they have.
+// The cost is compared with its limit at frames, however many parts they have. A chain of 50 particles
+// of 1e-6 kg takes 780 ms for 5 s.
 TEST(ReferenceRun, StopsAtTheSameFrameForEveryNumberOfParts) {
   const test::Scene scene = test::horizontalChain("feather", 50, 1e-6);
   std::vector<int> frames;
@@ -205,21 +173,11 @@ TEST(ReferenceRun, StopsAtTheSameFrameForEveryNumberOfParts) {
       reference.measure(0.0);
     }
     EXPECT_EQ(reference.status(), ReferenceRun::Status::kCostTooMuch);
+    EXPECT_TRUE(std::isnan(reference.errorOf(scene.start)));
     frames.push_back(frame);
   }
   EXPECT_GT(frames[0], 1);
   EXPECT_EQ(frames, std::vector<int>(4, frames[0]));
-}
-
-TEST(ReferenceRun, GivesUpInsideALongFrame) {
-  const test::Scene scene = test::horizontalChain("feather", 50, 1e-6);
-  ReferenceRun reference(scene.chain, scene.start, {1e-6, true});
-  int asked = 0;
-  EXPECT_FALSE(reference.advance(1e6, 1, [&asked] { return ++asked == 3; }));
-  EXPECT_EQ(asked, 3);
-  EXPECT_EQ(reference.state(), nullptr);
-  reference.restart();
-  EXPECT_EQ(reference.state()->values(), scene.start.values());
 }
 
 TEST(ChainLength, IsTheSumOfRestLengthsOrATenthOfTheStart) {

@@ -52,15 +52,6 @@ TEST(Run, RungeKutta4IsOk) {
   EXPECT_THAT(run.measurements(), HasSubstr("largest energy error "));
 }
 
-TEST(Run, PositionsAreNotCheckedWithoutAReference) {
-  Scenario scenario = scenarioOf("Runge-Kutta-4");
-  scenario.reference = ReferenceUse::kNever;
-  const test::ProgramRun run = runAfter(scenario, horizontal(), 1.0);
-  EXPECT_EQ(run.verdict().kind, VerdictKind::kNotChecked);
-  EXPECT_TRUE(std::isnan(run.positionError().largest));
-  EXPECT_THAT(run.measurements(), HasSubstr("position error not measured"));
-}
-
 TEST(Run, SaysUntilWhenItMeasured) {
   test::Scene light = test::horizontalChain("light", 5000, 1e-3);
   light.start = test::hangingAtRest(light.chain);
@@ -76,11 +67,11 @@ TEST(Run, SaysUntilWhenItMeasured) {
 
 TEST(Run, EnergyBalanceIsNotCheckedWhereItIsCostly) {
   Scenario scenario;
-  EXPECT_TRUE(test::ProgramRun(scenario, horizontal()).tracksDissipation());
+  EXPECT_TRUE(test::ProgramRun(scenario, horizontal()).energyEntry().dissipated);
   scenario.frames = 100'000;
   const test::ProgramRun run = runAfter(scenario, horizontal(), 1.0);
-  EXPECT_FALSE(run.tracksDissipation());
-  EXPECT_TRUE(test::ProgramRun(scenario, horizontal(), {true}).tracksDissipation());
+  EXPECT_FALSE(run.energyEntry().dissipated);
+  EXPECT_TRUE(test::ProgramRun(scenario, horizontal(), {true}).energyEntry().dissipated);
   EXPECT_EQ(run.verdict().kind, VerdictKind::kOk);
   EXPECT_THAT(run.measurements(), HasSubstr("energy balance not checked"));
 }
@@ -253,15 +244,6 @@ TEST(Run, StopsInsideTheReferenceRun) {
   EXPECT_FALSE(run.advance());
   EXPECT_TRUE(run.wasStopped());
   EXPECT_EQ(asked, 4);
-}
-
-TEST(Run, StartsAnewAfterARestart) {
-  test::ProgramRun run(scenarioOf("Euler"), horizontal());
-  run.advanceTo(5.0);
-  EXPECT_NE(run.verdict().kind, VerdictKind::kOk);
-  run.reset();
-  EXPECT_EQ(run.verdict().kind, VerdictKind::kOk);
-  EXPECT_EQ(run.positionError().largest, 0.0);
 }
 
 struct KnownMotion {

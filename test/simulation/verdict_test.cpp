@@ -1,12 +1,10 @@
-#include "simulation/judge.hpp"
-#include <spring_pendulum/integration/method_table.hpp>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <string>
+
+#include "support/verdict_of_run.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -14,62 +12,17 @@ namespace {
 using testing::HasSubstr;
 
 State horizontal(Eigen::Index particles) {
-  State state(particles);
-  for (Eigen::Index i = 0; i < particles; ++i) state.x()[i] = static_cast<double>(i);
-  return state;
+  return test::straightLine(particles, 1.0, 0.0);
 }
 
-struct Outcome {
-  Verdict verdict;
-  int frames;  ///< judged before the motion diverged, or all
-};
-
-/// Runs a horizontal chain as the exercise does: 500 frames of 10 steps.
-Outcome run(const std::string& method, Eigen::Index particles, double mass, double time_step) {
-  const Chain chain(Eigen::VectorXd::Constant(particles, mass), SpringLaw{}, 9.81);
-  State state = horizontal(particles);
-  const auto integrator = makeIntegrator(method, chain, {1e-6, true});
-  Judge judge(chain, state, JudgeOptions{true});
-  for (int frame = 0; frame < 500; ++frame) {
-    if (frame > 0) integrator->advance(state, time_step, 10);
-    const double time = time_step * 10.0 * frame;
-    if (judge.judge(time, state, integrator->dissipatedEnergy(), nullptr).kind ==
-        VerdictKind::kDiverged) {
-      return {judge.worst(), frame};
-    }
-  }
-  return {judge.worst(), 500};
-}
-
-TEST(Verdict, RungeKutta4OnTheExerciseIsOk) {
-  EXPECT_EQ(run("Runge-Kutta-4", 6, 1.0, 0.01).verdict.text, "not checked: no reference run");
-}
-
-TEST(Verdict, EulerBringsSixParticlesToTheEndWithEnergyGained) {
-  const Outcome outcome = run("Euler", 6, 1.0, 0.01);
-  EXPECT_EQ(outcome.frames, 500);
-  EXPECT_EQ(outcome.verdict.kind, VerdictKind::kGainedEnergy);  // up to 10 % of the scale
-  EXPECT_THAT(outcome.verdict.text, HasSubstr("gained energy: "));
-}
-
-TEST(Verdict, EulerDivergesOnElevenParticles) {
-  const Outcome outcome = run("Euler", 11, 1.0, 0.01);
-  EXPECT_EQ(outcome.verdict.kind, VerdictKind::kDiverged);
-  EXPECT_EQ(outcome.frames, 150);  // long before a number is not finite
-}
-
-TEST(Verdict, RungeKutta4BeyondItsStabilityLimitDivergesWhileAllIsFinite) {
-  const Outcome outcome = run("Runge-Kutta-4", 11, 0.01, 0.01);
-  EXPECT_EQ(outcome.verdict.kind, VerdictKind::kDiverged);
-  EXPECT_EQ(outcome.frames, 3);
-  EXPECT_THAT(outcome.verdict.text, HasSubstr("diverged at t = 0.3 s: energy up by "));
-  EXPECT_GE(outcome.verdict.particle, 2);
-  EXPECT_LE(outcome.verdict.particle, 11);
-}
-
-TEST(Verdict, DriftIsFoundByTheEnergyBalanceAlone) {
-  // One light particle just inside the stability limit: no gain, but a wrong balance (1.1 %).
-  EXPECT_EQ(run("Runge-Kutta-4", 2, 0.01, 0.01).verdict.kind, VerdictKind::kDrift);
+// Which runs have which verdict is recorded in stability_map_test.
+TEST(Verdict, IsDivergedWhileAllIsFinite) {
+  const test::Scene light = test::horizontalChain("", 11, 0.01);
+  const Verdict verdict = test::verdictOfRun(light, findMethod("Runge-Kutta-4"), 0.01, 5.0, true);
+  EXPECT_EQ(verdict.kind, VerdictKind::kDiverged);
+  EXPECT_THAT(verdict.text, HasSubstr("diverged at t = 0.3 s: energy up by "));
+  EXPECT_GE(verdict.particle, 2);
+  EXPECT_LE(verdict.particle, 11);
 }
 
 TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
