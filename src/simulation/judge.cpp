@@ -1,10 +1,15 @@
 #include "simulation/judge.hpp"
 
+#include "base/checks.hpp"
 #include "base/numbers.hpp"
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace spring_pendulum {
@@ -12,6 +17,8 @@ namespace {
 
 /// Position error that error-controlled methods promise not to exceed, in tolerances.
 constexpr double kPromise = 10.0;
+/// The least energy scale is that of all springs stretched by this share of their length.
+constexpr double kLeastStretch = 1e-6;
 
 /// Returns the first particle that is not finite, counted from 1; 0 if all are finite.
 Eigen::Index firstNotFinite(const State& state) {
@@ -95,7 +102,82 @@ std::string_view toString(VerdictKind kind) {
 }
 
 Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
-    : options_(options), balance_(chain, start, options.track_dissipation, options.start_time) {}
+    : chain_(chain),
+      options_(options),
+      start_energy_(computeEnergy(chain, start).total()),
+      start_height_(start.y()[0]) {
+  widenScale(start, start_energy_);
+}
+
+double Judge::change(const Chain& chain, const State& before, const State& after,
+                     const JudgeOptions& options, double supplied) {
+  const double energy_before = energyOf(before).total();
+  const double start_time = options_.start_time;
+  chain_ = chain;
+  options_ = options;
+  options_.start_time = start_time;
+  changed_ = true;
+  const double energy_after = energyOf(after).total();
+  widenScale(after, energy_after);
+  const double supplied_after = supplied + energy_after - energy_before;
+  most_supplied_ = std::max({most_supplied_, std::abs(supplied), std::abs(supplied_after)});
+  return supplied_after;
+}
+
+void Judge::widenScale(const State& start, double energy) {
+  requireSize(chain_.size(), start.size());
+  const SpringLaw& spring = chain_.spring();
+  // Sums from the free end: weight beyond a spring, -E_min, and springs that are hardly stretched.
+  double weight = 0.0, depth = 0.0, least = 0.0;
+  for (Eigen::Index i = chain_.size() - 1; i > 0; --i) {
+    weight += chain_.masses()[i] * std::abs(chain_.gravity());
+    depth += weight * spring.rest_length;
+    if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
+    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
+    least += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain_.gravity());
+  constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + depth, least});
+  if (!std::isfinite(energy) || !std::isfinite(constant_scale_) || !std::isfinite(fall_)) {
+    throw InputError(
+        "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
+        "gravity must be smaller");
+  }
+}
+
+Energy Judge::energyOf(const State& state) const {
+  Energy energy = computeEnergy(chain_, state);
+  const double raised = state.y()[0] - start_height_;
+  if (raised == 0.0) return energy;
+  for (Eigen::Index i = 1; i < chain_.size(); ++i) {
+    if (!chain_.isHeld(i)) energy.gravity += chain_.masses()[i] * chain_.gravity() * raised;
+  }
+  return energy;
+}
+
+double Judge::scale(double time) const {
+  const double elapsed = time - options_.start_time;
+  return std::max(constant_scale_ + fall_ * elapsed * elapsed, std::numeric_limits<double>::min());
+}
+
+EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
+                             double supplied) const {
+  EnergyEntry entry;
+  entry.time = time;
+  entry.energy = energyOf(state);
+  entry.supplied = supplied;
+  entry.gain = entry.energy.total() - start_energy_ - supplied;
+  // Energy that is taken back leaves its rounding and step errors in the chain.
+  const double scale_now = scale(time) + std::max(most_supplied_, std::abs(supplied));
+  entry.relative_gain = entry.gain / scale_now;
+  if (options_.track_dissipation) entry.dissipated = dissipated;
+  if (!chain_.isDissipative() && !changed_) entry.dissipated = 0.0;
+  if (entry.dissipated) {
+    entry.residual = entry.gain + *entry.dissipated;
+    entry.relative_residual = *entry.residual / scale_now;
+  }
+  return entry;
+}
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference, double supplied) {
@@ -137,23 +219,16 @@ void Judge::noteTolerance(const ReferenceRun& reference) {
   }
 }
 
-double Judge::change(const Chain& chain, const State& before, const State& after,
-                     const JudgeOptions& options, double supplied) {
-  options_ = options;
-  return balance_.change(chain, before, after, options.track_dissipation, supplied);
-}
-
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
-  entry_ = balance_.entry(time, state, dissipated, supplied);
-  const Chain& chain = balance_.chain();
+  entry_ = balanceOf(time, state, dissipated, supplied);
   const double spread = 2.0 * kPromise * options_.tolerance;  // m, of the length of a spring
   const double tolerated =
-      static_cast<double>(chain.size() - 1) * 0.5 * chain.spring().stiffness * spread * spread;
-  double allowance = tolerated > 0.0 ? tolerated / balance_.scale(time) : 0.0;
+      static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
+  double allowance = tolerated > 0.0 ? tolerated / scale(time) : 0.0;
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
     Verdict verdict{VerdictKind::kDiverged, time, 0, divergedText(entry_)};
-    locate(verdict, chain, state);
+    locate(verdict, chain_, state);
     return verdict;
   }
   double gain = entry_.relative_gain;
@@ -182,9 +257,8 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
 // In a stiff transient, the dissipated energy can be wrong although the state is right.
 bool Judge::hasEnergyOf(const ReferenceRun* reference) const {
   if (reference == nullptr || !reference->isMeasuring()) return false;
-  const double error =
-      entry_.energy.total() - computeEnergy(balance_.chain(), *reference->state()).total();
-  return std::abs(error) <= kDriftThreshold * balance_.scale(entry_.time);
+  const double error = entry_.energy.total() - computeEnergy(chain_, *reference->state()).total();
+  return std::abs(error) <= kDriftThreshold * scale(entry_.time);
 }
 
 Verdict Judge::positionVerdict(const ReferenceRun* reference) const {

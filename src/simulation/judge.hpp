@@ -5,10 +5,28 @@
 // start proves an unstable or inaccurate integration, even if every number is finite. A reference run,
 // if there is one, gives the position error. If the energy balance is off, it also shows whether the
 // energy or only the dissipated energy is wrong.
+//
+// The energy balance is E(t) + D(t) - S(t) = E(0), with the energy E = kinetic + gravity + spring, the
+// dissipated energy D and the energy S that holders of particles and applied forces have supplied; S is
+// 0 unless the chain is driven. The residual E(t) + D(t) - S(t) - E(0) is the integration error of a
+// quantity whose exact value is known. It is given relative to the energy scale of the scene: the energy
+// available to the motion, which is the difference between the larger of E(0) and 0 (all springs
+// unstretched and all particles at the height of P_1) and the minimum, the chain hanging at rest, where
+// spring i carries the weight W_i of all particles beyond it:
+//
+//     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
+//
+// For a chain that starts in equilibrium, this is the energy of lifting it to the height of P_1.
+// The largest supplied energy so far adds to the scale. Two rules keep the scale positive and finite:
+// - it is at least the energy of all springs stretched by a millionth of their length;
+// - without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
+//   the mass M until time t, replaces the last term.
 #pragma once
 
-#include "simulation/energy_balance.hpp"
 #include "simulation/reference_run.hpp"
+#include <spring_pendulum/model/chain.hpp>
+#include <spring_pendulum/model/energy.hpp>
+#include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
 #include <string>
@@ -16,7 +34,8 @@
 namespace spring_pendulum {
 
 struct JudgeOptions {
-  bool track_dissipation = false;  ///< whether the integrator has it set
+  /// Whether the integrator has it set. If not, the residual is known only for a chain without damping.
+  bool track_dissipation = false;
   /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
   /// oscillates about its true value, so its mean error over the run so far is judged.
   double symplectic_step = 0.0;
@@ -36,7 +55,7 @@ class Judge {
   /// In units of `ReferenceRun::length`. Smaller errors are not visible in a picture of the chain.
   static constexpr double kInaccurateThreshold = 0.01;
 
-  /// \throws InputError as EnergyBalance
+  /// \throws InputError if an energy of the start exceeds the range of double
   Judge(const Chain& chain, const State& start, const JudgeOptions& options);
 
   /// Judges the state at `time` s by its energy and its positions.
@@ -46,11 +65,21 @@ class Judge {
   const Verdict& judge(double time, const State& state, double dissipated,
                        const ReferenceRun* reference, double supplied = 0.0);
 
-  /// Continues with another chain and from another state, see EnergyBalance::change.
+  /// Continues with another chain of as many particles, and from another state.
+  /// \param options  without its start time. `track_dissipation`: whether the dissipated energy is
+  ///   known from the start on
+  /// \param supplied energy supplied before the change, J
+  /// \returns the energy supplied until after the change, J: it includes the difference of the energies
+  /// \throws InputError if an energy exceeds the range of double; the judge is not valid then
   double change(const Chain& chain, const State& before, const State& after,
                 const JudgeOptions& options, double supplied);
 
-  const EnergyBalance& balance() const { return balance_; }
+  /// Returns the energy balance of a state; arguments as of `judge`.
+  EnergyEntry balanceOf(double time, const State& state, double dissipated,
+                        double supplied = 0.0) const;
+  /// Energy scale at a time in s, J; positive.
+  double scale(double time) const;
+
   /// The energy balance of the last judged state.
   const EnergyEntry& entry() const { return entry_; }
   const PositionError& positionError() const { return position_error_; }
@@ -67,6 +96,9 @@ class Judge {
   std::string toleranceRemark() const;
 
  private:
+  /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
+  Energy energyOf(const State& state) const;
+  void widenScale(const State& start, double energy);
   void measure(const State& state, const ReferenceRun* reference);
   void noteTolerance(const ReferenceRun& reference);
   Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
@@ -75,10 +107,16 @@ class Judge {
   Verdict positionVerdict(const ReferenceRun* reference) const;
   const Verdict& remember(Verdict verdict);
 
+  Chain chain_;
   JudgeOptions options_;
-  EnergyBalance balance_;
-  double gain_sum_ = 0.0;      ///< sum of the relative gains of the judged frames
-  double residual_sum_ = 0.0;  ///< sum of the relative residuals of the judged frames
+  bool changed_ = false;
+  double start_energy_;          ///< J
+  double start_height_;          ///< of P_1, m
+  double constant_scale_ = 0.0;  ///< J
+  double fall_ = 0.0;            ///< scale of the free fall, J/s²
+  double most_supplied_ = 0.0;   ///< largest amount at a change, J
+  double gain_sum_ = 0.0;        ///< sum of the relative gains of the judged frames
+  double residual_sum_ = 0.0;    ///< sum of the relative residuals of the judged frames
   double frames_ = 0.0;
   double worst_residual_ = 0.0;  ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.

@@ -282,8 +282,7 @@ double Run::referenceWork() const {
 }
 
 EnergyEntry Run::energyEntry() const {
-  return isAtFrame() ? judge_->entry()
-                     : judge_->balance().entry(time(), state_, dissipated_, supplied_);
+  return isAtFrame() ? judge_->entry() : judge_->balanceOf(time(), state_, dissipated_, supplied_);
 }
 
 PositionError Run::positionError() const {

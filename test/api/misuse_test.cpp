@@ -53,7 +53,6 @@ TEST(Misuse, RunsFromStatesOfAnotherSize) {
     EXPECT_THROW(chainLength(chain(), wrong), InputError) << size;
     EXPECT_THROW(ReferenceRun(chain(), wrong), InputError) << size;
     EXPECT_THROW(static_cast<void>(reference.errorOf(wrong)), InputError) << size;
-    EXPECT_THROW(EnergyBalance(chain(), wrong, true), InputError) << size;
     EXPECT_THROW(Judge(chain(), wrong, JudgeOptions{true}), InputError) << size;
     EXPECT_THROW(checkStability(chain(), wrong, Scenario{}), InputError) << size;
     EXPECT_THROW(largestStableStep(chain(), wrong, Scenario{}), InputError) << size;

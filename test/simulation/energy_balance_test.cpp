@@ -1,5 +1,4 @@
-#include "simulation/energy_balance.hpp"
-
+#include "simulation/judge.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 
@@ -21,13 +20,13 @@ Chain uniform(Eigen::Index particles, const SpringLaw& spring, double gravity) {
 }
 
 double scaleOf(const Chain& chain, const State& start) {
-  return EnergyBalance(chain, start, false).scale(0.0);
+  return Judge(chain, start, {false}).scale(0.0);
 }
 
 TEST(EnergyScale, IsTheDepthOfTheHangingChainForAStartWithoutEnergy) {
   // Two springs carry 2 m g and m g: E_min = -(3 m g L_0 + 5 (m g)²/(2 k_s)).
   const double depth = 3.0 * 9.81 + 5.0 * 9.81 * 9.81 / 100.0;
-  const EnergyBalance balance(uniform(3, SpringLaw{}, 9.81), horizontal(3, 1.0), false);
+  const Judge balance(uniform(3, SpringLaw{}, 9.81), horizontal(3, 1.0), {false});
   EXPECT_NEAR(balance.scale(0.0), depth, 1e-12);
   EXPECT_EQ(balance.scale(100.0), balance.scale(0.0));
 }
@@ -49,7 +48,7 @@ TEST(EnergyScale, StaysAboveZeroWhereNothingMoves) {
 }
 
 TEST(EnergyScale, FollowsTheFreeFallOfAChainWithoutStiffness) {
-  const EnergyBalance balance(uniform(3, {0.0, 0.0, 1.0}, 10.0), horizontal(3, 1.0), false);
+  const Judge balance(uniform(3, {0.0, 0.0, 1.0}, 10.0), horizontal(3, 1.0), {false});
   EXPECT_DOUBLE_EQ(balance.scale(2.0) - balance.scale(0.0), 2.0 * 100.0 * 4.0 / 2.0);
 }
 
@@ -71,11 +70,11 @@ TEST(EnergyBalance, ClosesWithTheOrderOfTheMethod) {
     double residual[2];
     for (const int refined : {0, 1}) {
       State state = horizontal(4, 1.1);
-      const EnergyBalance balance(chain, state, true);
+      const Judge balance(chain, state, {true});
       const auto integrator = makeIntegrator(method, chain, {1e-6, true});
       const std::int64_t steps = refined == 0 ? 1000 : 2000;
       integrator->advance(state, 1.0 / static_cast<double>(steps), steps);
-      residual[refined] = *balance.entry(1.0, state, integrator->dissipatedEnergy()).residual;
+      residual[refined] = *balance.balanceOf(1.0, state, integrator->dissipatedEnergy()).residual;
     }
     const double ratio = residual[0] / residual[1];
     const double expected = std::pow(2.0, method.order);
@@ -87,17 +86,16 @@ TEST(EnergyBalance, ClosesWithTheOrderOfTheMethod) {
 TEST(EnergyBalance, LeavesTheResidualOpenOnlyIfDampingIsNotTracked) {
   const State start = horizontal(3, 1.0);
   EXPECT_FALSE(
-      EnergyBalance(uniform(3, SpringLaw{}, 9.81), start, false).entry(0.0, start, 0.0).residual);
+      Judge(uniform(3, SpringLaw{}, 9.81), start, {false}).balanceOf(0.0, start, 0.0).residual);
   const auto undamped =
-      EnergyBalance(uniform(3, {50.0, 0.0, 1.0}, 9.81), start, false).entry(0.0, start, 0.0);
+      Judge(uniform(3, {50.0, 0.0, 1.0}, 9.81), start, {false}).balanceOf(0.0, start, 0.0);
   EXPECT_EQ(undamped.dissipated, 0.0);
   EXPECT_EQ(undamped.residual, 0.0);
 }
 
 TEST(EnergyBalance, IsDefinedForTheFixedParticleAlone) {
   const State start(1);
-  const auto entry =
-      EnergyBalance(uniform(1, SpringLaw{}, 9.81), start, true).entry(1.0, start, 0.0);
+  const auto entry = Judge(uniform(1, SpringLaw{}, 9.81), start, {true}).balanceOf(1.0, start, 0.0);
   EXPECT_EQ(entry.relative_gain, 0.0);
   EXPECT_EQ(entry.relative_residual, 0.0);
 }
