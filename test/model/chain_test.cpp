@@ -33,6 +33,8 @@ TEST(Chain, RefusesWhatIsOutOfRange) {
   expectRefused(masses, {50.0, 1.0, -0.5}, 9.81,
                 "rest_length must be finite and at least 0 m, got -0.5");
   expectRefused(masses, {}, kInfinity, "gravity must be a finite number in m/s², got inf");
+  EXPECT_THROW(Chain(masses, Constants{{}, 9.81, -1.0}), InputError);
+  EXPECT_THROW(Chain(masses, Constants{{}, 9.81, kInfinity}), InputError);
   for (const double mass : {0.0, -1.0, kInfinity, 5e-324}) {
     Eigen::VectorXd wrong = masses;
     wrong[2] = mass;

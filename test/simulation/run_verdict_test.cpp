@@ -142,9 +142,13 @@ TEST(Run, UncertaintyAboveTenTolerancesIsNotConcealed) {
     if (method.hasFixedStep()) continue;
     Scenario scenario = scenarioOf(method.name);
     scenario.tolerance = 1e-10;
-    EXPECT_THAT(runAfter(scenario, weaklyDamped(), 12.0).toleranceRemark(),
-                HasSubstr("sensitive from t = "))
-        << method.name;
+    const test::ProgramRun run = runAfter(scenario, weaklyDamped(), 12.0);
+    EXPECT_THAT(run.toleranceRemark(), HasSubstr("sensitive from t = ")) << method.name;
+    if (method.name != "Radau-9")
+      continue;  // its largest error is below the uncertainty at its time
+    EXPECT_FALSE(run.positionError().isResolved());
+    EXPECT_GE(run.positionError().bound, run.positionError().largest);
+    EXPECT_THAT(run.measurements(), HasSubstr("largest position error below "));
   }
 }
 
@@ -213,16 +217,6 @@ TEST(Run, SaysTheSameForEveryNumberOfPartsOfAFrame) {
     }
   }
   EXPECT_TRUE(kinds.count(VerdictKind::kSensitive) == 1 && kinds.count(VerdictKind::kOk) == 1);
-}
-
-// The largest error may be below the uncertainty at its time.
-TEST(Run, ReportsNoErrorThatItCannotResolve) {
-  Scenario scenario = scenarioOf("Radau-9");
-  scenario.tolerance = 1e-10;
-  const test::ProgramRun run = runAfter(scenario, weaklyDamped(), 12.0);
-  EXPECT_FALSE(run.positionError().isResolved());
-  EXPECT_GE(run.positionError().bound, run.positionError().largest);
-  EXPECT_THAT(run.measurements(), HasSubstr("largest position error below "));
 }
 
 TEST(Run, LargeCoordinatesAreNotCalledSensitive) {

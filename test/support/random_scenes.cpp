@@ -250,19 +250,4 @@ Scene randomScene(unsigned seed) {
           draft.start};
 }
 
-std::string particleText(const Scene& scene) {
-  std::string text;
-  for (Eigen::Index i = 0; i < scene.start.size(); ++i) {
-    text +=
-        fmt::format("{} {} {}\n", scene.start.x()[i], scene.start.y()[i], scene.chain.masses()[i]);
-  }
-  return text;
-}
-
-std::string sceneOptions(const Scene& scene) {
-  const SpringLaw& spring = scene.chain.spring();
-  return fmt::format("--stiffness {} --damping {} --rest-length {} --gravity {}", spring.stiffness,
-                     spring.damping, spring.rest_length, scene.chain.gravity());
-}
-
 }  // namespace spring_pendulum::test

@@ -17,8 +17,4 @@ const std::vector<std::string>& sceneFamilies();
 /// 1e9 N/m.
 Scene randomScene(unsigned seed);
 
-/// The scene as a particle file, and the options of Exercise3 that complete it.
-std::string particleText(const Scene& scene);
-std::string sceneOptions(const Scene& scene);
-
 }  // namespace spring_pendulum::test
