@@ -33,16 +33,14 @@ Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index p
 
 ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
                                        const EngineOptions& options)
-    : FixedStepIntegrator(
-          chain, options.track_dissipation && chain.spring().damping != 0.0,
-          options.kernels != nullptr ? *options.kernels : fastestChainKernels(chain.size())),
+    : FixedStepIntegrator(chain, options.track_dissipation && chain.spring().damping != 0.0,
+                          options.kernels != nullptr ? *options.kernels : fastestChainKernels()),
       options_(options),
       stages_(tableau.stages),
-      track_dissipation_(dissipated() != nullptr),
+      track_dissipation_(energy_flow_.ofSprings() != nullptr),
       tableau_(tableau),
-      kernel_(findAdvanceKernel(
-          kernels(), tableau,
-          {chain.spring().damping != 0.0, chain.gravity() != 0.0, track_dissipation_})) {
+      kernel_(findAdvanceKernel(kernels_, tableau,
+                                {chain.spring().damping != 0.0, track_dissipation_})) {
   assert(kernel_ != nullptr);
   options_.block_size = usableBlockSize(options.block_size, stages_);
   const bool one_block = chain.size() <= options_.block_size;
@@ -64,14 +62,14 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau&
 void ExplicitRungeKutta::integrate(State& state, double time_step, std::int64_t steps) {
   requireAdvance(chain().size, state.size(), time_step, steps);
   if (steps == 0) return;  // kernels take at least one
-  held().begin(state, time_step);
+  held_.begin(state, time_step);
   for (std::size_t i = 0; i < stages_; ++i) {
-    const auto& row = i + 1 < stages_ ? tableau_.a[i + 1] : tableau_.b;
-    for (std::size_t j = 0; j <= i; ++j) weights_.after[i][j] = time_step * row[j];
+    weights_.next[i] = i + 1 < stages_ ? time_step * tableau_.a[i + 1][i] : 0.0;
+    weights_.sum[i] = time_step * tableau_.b[i];
     weights_.dissipation[i] = time_step * tableau_.b[i] * chain().spring.damping;
   }
   const auto stages = static_cast<std::int64_t>(stages_);
-  countEvaluations(steps * stages);
+  force_evaluations_ += steps * stages;
   if (largest_halo_ == 0) return stepWhole(state, steps);
   // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every tableau has at least one stage
   const std::int64_t at_once = largest_halo_ / stages;
@@ -88,7 +86,8 @@ void ExplicitRungeKutta::integrate(State& state, double time_step, std::int64_t 
 void ExplicitRungeKutta::stepWhole(State& state, std::int64_t steps) {
   Share& share = shares_.front();
   share.block.values() = state.values();
-  kernel_(chain(), weights_, steps, share.block.data(), dissipated(), share.workspace.data());
+  kernel_(chain(), weights_, steps, share.block.data(), energy_flow_.ofSprings(),
+          share.workspace.data());
   state.values() = share.block.values();
 }
 
@@ -137,11 +136,11 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
   }
   double* const in_block = share.dissipated.data();
   if (track_dissipation_)
-    std::copy_n(dissipated() + begin, end - begin, in_block + (begin - first));
-  const KernelChain piece = constants().piece(first, last, share.block.pitch());
+    std::copy_n(energy_flow_.ofSprings() + begin, end - begin, in_block + (begin - first));
+  const KernelChain piece = constants_.piece(first, last, share.block.pitch());
   kernel_(piece, weights_, pass_.steps, share.block.data(), in_block, share.workspace.data());
   if (track_dissipation_)
-    std::copy_n(in_block + (begin - first), end - begin, dissipated() + begin);
+    std::copy_n(in_block + (begin - first), end - begin, energy_flow_.ofSprings() + begin);
   const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
   state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);
 }

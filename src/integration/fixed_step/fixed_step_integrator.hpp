@@ -36,14 +36,7 @@ class FixedStepIntegrator : public Integrator {
         held_(chain),
         energy_flow_(chain, track_dissipation) {}
 
-  const KernelConstants& constants() const { return constants_; }
   const KernelChain& chain() const { return constants_.chain(); }
-  const ChainKernels& kernels() const { return kernels_; }
-
-  HeldMotion& held() { return held_; }
-  /// Column of the energies that the dashpots dissipate, J; null if not tracked.
-  double* dissipated() { return energy_flow_.ofSprings(); }
-  void countEvaluations(std::int64_t count) { force_evaluations_ += count; }
   /// Computes F of a state.
   void evaluate(const StateBuffer& state, StateBuffer& slope) {
     kernels_.stageSlope(chain(), state.data(), {}, slope.data());
@@ -54,8 +47,7 @@ class FixedStepIntegrator : public Integrator {
     energy_flow_.add(kernels_, chain(), state, time, time * chain().spring.damping);
   }
 
- private:
-  KernelConstants constants_;
+  const KernelConstants constants_;
   const ChainKernels& kernels_;
   HeldMotion held_;
   EnergyFlow energy_flow_;
@@ -74,22 +66,22 @@ class SteppedIntegrator : public FixedStepIntegrator {
   /// state velocities += weight * slope accelerations
   void kick(StateBuffer& state, double weight, const StateBuffer& slope) const {
     const Eigen::Index velocities = 2 * state.pitch();
-    kernels().addWeighted(velocities, weight, slope.data() + velocities, state.data() + velocities);
+    kernels_.addWeighted(velocities, weight, slope.data() + velocities, state.data() + velocities);
   }
   /// positions += weight * velocities
   void drift(StateBuffer& state, double weight) const {
     const Eigen::Index positions = 2 * state.pitch();
-    kernels().addWeighted(positions, weight, state.data() + positions, state.data());
+    kernels_.addWeighted(positions, weight, state.data() + positions, state.data());
   }
 
  private:
   void integrate(State& state, double time_step, std::int64_t steps) final {
     requireAdvance(chain().size, state.size(), time_step, steps);
-    held().begin(state, time_step);
+    held_.begin(state, time_step);
     current_.values() = state.values();
     for (std::int64_t n = 0; n < steps; ++n) {
       step(time_step);
-      held().place(current_.values(), 1);
+      held_.place(current_.values(), 1);
     }
     state.values() = current_.values();
   }

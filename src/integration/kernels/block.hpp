@@ -76,14 +76,6 @@ template <typename Number>
           leftNeighbours(left.vx, here.vx), leftNeighbours(left.vy, here.vy)};
 }
 
-/// Returns the same from memory, where the block lies at `here`.
-template <typename Number>
-[[gnu::always_inline]] inline Block leftNeighbours(BlockPlace<Number> here) {
-  const Number* const first = here.first - 1;
-  return {Pack::loadUnaligned(first), Pack::loadUnaligned(first + here.pitch),
-          Pack::loadUnaligned(first + 2 * here.pitch), Pack::loadUnaligned(first + 3 * here.pitch)};
-}
-
 /// Returns the separations of the particles of a block from their left neighbours.
 [[gnu::always_inline]] inline PlaneVector<Pack> separationsOf(const Block& left,
                                                               const Block& here) {
@@ -130,20 +122,16 @@ template <bool kDamped>
 /// \param forces, next_forces forces of the springs to the left of each particle, in this block and
 ///   in the block to the right
 /// \tparam kInner whether the block is not the last, so that it contains no padding
-template <bool kGravity, bool kInner = false>
+template <bool kInner = false>
 [[gnu::always_inline]] inline Block slopeOf(const KernelChain& chain, const Block& here,
                                             const PlaneVector<Pack>& forces,
                                             const PlaneVector<Pack>& next_forces,
                                             std::ptrdiff_t block) {
-  const Pack inverse_mass = Pack::load(chain.inverse_masses + chain.mass_stride * (block * kLanes));
+  const Pack inverse_mass = Pack::load(chain.inverse_masses + block * kLanes);
   const PlaneVector<Pack> force{rightNeighbours(forces.x, next_forces.x) - forces.x,
                                 rightNeighbours(forces.y, next_forces.y) - forces.y};
-  Block slope{here.vx, here.vy, force.x * inverse_mass, {}};
-  if constexpr (kGravity) {
-    slope.vy = fused(force.y, inverse_mass, -chain.gravity);
-  } else {
-    slope.vy = force.y * inverse_mass;
-  }
+  Block slope{here.vx, here.vy, force.x * inverse_mass,
+              fused(force.y, inverse_mass, -chain.gravity)};
   const std::ptrdiff_t particles = chain.size - 1 - block * kLanes;
   if (!kInner && particles < kLanes) {
     slope = {only(slope.x, particles), only(slope.y, particles), only(slope.vx, particles),

@@ -1,7 +1,5 @@
 #include "integration/kernels/chain_kernels.hpp"
 
-#include "integration/kernels/fast_tableaus.hpp"
-#include "integration/kernels/instruction_sets/instruction_sets.hpp"
 #include "integration/kernels/kernel_constants.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
@@ -67,27 +65,13 @@ AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTablea
   return nullptr;
 }
 
-// A short chain waits for its square roots and divisions, which take longer for 8 lanes than for 4.
-// Measured: AVX-512 is faster from 13 particles on.
-const ChainKernels& fastestChainKernels(std::ptrdiff_t particles) {
-  const auto& supported = supportedChainKernels();
-  const bool prefers_shorter = particles <= 12 && supported.front()->name == "avx512";
-  return prefers_shorter ? *supported[1] : *supported.front();
-}
-
 KernelConstants::KernelConstants(const Chain& chain) {
-  const bool equal = chain.equalMasses() && chain.size() > 1;
   chain_.spring = chain.spring();
   chain_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
-  chain_.mass_stride = equal ? 0 : 1;
   chain_.size = chain.size();
   chain_.pitch = StateBuffer::pitchFor(chain.size());
-  if (equal) {
-    inverse_masses_ = AlignedNumbers(Eigen::VectorXd::Constant(8, chain.inverseMasses()[1]));
-  } else {
-    inverse_masses_ = AlignedNumbers(chain_.pitch);
-    std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, inverse_masses_.data());
-  }
+  inverse_masses_ = AlignedNumbers(chain_.pitch);
+  std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, inverse_masses_.data());
   chain_.inverse_masses = inverse_masses_.data();
   if (chain.isDriven()) {
     drive_ = AlignedNumbers(2 * chain_.pitch);
@@ -110,7 +94,7 @@ KernelConstants::KernelConstants(const Chain& chain) {
 KernelChain KernelConstants::piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const {
   assert(begin % 8 == 0 && 0 <= begin && begin < end && end <= chain_.size);
   KernelChain piece = chain_;
-  piece.inverse_masses += begin * piece.mass_stride;
+  piece.inverse_masses += begin;
   piece.size = end - begin;
   piece.pitch = pitch;
   return piece;

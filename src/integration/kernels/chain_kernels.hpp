@@ -20,8 +20,13 @@
 
 namespace spring_pendulum {
 
-struct TaylorWeights;    // taylor_workspace.hpp
-struct TaylorWorkspace;  // taylor_workspace.hpp
+/// The tableaus for which kernels for whole steps are compiled. Each stage may use the last slope only.
+/// Any other tableau runs stage by stage, more slowly but with the same bits.
+inline constexpr const ButcherTableau* kFastTableaus[] = {
+    &kEulerTableau,
+    &kMidpointTableau,
+    &kClassicalRungeKuttaTableau,
+};
 
 /// Element of the first moving particle in a column of `StateBuffer`. The first particle precedes it,
 /// so aligned vectors contain moving particles only: N - 1 particles and N - 1 springs.
@@ -37,11 +42,9 @@ struct KernelChain {
   const double* drive = nullptr;
   double anchor[2] = {};  ///< acceleration of the first particle of a driven chain, m/s²
   const double* drag_rates = nullptr;  ///< k_air/m of the moving particles, 1/s; null without air
-  /// Of the N - 1 moving particles, 1/kg, or 8 equal numbers if `mass_stride` is 0
-  const double* inverse_masses = nullptr;
-  std::ptrdiff_t mass_stride = 1;  ///< 1, or 0 if all moving particles have the same mass
-  std::ptrdiff_t size = 0;         ///< N >= 1; the first particle is held
-  std::ptrdiff_t pitch = 0;        ///< length of a column, see `StateBuffer::pitchFor`
+  const double* inverse_masses = nullptr;  ///< of the N - 1 moving particles, 1/kg; then zeros
+  std::ptrdiff_t size = 0;                 ///< N >= 1; the first particle is held
+  std::ptrdiff_t pitch = 0;                ///< length of a column, see `StateBuffer::pitchFor`
 };
 
 /// The term w k of a sum: weight (step size times a coefficient) and slope (N×4).
@@ -56,11 +59,12 @@ struct SlopeSum {
   std::ptrdiff_t count = 0;
 };
 
-/// The coefficients of a tableau times the step size. `after[i][j]` is the weight of slope j in the
-/// state after stage i: the state of stage i+1, or the end of the step.
+/// The coefficients of a tableau times the step size h, for each stage i.
 struct StepWeights {
-  double after[ButcherTableau::kMaxStages][ButcherTableau::kMaxStages] = {};
-  double dissipation[ButcherTableau::kMaxStages] = {};  ///< h b_i k_d, kg
+  static constexpr std::size_t kMostStages = 4;
+  double next[kMostStages] = {};         ///< h a_{i+1,i}, s: the last slope in the next stage
+  double sum[kMostStages] = {};          ///< h b_i, s
+  double dissipation[kMostStages] = {};  ///< h b_i k_d, kg
 };
 
 /// Moving particles of the shortest tile of `StagePipeline`. The longest is nearly twice as long.
@@ -72,16 +76,14 @@ constexpr std::ptrdiff_t tilePitch(std::size_t stages) {
   return 8 + 2 * kTileParticles + 8 * static_cast<std::ptrdiff_t>(stages);
 }
 
-/// Doubles of workspace for whole steps: springs, states, sums and slopes of a tile, then forces.
+/// Doubles of workspace for whole steps: lengths, states and sums of a tile, then forces.
 constexpr std::ptrdiff_t stepWorkspaceSize(std::size_t stages) {
-  const auto count = static_cast<std::ptrdiff_t>(stages);
-  return (12 + 4 * count) * tilePitch(stages) + 2 * 8 * count;
+  return 9 * tilePitch(stages) + 2 * 8 * static_cast<std::ptrdiff_t>(stages);
 }
 
 /// Terms that a kernel for whole steps computes. A term that is 0 may be left out for speed.
 struct StepNeeds {
   bool damping = true;
-  bool gravity = true;
   bool dissipation = false;  ///< sum the dissipated energy; requires damping
 };
 
@@ -111,6 +113,42 @@ enum class SpringChange {
 /// order K; NaN if an element is not finite.
 struct LastCoefficients {
   double size[4];
+};
+
+inline constexpr std::ptrdiff_t kLargestTaylorOrder = 14;
+
+/// Taylor coefficients of a chain's motion about one state; taylor_stepper.hpp derives the method. Spring i joins particles i and i+1. The
+/// columns are padded to `pitch`; the padding holds springs that exert no force.
+struct TaylorWorkspace {
+  KernelChain chain;
+  /// Inverse masses of the left neighbours of the moving particles, 1/kg; 0 if fixed or padding
+  const double* left_inverse_masses = nullptr;
+  std::ptrdiff_t order = 0;  ///< K in 2..14, number of force coefficients
+
+  /// Groups of 8 springs, each with `kSpringRows` rows of 4 × 8 doubles. Row n <= 14 holds
+  /// coefficient n of the separation (x, y), the length L and the quotient u = T/L. Row 15 holds
+  /// the direction d_0/L_0 (x, y) and 1/L_0. Row 16 holds partial sums of the next odd order.
+  double* springs = nullptr;
+  /// K × 2 columns: coefficient n of the accelerations (x, y).
+  double* accelerations = nullptr;
+
+  /// Not 16: groups of 16 rows of 256 bytes would be 4 KiB apart, and loads would wait for stores to
+  /// the same row of another group (4K aliasing). The series of 101 particles took 10 % longer.
+  static constexpr std::ptrdiff_t kSpringRows = kLargestTaylorOrder + 3;
+  static std::ptrdiff_t springNumbers(std::ptrdiff_t pitch) { return pitch * 4 * kSpringRows; }
+  static std::ptrdiff_t accelerationNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
+    return pitch * 2 * order;
+  }
+};
+
+/// Weights of the acceleration coefficients 0..count-1 in the position and velocity sums, and of
+/// the initial velocities in the position sum. Weights from `count` on are undefined; otherwise they
+/// would be set to 0 in every step.
+struct TaylorWeights {
+  std::ptrdiff_t count = 0;
+  double start_velocity = 0.0;           ///< s
+  double position[kLargestTaylorOrder];  ///< s^(n+2)
+  double velocity[kLargestTaylorOrder];  ///< s^(n+1)
 };
 
 /// The kernels of one instruction set. Outputs must not overlap inputs.
@@ -161,6 +199,12 @@ struct ChainKernels {
   LastCoefficients (*lastCoefficients)(const TaylorWorkspace& work);
 };
 
+/// Every file in the folder `instruction_sets` that is named after an instruction set is compiled for
+/// it. None of its code may run on a processor without that instruction set.
+extern const ChainKernels kBaselineKernels;
+extern const ChainKernels kAvx2Kernels;
+extern const ChainKernels kAvx512Kernels;
+
 /// Returns the kernels of every instruction set of this processor, the fastest first. The last is
 /// the baseline, which all processors of the architecture have. If the environment variable
 /// SPRING_PENDULUM_INSTRUCTION_SET names an instruction set, faster ones are left out.
@@ -176,7 +220,8 @@ std::vector<const ChainKernels*> chainKernelsUpTo(std::string_view name);
 AdvanceKernel findAdvanceKernel(const ChainKernels& kernels, const ButcherTableau& tableau,
                                 StepNeeds needs = {});
 
-/// Returns the fastest supported kernels for a number of particles; by default, for long chains.
-const ChainKernels& fastestChainKernels(std::ptrdiff_t particles = 1000);
+inline const ChainKernels& fastestChainKernels() {
+  return *supportedChainKernels().front();
+}
 
 }  // namespace spring_pendulum

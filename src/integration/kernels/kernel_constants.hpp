@@ -10,7 +10,6 @@ namespace spring_pendulum {
 /// Owns the memory to which a `KernelChain` points.
 class KernelConstants {
  public:
-  /// Stores equal masses once instead of for every particle.
   explicit KernelConstants(const Chain& chain);
 
   /// Returns the particles begin <= i < end as a chain of its own, with columns `pitch` apart.

@@ -5,7 +5,6 @@
 #include "integration/kernels/block.hpp"
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/instruction_sets/pack.hpp"
-#include "integration/kernels/taylor_workspace.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -58,10 +57,9 @@ class Largest {
   return plusSum(load(placeOf(state, pitch, block)), sum, pitch, block);
 }
 
-/// to += from, for a number of blocks
-inline void addTo(std::ptrdiff_t blocks, const double* from, double* to) {
-  for (std::ptrdiff_t first = 0; first < blocks * kLanes; first += kLanes) {
-    (Pack::load(to + first) + Pack::load(from + first)).store(to + first);
+void addWeighted(std::ptrdiff_t count, double weight, const double* from, double* to) {
+  for (std::ptrdiff_t first = 0; first < count; first += kLanes) {
+    fused(weight, Pack::load(from + first), Pack::load(to + first)).store(to + first);
   }
 }
 
@@ -88,8 +86,7 @@ void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum 
   for (std::ptrdiff_t block = blocks - 1; block >= 0; --block) {
     const Block left = combinedBlock(chain.pitch, state, sum, block - 1);
     const PlaneVector<Pack> forces = springForces<kDamped>(chain, left, here, block);
-    store(slopeOf<true>(chain, here, forces, next_forces, block),
-          placeOf(slope, chain.pitch, block));
+    store(slopeOf(chain, here, forces, next_forces, block), placeOf(slope, chain.pitch, block));
     next_forces = forces;
     here = left;
   }
@@ -105,8 +102,8 @@ void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, dou
     store({before.vx, before.vy, {}, {}}, placeOf(slope, chain.pitch, -1));
     for (int column = 0; column < 2; ++column) {
       accelerations[column * chain.pitch - 1] = chain.anchor[column];
-      addTo(blocksOf(chain.size), chain.drive + column * chain.pitch,
-            accelerations + column * chain.pitch);
+      addWeighted(blocksOf(chain.size) * kLanes, 1.0, chain.drive + column * chain.pitch,
+                  accelerations + column * chain.pitch);
     }
   }
   if (chain.drag_rates != nullptr) addDrag(chain, slope + kFirstMoving, accelerations);
@@ -127,12 +124,6 @@ void addDissipation(const KernelChain& callers_chain, const double* state, doubl
     const Block here = load(placeOf(state, chain.pitch, block));
     const Pack rate = elongationRate(separationsOf(left, here), relativeVelocitiesOf(left, here));
     addDissipation(weight, rate, dissipated + block * kLanes);
-  }
-}
-
-void addWeighted(std::ptrdiff_t count, double weight, const double* from, double* to) {
-  for (std::ptrdiff_t first = 0; first < count; first += kLanes) {
-    fused(weight, Pack::load(from + first), Pack::load(to + first)).store(to + first);
   }
 }
 
@@ -167,19 +158,6 @@ LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum 
   return largestOf(size, [&](std::ptrdiff_t block) { return plusSum({}, sum, pitch, block); });
 }
 
-/// Returns the differences of two columns, such as x and y, of the particles of a block from their
-/// left neighbours.
-[[gnu::always_inline]] inline PlaneVector<Pack> differences(const double* state,
-                                                            std::ptrdiff_t pitch,
-                                                            std::ptrdiff_t block) {
-  const auto difference = [](const double* column) {
-    const Pack here = Pack::load(column);
-    return here - leftNeighbours(Pack::load(column - kLanes), here);
-  };
-  const double* first = placeOf(state, pitch, block).first;
-  return {difference(first), difference(first + pitch)};
-}
-
 SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, const double* from,
                           const double* to) {
   // Lanes are all ones where the condition holds, also for NaN; else 0.
@@ -187,16 +165,18 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
   Pack::Bits much{};
   Pack::Bits unclear{};
   for (std::ptrdiff_t block = 0; block < blocksOf(size); ++block) {
-    const PlaneVector<Pack> before = differences(from, pitch, block);
-    const PlaneVector<Pack> after = differences(to, pitch, block);
-    const PlaneVector<Pack> rate_before = differences(from + 2 * pitch, pitch, block);
-    const PlaneVector<Pack> rate_after = differences(to + 2 * pitch, pitch, block);
+    const auto springs_of = [pitch, block](const double* state) {
+      const Block here = load(placeOf(state, pitch, block));
+      return here - leftNeighbours(load(placeOf(state, pitch, block - 1)), here);
+    };
+    const Block before = springs_of(from);
+    const Block after = springs_of(to);
     const auto along = [&](const PlaneVector<Pack>& a) {
       return fused(before.x, a.x, before.y * a.y);
     };
     const PlaneVector<Pack> change{after.x - before.x, after.y - before.y};
     const Pack at_end = along(change);
-    const Pack slowing = along({rate_before.x - rate_after.x, rate_before.y - rate_after.y});
+    const Pack slowing = along({before.vx - after.vx, before.vy - after.vy});
     // The cubic through positions and velocities of both ends estimates the change until the middle.
     const Pack in_middle = fused(0.125 * h, slowing, 0.5 * at_end);
     const Pack square = before.x * before.x + before.y * before.y;

@@ -8,12 +8,14 @@
 // left, and its particles the springs to the right. Short chains are kept in registers where these
 // suffice.
 //
-// The loop is software pipelined. Each iteration does the three phases of a stage for three blocks,
-// so that none of them waits for the divider:
+// The loop is software pipelined. Each iteration does the two phases of a stage for two blocks, so that
+// neither waits for the divider:
 //
-//     begin    block b            separations and lengths of the springs
-//     invert   block b + 2        inverse lengths: the division alone
+//     begin    block b            lengths of the springs
 //     finish   block b + 5        forces, slope, state of the next stage
+//
+// Only the lengths wait in memory. The last phase computes the separations again, which takes less time
+// than to store and load them.
 //
 // References: G. Wellein and others, COMPSAC 2009, 579-586, doi:10.1109/COMPSAC.2009.82
 // (wavefronts); M. Lam, PLDI 1988, 318-328, doi:10.1145/53990.54022 (software pipelining).
@@ -29,24 +31,19 @@
 namespace spring_pendulum {
 namespace {
 
-/// The part of `StepWeights` that a tableau uses. Copying all of it would take a quarter of the time
-/// of a step of three particles.
-template <const ButcherTableau& kTableau>
-struct WeightsOf {
-  explicit WeightsOf(const StepWeights& all) {
-    for (std::size_t i = 0; i < kTableau.stages; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) after[i][j] = all.after[i][j];
-      dissipation[i] = all.dissipation[i];
+/// Whether each stage uses the slope of the stage before it alone, so that no slope need be kept.
+constexpr bool usesLastSlopesOnly(const ButcherTableau& tableau) {
+  for (std::size_t i = 2; i < tableau.stages; ++i) {
+    for (std::size_t j = 0; j + 1 < i; ++j) {
+      if (tableau.a[i][j] != 0.0) return false;
     }
   }
-
-  double after[kTableau.stages][kTableau.stages];
-  double dissipation[kTableau.stages];
-};
+  return true;
+}
 
 /// The tableau is a template parameter, so the compiler knows which coefficients are zero. The
 /// weights, which contain the step size, are known only at run time.
-template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kDissipation>
+template <const ButcherTableau& kTableau, bool kDamped, bool kDissipation>
 class StagePipeline {
  public:
   StagePipeline(const KernelChain& chain, const StepWeights& weights, double* state,
@@ -58,53 +55,31 @@ class StagePipeline {
         workspace_(workspace),
         blocks_(blocksOf(chain.size)) {}
 
-  /// Whether a chain has so few blocks that its code is unrolled.
-  static bool isShort(const KernelChain& chain) { return blocksOf(chain.size) <= kShortBlocks; }
-
-  void advanceShort(std::ptrdiff_t steps) {
-    shortSteps(steps, std::make_index_sequence<kShortBlocks>());
-  }
-
   // Inlined, so that the compiler keeps constants in registers instead of reading them again after
   // every store.
   [[gnu::always_inline]] void advance(std::ptrdiff_t steps) {
-    constexpr auto kAll = std::make_index_sequence<kTableau.stages>();
-    if (kLanes < 8 && blocks_ >= kUnalignedBlocks) return longSteps<true>(steps, kAll);
-    longSteps<false>(steps, kAll);
+    if (blocks_ <= kShortBlocks) return shortSteps(steps, std::make_index_sequence<kShortBlocks>());
+    longSteps(steps, std::make_index_sequence<kTableau.stages>());
   }
 
  private:
   static constexpr std::ptrdiff_t kShortBlocks = 5;  ///< unrolled up to there
   static constexpr auto kStages = static_cast<std::ptrdiff_t>(kTableau.stages);
   static constexpr std::ptrdiff_t kTile = kTileParticles / kLanes;  ///< blocks of the shortest tile
-  static constexpr std::ptrdiff_t kLead = 5;        ///< blocks from the first to the last phase
-  static constexpr std::ptrdiff_t kInvertLead = 2;  ///< blocks from the first to the middle phase
+  static constexpr std::ptrdiff_t kLead = 5;  ///< blocks from the first to the last phase
   static_assert(kShortBlocks >= kLead, "a stage begins after the blocks that it needs");
   static_assert(kTile >= 2 * kLead, "the next tile begins clear of the blocks that wait");
-  /// AVX-512 gains nothing from a division apart, and loses by loads across cache lines.
-  static constexpr bool kInvertsApart = kLanes < 8;
-  /// Blocks from which on a load across two blocks does not wait for the stores of both.
-  static constexpr std::ptrdiff_t kUnalignedBlocks = 12;
+  static_assert(kTableau.stages <= StepWeights::kMostStages && usesLastSlopesOnly(kTableau));
 
-  /// Whether a stage later than j + 1 needs slope j.
-  static constexpr bool keepsSlope(std::ptrdiff_t j) {
-    const auto slope = static_cast<std::size_t>(j);
-    for (std::size_t i = slope + 2; i < kTableau.stages; ++i) {
-      if (kTableau.a[i][slope] != 0.0) return true;
-    }
-    return false;
-  }
-  static constexpr bool keepsSlopes() {
-    for (std::ptrdiff_t j = 0; j < kStages; ++j) {
-      if (keepsSlope(j)) return true;
-    }
-    return false;
-  }
-
-  /// Results of the first phase of a stage.
   struct Springs {
     PlaneVector<Pack> separation;
     Pack inverse_length, dot;
+  };
+
+  /// What the last phase of a block keeps for the block to its left.
+  struct Finished {
+    Block left;                  ///< state of the block to the left
+    PlaneVector<Pack> forces{};  ///< of the springs of the block
   };
 
   /// The blocks begin <= b < end of a tile or of a stage in it.
@@ -113,24 +88,25 @@ class StagePipeline {
     double* workspace;  ///< where the first column would have block 0
   };
 
-  /// \tparam kUnaligned whether left neighbours are loaded from memory; else they are shuffled
-  template <bool kUnaligned, std::size_t... kStage>
+  template <std::size_t... kStage>
   [[gnu::always_inline]] void longSteps(std::ptrdiff_t steps,
                                         std::index_sequence<kStage...> /*stages*/) {
     const Block fixed = load(placeOf<const double>(state_, chain_.pitch, -1));
     const std::ptrdiff_t tiles = blocks_ < kTile ? 1 : blocks_ / kTile;
     Span waiting{};
-    PlaneVector<Pack> next_forces{};
+    Finished last{};
     for (std::ptrdiff_t n = 0; n < steps; ++n) {
       for (std::ptrdiff_t i = tiles - 1; i >= 0; --i) {
         const Span tile{i * kTile, i + 1 == tiles ? blocks_ : (i + 1) * kTile,
                         workspace_ + (8 - i * kTile * kLanes)};
         if (tile.end < blocks_) keepBorder(waiting.workspace, tile);
         if (i == 0) store(fixed, placeIn(tile.workspace, kAt, -1));
-        (stageOf<kUnaligned, kStage>(tile, waiting, next_forces), ...);
+        (stageOf<kStage>(tile, waiting, last), ...);
       }
     }
-    for (std::ptrdiff_t i = 0; i < kLead; ++i) finishWaiting<kStages - 1>(waiting, i, next_forces);
+    for (std::ptrdiff_t block = kLead - 1; block >= 0; --block) {
+      finish<kStages - 1, true>(waiting.workspace, block, last);
+    }
   }
 
   /// Keeps the blocks of the tile to the right that lack later stages.
@@ -144,40 +120,32 @@ class StagePipeline {
   }
 
   /// A stage of a tile. It also finishes the last `kLead` blocks of the stage before; its own wait.
-  template <bool kUnaligned, std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void stageOf(const Span& tile, Span& waiting,
-                                      PlaneVector<Pack>& next_forces) {
+  template <std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void stageOf(const Span& tile, Span& waiting, Finished& last) {
     constexpr std::ptrdiff_t kPrevious = (kStage + kStages - 1) % kStages;
     double* const workspace = tile.workspace;
     const bool rightmost = tile.end == blocks_;
     const Span span{tile.begin == 0 ? 0 : tile.begin + kStage,
                     rightmost ? blocks_ : tile.end + kStage, workspace};
     std::ptrdiff_t block = span.end - 1;
-    Block here = load(stateOf<kStage>(workspace, block));
+    const Block rightmost_block = load(stateOf<kStage>(workspace, block));
+    PlaneVector<Pack> here{rightmost_block.x, rightmost_block.y};
     for (std::ptrdiff_t i = 0; i < kLead; ++i, --block) {
-      if (waiting.workspace != nullptr) finishWaiting<kPrevious>(waiting, i, next_forces);
-      if (i >= kInvertLead) invert(workspace, block + kInvertLead);
-      begin<kUnaligned, kStage>(workspace, block, here);
+      if (waiting.workspace != nullptr) {
+        finish<kPrevious, true>(waiting.workspace, waiting.begin + kLead - 1 - i, last);
+      }
+      begin<kStage>(workspace, block, here);
     }
     waiting = span;
-    store(next_forces, forcesOf(kPrevious));
-    next_forces = rightmost ? PlaneVector<Pack>{} : load(forcesOf(kStage));
-    finish<kStage, false>(workspace, span.end - 1, next_forces);
-    invert(workspace, block + kInvertLead);
-    begin<kUnaligned, kStage>(workspace, block, here);
+    store(last.forces, forcesOf(kPrevious));
+    last = {load(stateOf<kStage>(workspace, span.end - 1)),
+            rightmost ? PlaneVector<Pack>{} : load(forcesOf(kStage))};
+    finish<kStage, false>(workspace, span.end - 1, last);
+    begin<kStage>(workspace, block, here);
     for (--block; block >= span.begin; --block) {
-      finish<kStage, true>(workspace, block + kLead, next_forces);
-      invert(workspace, block + kInvertLead);
-      begin<kUnaligned, kStage>(workspace, block, here);
+      finish<kStage, true>(workspace, block + kLead, last);
+      begin<kStage>(workspace, block, here);
     }
-  }
-
-  /// Finishes the i-th block that waits.
-  template <std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void finishWaiting(const Span& waiting, std::ptrdiff_t i,
-                                            PlaneVector<Pack>& next_forces) {
-    finish<kStage, true>(waiting.workspace, waiting.begin + kLead - 1 - i, next_forces);
-    if (i < kInvertLead) invert(waiting.workspace, waiting.begin + kInvertLead - 1 - i);
   }
 
   /// A block of a short chain, which the compiler keeps in registers where these suffice.
@@ -185,7 +153,6 @@ class StagePipeline {
     Block state, sum, at, slope;
     Springs springs;
     PlaneVector<Pack> forces;
-    Block slopes[keepsSlopes() ? kStages : 1];
   };
 
   /// Calls `shortStepsOf` for the number of blocks of the chain.
@@ -214,6 +181,16 @@ class StagePipeline {
     (shortStage<kStage>(chain, blocks), ...);
   }
 
+  [[gnu::always_inline]] static Springs springsBetween(const Block& left, const Block& here) {
+    Springs springs{};
+    springs.separation = separationsOf(left, here);
+    springs.inverse_length = inverseSquareRoot(squaredLength(springs.separation));
+    if constexpr (kDamped) {
+      springs.dot = dotProduct(relativeVelocitiesOf(left, here), springs.separation);
+    }
+    return springs;
+  }
+
   template <std::size_t kStage, std::size_t... kBlock>
   [[gnu::always_inline]] void shortStage(ShortBlock* chain, std::index_sequence<kBlock...>) {
     constexpr std::size_t kLast = sizeof...(kBlock) - 1;
@@ -223,103 +200,75 @@ class StagePipeline {
      ...);
     ((chain[kBlock].forces = forcesFrom<kStage, (kBlock < kLast)>(chain[kBlock].springs, kBlock)),
      ...);
-    ((chain[kBlock].slope = slopeOf<kGravity, (kBlock < kLast)>(
+    ((chain[kBlock].slope = slopeOf<(kBlock < kLast)>(
           chain_, chain[kBlock].at, chain[kBlock].forces,
           kBlock < kLast ? chain[kBlock < kLast ? kBlock + 1 : kLast].forces : PlaneVector<Pack>{},
           kBlock)),
      ...);
-    (shortResult<kStage>(chain[kBlock], std::make_index_sequence<kStage>()), ...);
-  }
-
-  template <std::size_t kStage, std::size_t... kEarlier>
-  [[gnu::always_inline]] void shortResult(ShortBlock& block, std::index_sequence<kEarlier...>) {
-    if constexpr (kTableau.b[kStage] != 0.0) {
-      block.sum = plusWeighted(block.sum, weights_.after[kStages - 1][kStage], block.slope);
-    }
-    if constexpr (kStage + 1 < kStages) {
-      block.at = block.state;
-      (addEarlierSlope<kStage, kEarlier>(block), ...);
-      if constexpr (kTableau.a[kStage + 1][kStage] != 0.0) {
-        block.at = plusWeighted(block.at, weights_.after[kStage][kStage], block.slope);
-      }
-      if constexpr (keepsSlope(kStage)) block.slopes[kStage] = block.slope;
-    }
-  }
-
-  template <std::size_t kStage, std::size_t kEarlier>
-  [[gnu::always_inline]] void addEarlierSlope(ShortBlock& block) {
-    if constexpr (kTableau.a[kStage + 1][kEarlier] != 0.0) {
-      block.at = plusWeighted(block.at, weights_.after[kStage][kEarlier], block.slopes[kEarlier]);
-    }
+    ((chain[kBlock].sum = sumAfter<kStage>(chain[kBlock].sum, chain[kBlock].slope)), ...);
+    ((chain[kBlock].at = nextStage<kStage>(chain[kBlock].state, chain[kBlock].slope)), ...);
   }
 
   /// First phase of a stage.
-  /// \param here state of the block; becomes that of the block to the left
-  template <bool kUnaligned, std::ptrdiff_t kStage>
-  [[gnu::always_inline]] void begin(double* workspace, std::ptrdiff_t block, Block& here) {
+  template <std::ptrdiff_t kStage>
+  [[gnu::always_inline]] void begin(double* workspace, std::ptrdiff_t block,
+                                    PlaneVector<Pack>& here) {
     const BlockPlace<double> at = stateOf<kStage>(workspace, block);
-    if (kUnaligned) here = load(at);
-    const Block next = load(BlockPlace<double>{at.first - kLanes, at.pitch});
-    const Block left = kUnaligned ? leftNeighbours(at) : leftNeighbours(next, here);
-    const PlaneVector<Pack> separation{here.x - left.x, here.y - left.y};
-    const Pack square = squaredLength(separation);
-    const BlockPlace<double> to = placeIn(workspace, kSprings, block);
-    separation.x.store(to.first);
-    separation.y.store(to.first + to.pitch);
-    (kInvertsApart ? squareRoot(square) : inverseSquareRoot(square)).store(to.first + 2 * to.pitch);
-    if constexpr (kDamped) {
-      const PlaneVector<Pack> relative_velocity{here.vx - left.vx, here.vy - left.vy};
-      dotProduct(relative_velocity, separation).store(to.first + 3 * to.pitch);
-    }
-    here = next;
-  }
-
-  /// Middle phase.
-  [[gnu::always_inline]] static void invert(double* workspace, std::ptrdiff_t block) {
-    if (!kInvertsApart) return;
-    const BlockPlace<double> springs = placeIn(workspace, kSprings, block);
-    double* const length = springs.first + 2 * springs.pitch;
-    inverseOrZero(Pack::load(length)).store(length);
-  }
-
-  [[gnu::always_inline]] static Springs springsBetween(const Block& left, const Block& here) {
-    Springs springs{};
-    springs.separation = separationsOf(left, here);
-    springs.inverse_length = inverseSquareRoot(squaredLength(springs.separation));
-    if constexpr (kDamped)
-      springs.dot = dotProduct(relativeVelocitiesOf(left, here), springs.separation);
-    return springs;
+    const PlaneVector<Pack> left{Pack::load(at.first - kLanes),
+                                 Pack::load(at.first + at.pitch - kLanes)};
+    const PlaneVector<Pack> separation{here.x - leftNeighbours(left.x, here.x),
+                                       here.y - leftNeighbours(left.y, here.y)};
+    inverseSquareRoot(squaredLength(separation)).store(placeIn(workspace, kLengths, block).first);
+    here = left;
   }
 
   /// Last phase: forces, slope, and the state of the next stage or the end of the step.
   /// \tparam kInner whether there is a block to the right
   template <std::ptrdiff_t kStage, bool kInner>
-  [[gnu::always_inline]] void finish(double* workspace, std::ptrdiff_t block,
-                                     PlaneVector<Pack>& next_forces) {
-    const Block from = load(placeIn(workspace, kSprings, block));
-    const PlaneVector<Pack> forces =
-        forcesFrom<kStage, kInner>({{from.x, from.y}, from.vx, from.vy}, block);
-    const Block here = load(stateOf<kStage>(workspace, block));
-    const Block slope = slopeOf<kGravity, kInner>(chain_, here, forces, next_forces, block);
-    next_forces = forces;
+  [[gnu::always_inline]] void finish(double* workspace, std::ptrdiff_t block, Finished& last) {
+    const BlockPlace<double> at = stateOf<kStage>(workspace, block);
+    Block here, left;
+    if constexpr (kLanes < 8) {  // too few registers to keep a block for the next call
+      here = load(at);
+      left = {Pack::loadUnaligned(at.first - 1), Pack::loadUnaligned(at.first + at.pitch - 1),
+              Pack::loadUnaligned(at.first + 2 * at.pitch - 1),
+              Pack::loadUnaligned(at.first + 3 * at.pitch - 1)};
+    } else {  // an unaligned load would always cross a cache line
+      here = last.left;
+      last.left = load(BlockPlace<double>{at.first - kLanes, at.pitch});
+      left = leftNeighbours(last.left, here);
+    }
+    Springs springs{};
+    springs.separation = {here.x - left.x, here.y - left.y};
+    springs.inverse_length = Pack::load(placeIn(workspace, kLengths, block).first);
+    const PlaneVector<Pack> relative_velocity{here.vx - left.vx, here.vy - left.vy};
+    if constexpr (kDamped) springs.dot = dotProduct(relative_velocity, springs.separation);
+    const PlaneVector<Pack> forces = forcesFrom<kStage, kInner>(springs, block);
+    const Block slope = slopeOf<kInner>(chain_, here, forces, last.forces, block);
+    last.forces = forces;
     const BlockPlace<double> place = placeOf(state_, chain_.pitch, block);
     const Block start = load(place);
-    Block sum = kStage == 0 ? start : load(placeIn(workspace, kSum, block));
-    if constexpr (kTableau.b[kStage] != 0.0) {
-      sum = plusWeighted(sum, weights_.after[kStages - 1][kStage], slope);
-    }
+    const Block sum =
+        sumAfter<kStage>(kStage == 0 ? start : load(placeIn(workspace, kSum, block)), slope);
     if constexpr (kStage + 1 == kStages) {
       store(sum, place);
     } else {
       store(sum, placeIn(workspace, kSum, block));
-      Block result =
-          plusEarlierSlopes<kStage>(start, workspace, block, std::make_index_sequence<kStage>());
-      if constexpr (kTableau.a[kStage + 1][kStage] != 0.0) {
-        result = plusWeighted(result, weights_.after[kStage][kStage], slope);
-      }
-      store(result, placeIn(workspace, kAt, block));
-      if constexpr (keepsSlope(kStage)) store(slope, slopePlace(workspace, kStage, block));
+      store(nextStage<kStage>(start, slope), placeIn(workspace, kAt, block));
     }
+  }
+
+  /// Adds the slope of a stage to the sum that becomes the end of the step.
+  template <std::size_t kStage>
+  [[gnu::always_inline]] Block sumAfter(const Block& sum, const Block& slope) const {
+    return kTableau.b[kStage] == 0.0 ? sum : plusWeighted(sum, weights_.sum[kStage], slope);
+  }
+
+  /// Returns the state of the stage after kStage; undefined after the last one.
+  template <std::size_t kStage>
+  [[gnu::always_inline]] Block nextStage(const Block& start, const Block& slope) const {
+    if constexpr (kStage + 1 == kTableau.stages) return {};
+    return plusWeighted(start, weights_.next[kStage], slope);
   }
 
   template <std::ptrdiff_t kStage, bool kInner>
@@ -338,32 +287,14 @@ class StagePipeline {
     return kInner ? forces : onlySprings(forces, chain_, block);
   }
 
-  template <std::ptrdiff_t kStage, std::size_t... kEarlier>
-  [[gnu::always_inline]] Block plusEarlierSlopes(Block result, [[maybe_unused]] double* workspace,
-                                                 [[maybe_unused]] std::ptrdiff_t block,
-                                                 std::index_sequence<kEarlier...> /*stages*/) {
-    ((result = kTableau.a[kStage + 1][kEarlier] == 0.0
-                   ? result
-                   : plusWeighted(result, weights_.after[kStage][kEarlier],
-                                  load(slopePlace(workspace, kEarlier, block)))),
-     ...);
-    return result;
-  }
-
-  /// Columns of the workspace, four for each: springs (separation, length, w·d), state of the next
-  /// stage, sum up to there, slopes.
-  static constexpr std::ptrdiff_t kSprings = 0, kAt = 4, kSum = 8, kSlopes = 12;
-  static constexpr std::ptrdiff_t kColumns = kSlopes + (keepsSlopes() ? 4 * kStages : 0);
+  /// Columns of the workspace: lengths of springs; four for the state of the next stage, and four for
+  /// the sum up to there.
+  static constexpr std::ptrdiff_t kLengths = 0, kAt = 1, kSum = 5, kColumns = 9;
   static constexpr std::ptrdiff_t kPitch = tilePitch(kTableau.stages);
 
   [[gnu::always_inline]] static BlockPlace<double> placeIn(double* workspace, std::ptrdiff_t column,
                                                            std::ptrdiff_t block) {
     return {workspace + column * kPitch + block * kLanes, kPitch};
-  }
-  [[gnu::always_inline]] static BlockPlace<double> slopePlace(double* workspace,
-                                                              std::ptrdiff_t stage,
-                                                              std::ptrdiff_t block) {
-    return placeIn(workspace, kSlopes + 4 * stage, block);
   }
   template <std::ptrdiff_t kStage>
   [[gnu::always_inline]] BlockPlace<double> stateOf(double* workspace, std::ptrdiff_t block) const {
@@ -371,11 +302,11 @@ class StagePipeline {
   }
   /// The forces of the first springs of the tile to the right.
   [[gnu::always_inline]] double* forcesOf(std::ptrdiff_t stage) const {
-    return workspace_ + (12 + 4 * kStages) * kPitch + 2 * kLanes * stage;
+    return workspace_ + kColumns * kPitch + 2 * kLanes * stage;
   }
 
   const KernelChain chain_;  ///< copy: through a reference it would be reloaded after every store
-  const WeightsOf<kTableau> weights_;
+  const StepWeights weights_;
   double* const state_;
   double* const dissipated_;
   double* const workspace_;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "integration/kernels/block.hpp"
+#include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/instruction_sets/pack.hpp"
-#include "integration/kernels/taylor_workspace.hpp"
 #include <spring_pendulum/model/spring_law.hpp>
 
 #include <cstddef>
@@ -50,8 +50,6 @@ class SpringSeries {
   }
   [[gnu::always_inline]] Pack length(Index n) const { return at(n, 2); }
   [[gnu::always_inline]] Pack quotient(Index n) const { return at(n, 3); }
-  [[gnu::always_inline]] PlaneVector<Pack> direction() const { return separation(kDirection); }
-  [[gnu::always_inline]] Pack inverseLength() const { return length(kDirection); }
   [[gnu::always_inline]] Convolutions convolutions() const {
     return {{{length(kSums), Pack{}}, Pack{}}, quotient(kSums), separation(kSums)};
   }
@@ -62,10 +60,6 @@ class SpringSeries {
   }
   [[gnu::always_inline]] void setLength(Index n, Pack value) { value.store(row(n) + 2 * kGroup); }
   [[gnu::always_inline]] void setQuotient(Index n, Pack value) { value.store(row(n) + 3 * kGroup); }
-  [[gnu::always_inline]] void setDirection(const PlaneVector<Pack>& value) {
-    setSeparation(kDirection, value);
-  }
-  [[gnu::always_inline]] void setInverseLength(Pack value) { setLength(kDirection, value); }
   [[gnu::always_inline]] void setConvolutions(const Convolutions& value) {
     setSeparation(kSums, value.force);
     setLength(kSums, value.length());
@@ -160,8 +154,8 @@ template <Index n>
 [[gnu::always_inline]] inline PlaneVector<Pack> springCoefficients(const TaylorWorkspace& work,
                                                                    SpringSeries spring, Index n,
                                                                    const Convolutions& sums) {
-  const Pack inverse_length = spring.inverseLength();
-  const PlaneVector<Pack> direction = spring.direction();
+  const Pack inverse_length = spring.length(kDirection);
+  const PlaneVector<Pack> direction = spring.separation(kDirection);
   const PlaneVector<Pack> newest = spring.separation(n + 1);
   const Pack length =
       fused(direction.x, newest.x, fused(direction.y, newest.y, sums.length() * inverse_length));
@@ -209,8 +203,8 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
     spring.setSeparation(0, separation);
     spring.setSeparation(1, relativeVelocitiesOf(left, here));
     spring.setLength(0, square * inverse);
-    spring.setDirection({separation.x * inverse, separation.y * inverse});
-    spring.setInverseLength(inverse);
+    spring.setSeparation(kDirection, {separation.x * inverse, separation.y * inverse});
+    spring.setLength(kDirection, inverse);
     left = here;
   }
 }
@@ -246,36 +240,6 @@ template <Index n>
   if (n == 0) y = y - only(Pack::all(work.chain.gravity), work.chain.size - 1 - first);
   ((right.x - here.x) * inverse_mass).store(accelerations);
   y.store(accelerations + work.chain.pitch);
-}
-
-/// Computes coefficient n of all accelerations and, if a later order needs it, n + 2 of all
-/// separations.
-/// \tparam kBlocks number of blocks of the chain, or 0 if known only at run time
-template <Index n, Index kBlocks>
-[[gnu::always_inline]] inline void addOrder(const TaylorWorkspace& work) {
-  const bool wanted = n + 1 < work.order;  // whether another order needs the separations
-  const Index blocks = kBlocks > 0 ? kBlocks : blocksOf(work.chain.size);
-  PlaneVector<Pack> forces{};
-  PlaneVector<Pack> left{};  // forces of their left neighbours
-  const auto finish = [&](Index block, const PlaneVector<Pack>& next) {
-    const PlaneVector<Pack> right{rightNeighbours(forces.x, next.x),
-                                  rightNeighbours(forces.y, next.y)};
-    // In this order no store follows the new separations that the compiler could take for a change
-    // of them, so a single block keeps them in registers.
-    setAccelerations<n>(work, block, forces, right);
-    if (wanted) {
-      SpringSeries(work, block)
-          .setSeparation(n + 2, separationCoefficient<n>(work, block, left, forces, right));
-    }
-  };
-  // Descending would save the last call, but long chains then took up to 1.5 times longer.
-  for (Index block = 0; block < blocks; ++block) {
-    const PlaneVector<Pack> next = springCoefficients<n>(work, SpringSeries(work, block));
-    if (block > 0) finish(block - 1, next);
-    left = {leftNeighbours(forces.x, next.x), leftNeighbours(forces.y, next.y)};
-    forces = next;
-  }
-  finish(blocks - 1, {});
 }
 
 /// Adds more accelerations to coefficient n of the accelerations and, as differences of neighbours,
@@ -327,9 +291,34 @@ template <typename OfBlock>
   });
 }
 
-/// Acts between order n and order n + 1. A chain of one block is neither driven nor in air here.
+/// Computes coefficient n of all accelerations and, if a later order needs it, n + 2 of all
+/// separations.
+/// \tparam kBlocks number of blocks of a chain that is neither driven nor in air; 0: any
 template <Index n, Index kBlocks>
-[[gnu::always_inline]] inline void finishOrder(const TaylorWorkspace& work, const double* state) {
+[[gnu::always_inline]] inline void addOrder(const TaylorWorkspace& work, const double* state) {
+  const bool wanted = n + 1 < work.order;  // whether another order needs the separations
+  const Index blocks = kBlocks > 0 ? kBlocks : blocksOf(work.chain.size);
+  PlaneVector<Pack> forces{};
+  PlaneVector<Pack> left{};  // forces of their left neighbours
+  const auto finish = [&](Index block, const PlaneVector<Pack>& next) {
+    const PlaneVector<Pack> right{rightNeighbours(forces.x, next.x),
+                                  rightNeighbours(forces.y, next.y)};
+    // In this order no store follows the new separations that the compiler could take for a change
+    // of them, so a single block keeps them in registers.
+    setAccelerations<n>(work, block, forces, right);
+    if (wanted) {
+      SpringSeries(work, block)
+          .setSeparation(n + 2, separationCoefficient<n>(work, block, left, forces, right));
+    }
+  };
+  // Descending would save the last call, but long chains then took up to 1.5 times longer.
+  for (Index block = 0; block < blocks; ++block) {
+    const PlaneVector<Pack> next = springCoefficients<n>(work, SpringSeries(work, block));
+    if (block > 0) finish(block - 1, next);
+    left = {leftNeighbours(forces.x, next.x), leftNeighbours(forces.y, next.y)};
+    forces = next;
+  }
+  finish(blocks - 1, {});
   if constexpr (kBlocks == 0) {
     if (n == 0 && work.chain.drive != nullptr) addDrive(work);
     if (work.chain.drag_rates != nullptr) addDrag(work, state, n);
@@ -337,26 +326,20 @@ template <Index n, Index kBlocks>
 }
 
 template <Index kBlocks, Index... n>
-[[gnu::always_inline]] inline void addOrders(const TaylorWorkspace& work, const double* state,
-                                             std::integer_sequence<Index, n...> /*orders*/) {
-  (void)((n < work.order &&
-          (addOrder<n, kBlocks>(work), finishOrder<n, kBlocks>(work, state), true)) &&
-         ...);
-}
-
-template <Index kBlocks>
-void seriesOf(const TaylorWorkspace& work, const double* state) {
+void seriesOf(const TaylorWorkspace& work, const double* state,
+              std::integer_sequence<Index, n...> /*orders*/) {
   beginSeries(work, state);
-  addOrders<kBlocks>(work, state, std::make_integer_sequence<Index, kLargestTaylorOrder>());
+  (void)((n < work.order && (addOrder<n, kBlocks>(work, state), true)) && ...);
 }
 
 // Local copy of the workspace: through the reference it would be reloaded after every store. A
 // chain of one block keeps its coefficients in registers.
 void taylorSeries(const TaylorWorkspace& callers_work, const double* state) {
   const TaylorWorkspace work = callers_work;
+  constexpr auto kOrders = std::make_integer_sequence<Index, kLargestTaylorOrder>();
   const bool plain = work.chain.drive == nullptr && work.chain.drag_rates == nullptr;
-  if (plain && blocksOf(work.chain.size) == 1) return seriesOf<1>(work, state);
-  seriesOf<0>(work, state);
+  if (plain && blocksOf(work.chain.size) == 1) return seriesOf<1>(work, state, kOrders);
+  seriesOf<0>(work, state, kOrders);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/state_buffer.hpp"
-#include "integration/kernels/taylor_workspace.hpp"
 
 #include <array>
 #include <cstddef>
@@ -19,35 +18,23 @@ inline constexpr auto kReciprocals = [] {
   return reciprocals;
 }();
 
-/// Owns the coefficients to which a `TaylorWorkspace` points. `work().chain.size` and `work().order` may
+/// Owns the coefficients to which a `TaylorWorkspace` points. `work.chain.size` and `work.order` may
 /// be set to smaller values, and back up to their initial values.
-class TaylorExpansion {
- public:
+struct TaylorExpansion {
   /// \param chain points to numbers that must outlive the expansion
   /// \param order K in 2..14, the largest number of coefficients
   TaylorExpansion(const KernelChain& chain, int order)
-      : inverse_masses_(chain.pitch),
-        left_inverse_masses_(chain.pitch),
-        springs_(TaylorWorkspace::springNumbers(chain.pitch)),
-        accelerations_(TaylorWorkspace::accelerationNumbers(chain.pitch, order)),
-        work_{chain, left_inverse_masses_.data(), order, springs_.data(), accelerations_.data()} {
-    for (std::ptrdiff_t i = 0; i + 1 < chain.size; ++i) {
-      inverse_masses_[i] = chain.inverse_masses[chain.mass_stride * i];
-      if (i + 2 < chain.size) left_inverse_masses_[i + 1] = inverse_masses_[i];
+      : left_inverse_masses(chain.pitch),
+        springs(TaylorWorkspace::springNumbers(chain.pitch)),
+        accelerations(TaylorWorkspace::accelerationNumbers(chain.pitch, order)),
+        work{chain, left_inverse_masses.data(), order, springs.data(), accelerations.data()} {
+    for (std::ptrdiff_t i = 1; i + 1 < chain.size; ++i) {
+      left_inverse_masses[i] = chain.inverse_masses[i - 1];
     }
-    work_.chain.inverse_masses = inverse_masses_.data();
-    work_.chain.mass_stride = 1;
   }
 
-  TaylorWorkspace& work() { return work_; }
-  const TaylorWorkspace& work() const { return work_; }
-
- private:
-  AlignedNumbers inverse_masses_;
-  AlignedNumbers left_inverse_masses_;
-  AlignedNumbers springs_;
-  AlignedNumbers accelerations_;
-  TaylorWorkspace work_;
+  AlignedNumbers left_inverse_masses, springs, accelerations;
+  TaylorWorkspace work;
 };
 
 /// Returns whether a spring changes much (see `SpringChange`) within a step of h s.

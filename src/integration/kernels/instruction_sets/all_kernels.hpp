@@ -2,7 +2,6 @@
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/fast_tableaus.hpp"
 #include "integration/kernels/stage_kernels.hpp"
 #include "integration/kernels/stage_pipeline.hpp"
 #include "integration/kernels/taylor_kernels.hpp"
@@ -15,31 +14,17 @@
 namespace spring_pendulum {
 namespace {
 
-template <const ButcherTableau& kTableau, bool kDamped, bool kGravity, bool kDissipation>
+template <const ButcherTableau& kTableau, bool kDamped, bool kDissipation>
 void advance(const KernelChain& chain, const StepWeights& weights, std::ptrdiff_t steps,
              double* state, double* dissipated, double* workspace) {
-  // Adding a gravity of 0 changes no bit and costs little time; this saves a compiled variant.
-  using Short = StagePipeline<kTableau, kDamped, true, kDissipation>;
-  if (Short::isShort(chain)) {
-    return Short(chain, weights, state, dissipated, workspace).advanceShort(steps);
-  }
-  StagePipeline<kTableau, kDamped, kGravity, kDissipation>(chain, weights, state, dissipated,
-                                                           workspace)
+  StagePipeline<kTableau, kDamped, kDissipation>(chain, weights, state, dissipated, workspace)
       .advance(steps);
 }
 
 template <const ButcherTableau& kTableau>
 AdvanceKernel advanceKernelFor(StepNeeds needs) {
-  if (!needs.damping) {
-    return needs.gravity ? advance<kTableau, false, true, false>
-                         : advance<kTableau, false, false, false>;
-  }
-  if (needs.dissipation) {
-    return needs.gravity ? advance<kTableau, true, true, true>
-                         : advance<kTableau, true, false, true>;
-  }
-  return needs.gravity ? advance<kTableau, true, true, false>
-                       : advance<kTableau, true, false, false>;
+  if (!needs.damping) return advance<kTableau, false, false>;
+  return needs.dissipation ? advance<kTableau, true, true> : advance<kTableau, true, false>;
 }
 
 template <std::size_t... kIndex>
