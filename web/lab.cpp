@@ -326,7 +326,7 @@ val orderConditions(const val& a, const val& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < tableau.stages; ++i) sum += tableau.b[i] * weights[i];
     val row = val::object();
-    row.set("order", tree.order());
+    row.set("order", tree.order);
     row.set("tree", nested(tree));
     row.set("left", sum);
     row.set("density", tree.density());

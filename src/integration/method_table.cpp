@@ -1,4 +1,5 @@
 #include "base/checks.hpp"
+#include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "integration/automatic/auto_stepper.hpp"
 #include "integration/embedded/embedded_runge_kutta_stepper.hpp"
@@ -17,7 +18,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 
@@ -123,6 +126,41 @@ std::deque<Method> builtInMethods() {
        nullptr, makeErrorControlled<AutoStepper>, false, 2250},
   };
 }
+
+constexpr int kMostOrder = 10;
+/// Violation of an order condition that rounded coefficients may have.
+constexpr double kRounding = 1e-12;
+/// Growth per step that counts as none.
+constexpr double kNoGrowth = 1e-12;
+constexpr double kScanStep = 0.01;
+constexpr double kLargestLimit = 1000.0;
+
+int orderOf(const ButcherTableau& tableau) {
+  int order = 0;
+  while (order < kMostOrder && orderConditionResidual(tableau, tableau.b, order + 1) <= kRounding) {
+    ++order;
+  }
+  return order;
+}
+
+/// Returns the largest h|λ| up to which no mode λ of this direction grows; 0: none.
+double stabilityLimit(const ButcherTableau& tableau, std::complex<double> direction) {
+  const auto is_stable = [&](double size) {
+    return growthOf(stabilityIncrement(tableau, size * direction)) <= kNoGrowth;
+  };
+  double stable = 0.0;
+  while (stable < kLargestLimit && is_stable(stable + kScanStep)) stable += kScanStep;
+  if (stable == 0.0) return 0.0;
+  double unstable = stable + kScanStep;
+  while (unstable - stable > 1e-12 * unstable) {
+    const double middle = 0.5 * (stable + unstable);
+    (is_stable(middle) ? stable : unstable) = middle;
+  }
+  return stable;
+}
+
+/// Factor by which the forces and the motion amplify the rounding errors of the steps.
+constexpr double kRoundingErrors = 100.0;
 
 std::deque<Method>& mutableMethodTable() {
   static std::deque<Method> table = builtInMethods();
@@ -233,6 +271,58 @@ std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& ch
 std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain& chain,
                                            const IntegratorOptions& options) {
   return makeIntegrator(findMethod(method), chain, options);
+}
+
+void checkTableau(std::string_view method, const ButcherTableau& tableau) {
+  if (tableau.stages < 1 || tableau.stages > ButcherTableau::kMaxStages) {
+    throw InputError(fmt::format("tableau of method '{}' has {} stages: must be 1 to {}", method,
+                                 tableau.stages, ButcherTableau::kMaxStages));
+  }
+  for (std::size_t i = 0; i < tableau.stages; ++i) {
+    bool explicit_row = std::isfinite(tableau.b[i]);
+    for (std::size_t j = 0; j < tableau.stages; ++j) {
+      explicit_row =
+          explicit_row && (j < i ? std::isfinite(tableau.a[i][j]) : tableau.a[i][j] == 0.0);
+    }
+    if (explicit_row) continue;
+    throw InputError(
+        fmt::format("stage {} of the tableau of method '{}': coefficients must be finite, and 0 on "
+                    "and above the diagonal",
+                    i + 1, method));
+  }
+  if (orderConditionResidual(tableau, tableau.b, 1) <= kRounding) return;
+  throw InputError(fmt::format("method '{}': the weights b must add up to 1", method));
+}
+
+Method methodOfTableau(const std::string& name, const ButcherTableau& tableau) {
+  checkTableau(name, tableau);
+  Method method;
+  method.name = name;
+  method.order = orderOf(tableau);
+  method.stages = static_cast<int>(tableau.stages);
+  method.real_stability_limit = stabilityLimit(tableau, -1.0);
+  method.imaginary_stability_limit = stabilityLimit(tableau, {0.0, 1.0});
+  method.tableau = &tableau;
+  return method;
+}
+
+double smallestTolerance(const Chain& chain, const State& start) {
+  const double length = chain.spring().rest_length * static_cast<double>(chain.size() - 1);
+  double largest = std::abs(chain.gravity());  // times (1 s)²: a length in m
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    largest = std::max({largest, std::abs(start.x()[i]), std::abs(start.y()[i]),
+                        std::abs(start.vx()[i]), std::abs(start.vy()[i])});
+  }
+  return kRoundingErrors * std::numeric_limits<double>::epsilon() * std::max(length, largest);
+}
+
+void checkTolerance(double tolerance, const Chain& chain, const State& start) {
+  const double least = smallestTolerance(chain, start);
+  if (tolerance >= least) return;
+  throw InputError(
+      fmt::format("tolerance: must be at least {:.1e} m for this scene, because of the rounding "
+                  "errors of its positions; got {}",
+                  1.05 * least, numberText(tolerance)));
 }
 
 }  // namespace spring_pendulum

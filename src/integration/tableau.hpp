@@ -47,34 +47,25 @@ inline double growthOf(std::complex<double> increment) {
 /// A rooted tree as the list of its root's subtrees.
 struct Tree {
   std::vector<Tree> branches;
+  int order = 1;                       ///< number of nodes
+  double densities_of_branches = 1.0;  ///< product
 
-  int order() const {
-    int nodes = 1;
-    for (const Tree& branch : branches) nodes += branch.order();
-    return nodes;
-  }
   /// The density gamma.
-  double density() const {
-    double product = order();
-    for (const Tree& branch : branches) product *= branch.density();
-    return product;
-  }
+  double density() const { return order * densities_of_branches; }
 };
 
 /// Appends every tree with `order` nodes to `trees`. Branches are chosen from `smaller`, in its
 /// order, starting at index `first`; `partial` has the branches chosen so far.
-inline void growTrees(const std::vector<Tree>& smaller, std::size_t first, int missing,
+inline void growTrees(const std::vector<Tree>& smaller, std::size_t first, int order,
                       const Tree& partial, std::vector<Tree>& trees) {
-  if (missing == 0) {
-    trees.push_back(partial);
-    return;
-  }
+  if (partial.order == order) return trees.push_back(partial);
   for (std::size_t i = first; i < smaller.size(); ++i) {
-    const int size = smaller[i].order();
-    if (size > missing) break;
+    if (partial.order + smaller[i].order > order) break;
     Tree next = partial;
     next.branches.push_back(smaller[i]);
-    growTrees(smaller, i, missing - size, next, trees);
+    next.order += smaller[i].order;
+    next.densities_of_branches *= smaller[i].density();
+    growTrees(smaller, i, order, next, trees);
   }
 }
 
@@ -84,7 +75,7 @@ inline std::vector<Tree> rootedTrees(int order) {
   std::vector<Tree> trees{Tree{}};
   for (int nodes = 2; nodes <= order; ++nodes) {
     std::vector<Tree> grown;
-    growTrees(trees, 0, nodes - 1, Tree{}, grown);
+    growTrees(trees, 0, nodes, Tree{}, grown);
     trees.insert(trees.end(), grown.begin(), grown.end());
   }
   return trees;

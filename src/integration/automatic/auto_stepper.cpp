@@ -48,6 +48,10 @@ constexpr double kFastVibration = 1e3;
 /// Work before the first race, about that of a race, in force evaluations.
 constexpr double kWorkBeforeFirstRace = 500.0;
 
+/// Longest chain for which inactive methods are kept. In longer chains they would take too much
+/// memory, and making one again costs less than one of its steps.
+constexpr Eigen::Index kKeepsUpTo = 10'000;
+
 /// Least ratio of the paces for a switch.
 constexpr double kHysteresis = 1.2;
 
@@ -67,10 +71,9 @@ bool AutoStepper::Pace::isFasterThan(const Pace& other, double factor) const {
   return time * other.work > factor * other.time * work;
 }
 
-AutoStepper::AutoStepper(const Chain& chain, double tolerance, Eigen::Index keeps_up_to)
+AutoStepper::AutoStepper(const Chain& chain, double tolerance)
     : chain_(chain),
       tolerance_(tolerance),
-      keeps_up_to_(keeps_up_to),
       fastest_rate_(largestDampingRate(chain)),
       vibrates_fast_(fastestVibration(chain) > kFastVibration) {
   const bool order_12 = needsOrder12(chain, tolerance);
@@ -98,7 +101,7 @@ DenseOutputStepper& AutoStepper::startedAt(Candidate& candidate, const State& st
 }
 
 void AutoStepper::release(Candidate& candidate) {
-  if (!candidate.stepper || chain_.size() <= keeps_up_to_) return;
+  if (!candidate.stepper || chain_.size() <= kKeepsUpTo) return;
   candidate.earlier = statisticsOf(candidate);
   candidate.stepper.reset();
 }

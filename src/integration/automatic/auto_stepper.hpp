@@ -35,11 +35,7 @@ namespace spring_pendulum {
 
 class AutoStepper final : public DenseOutputStepper {
  public:
-  /// Longest chain for which inactive methods are kept. In longer chains they would take too much
-  /// memory, and making one again costs less than one of its steps.
-  static constexpr Eigen::Index kKeepsUpTo = 10'000;
-
-  AutoStepper(const Chain& chain, double tolerance, Eigen::Index keeps_up_to = kKeepsUpTo);
+  AutoStepper(const Chain& chain, double tolerance);
 
   void start(const State& state) override;
   double step() override;
@@ -90,7 +86,6 @@ class AutoStepper final : public DenseOutputStepper {
 
   Chain chain_;
   double tolerance_;
-  Eigen::Index keeps_up_to_;
   double fastest_rate_;               ///< largest damping rate, 1/s
   bool vibrates_fast_;                ///< see kFastVibration
   bool successor_is_better_ = false;  ///< candidate 1 beats candidate 0 in stiff motion

@@ -25,30 +25,30 @@ void EmbeddedRungeKuttaStepper::prepare(bool restarted) {
     std::swap(slopes_[0], slopes_[pair_.tableau.stages]);
     return;
   }
-  kernels().stageSlope(kernelChain(), begin().data(), {}, slopes_[0].data());
-  ++counters().force_evaluations;
+  kernels_.stageSlope(constants_.chain(), begin_.data(), {}, slopes_[0].data());
+  ++statistics_.force_evaluations;
 }
 
 double EmbeddedRungeKuttaStepper::attempt(double h) {
   const ButcherTableau& tableau = pair_.tableau;
   for (std::size_t i = 1; i < tableau.stages; ++i) {
-    kernels().stageSlope(kernelChain(), begin().data(), StageSum(h, tableau.a[i], slopes_),
-                         slopes_[i].data());
+    kernels_.stageSlope(constants_.chain(), begin_.data(), StageSum(h, tableau.a[i], slopes_),
+                        slopes_[i].data());
   }
-  setEnd(carry(), StageSum(h, tableau.b, slopes_));
-  kernels().stageSlope(kernelChain(), end().data(), {}, slopes_[tableau.stages].data());
-  counters().force_evaluations += static_cast<std::int64_t>(tableau.stages);
+  setEnd(carry_, StageSum(h, tableau.b, slopes_));
+  kernels_.stageSlope(constants_.chain(), end_.data(), {}, slopes_[tableau.stages].data());
+  statistics_.force_evaluations += static_cast<std::int64_t>(tableau.stages);
   const LargestChange change =
-      kernels().largestChange(begin().size(), begin().pitch(), StageSum(h, pair_.error, slopes_));
+      kernels_.largestChange(begin_.size(), begin_.pitch(), StageSum(h, pair_.error, slopes_));
   // std::max may drop a NaN; the second term keeps it.
   return std::max(change.position, kVelocityTime * change.velocity) +
          0.0 * (change.position + change.velocity);
 }
 
 const StateBuffer& EmbeddedRungeKuttaStepper::stateInside(double fraction) const {
-  const double h = statistics().last_step;
-  kernels().combine(begin().pitch(), begin().data(),
-                    StageSum(h, pair_.denseWeights(fraction), slopes_), inside_.data());
+  const double h = statistics_.last_step;
+  kernels_.combine(begin_.pitch(), begin_.data(),
+                   StageSum(h, pair_.denseWeights(fraction), slopes_), inside_.data());
   return inside_;
 }
 

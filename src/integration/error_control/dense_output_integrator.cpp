@@ -38,7 +38,7 @@ DenseOutputIntegrator::DenseOutputIntegrator(const Chain& chain,
                                              bool track_dissipation)
     : stepper_(std::move(stepper)),
       constants_(chain),
-      kernels_(fastestChainKernels(chain.size())),
+      kernels_(fastestChainKernels()),
       held_(chain),
       energy_flow_(chain, track_dissipation) {}
 

@@ -12,40 +12,36 @@ constexpr double kFirstStep = 0.01;
 
 }  // namespace
 
-ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, const ErrorControl& control,
-                                               const ChainKernels& kernels)
+ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowed_error,
+                                               int error_order, const ChainKernels& kernels,
+                                               double first_step)
     : chain_(chain),
-      control_(control),
       constants_(chain_),
       kernels_(kernels),
-      controller_(control.order),
       begin_(chain.size()),
       end_(chain.size()),
-      begin_carry_(chain.size()),
+      carry_(chain.size()),
+      allowed_error_(allowed_error),
+      first_step_(first_step > 0.0 ? first_step : kFirstStep * root(allowed_error, error_order)),
+      controller_(error_order),
       end_carry_(chain.size()) {}
-
-ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowed_error,
-                                               int error_order, const ChainKernels& kernels)
-    : ErrorEstimatingStepper(
-          chain, {allowed_error, error_order, kFirstStep * root(allowed_error, error_order)},
-          kernels) {}
 
 void ErrorEstimatingStepper::start(const State& state) {
   end_.values() = state.values();
   end_carry_.values().setZero();
   controller_.restart();
   restarted_ = true;
-  next_step_ = std::max(control_.first_step, kShortestStep);
+  next_step_ = std::max(first_step_, kShortestStep);
 }
 
 double ErrorEstimatingStepper::step() {
   std::swap(begin_, end_);
-  std::swap(begin_carry_, end_carry_);
+  std::swap(carry_, end_carry_);
   prepare(restarted_);
   restarted_ = false;
   for (;;) {
     const double h = admissible(std::clamp(next_step_, kShortestStep, kLongestStep));
-    const double error = attempt(h) / control_.allowed;
+    const double error = attempt(h) / allowed_error_;
     next_step_ = controller_.next(h, error);
     const bool is_shortest = h <= kShortestStep;
     if (StepSizeController::accepts(error) || (is_shortest && std::isfinite(error))) {

@@ -27,22 +27,17 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   StepStatistics statistics() const override { return statistics_; }
 
  protected:
-  struct ErrorControl {
-    double allowed;     ///< largest estimated error of a step, in the unit of `attempt`
-    int order;          ///< the estimated error is O(h^order)
-    double first_step;  ///< s
-  };
-  ErrorEstimatingStepper(const Chain& chain, const ErrorControl& control,
-                         const ChainKernels& kernels);
-  /// Uses a first step that is short for any scene.
+  /// \param allowed_error largest estimated error of a step, in the unit of `attempt`
+  /// \param error_order the estimated error is O(h^error_order)
+  /// \param first_step s; 0: one that is short for any scene
   ErrorEstimatingStepper(const Chain& chain, double allowed_error, int error_order,
-                         const ChainKernels& kernels);
+                         const ChainKernels& kernels, double first_step = 0.0);
 
-  /// Called before the first attempt from a new `begin()`.
-  /// \param restarted whether `begin()` is an initial state and not the end of the last step
+  /// Called before the first attempt from a new `begin_`.
+  /// \param restarted whether `begin_` is an initial state and not the end of the last step
   virtual void prepare(bool restarted) = 0;
 
-  /// Computes `end()` from `begin()` with step size h.
+  /// Computes `end_` from `begin_` with step size h.
   /// \returns the estimated position error, m; NaN if anything is not finite
   virtual double attempt(double h) = 0;
 
@@ -52,33 +47,23 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   /// Largest admissible step size, at most h, s.
   virtual double admissible(double h) { return h; }
 
-  const Chain& chain() const { return chain_; }
-  const KernelChain& kernelChain() const { return constants_.chain(); }
-  const ChainKernels& kernels() const { return kernels_; }
-  StateBuffer& begin() { return begin_; }
-  StateBuffer& end() { return end_; }
-  const StateBuffer& begin() const { return begin_; }
-  const StateBuffer& end() const { return end_; }
-  /// Rounding error of `begin()`: add it to the next step.
-  const StateBuffer& carry() const { return begin_carry_; }
-  /// end() = begin() + (change + sum), where change contains `carry()`.
+  /// end_ = begin_ + (change + sum), where change contains `carry_`.
   void setEnd(const StateBuffer& change, SlopeSum sum);
-  /// The dense output may need evaluations, too.
-  StepStatistics& counters() const { return statistics_; }
+
+  const Chain chain_;
+  const KernelConstants constants_;
+  const ChainKernels& kernels_;
+  StateBuffer begin_, end_;
+  StateBuffer carry_;  ///< rounding error of `begin_`: add it to the next step
+  StepStatistics statistics_;
 
  private:
-  Chain chain_;
-  ErrorControl control_;
-  KernelConstants constants_;
-  const ChainKernels& kernels_;
+  const double allowed_error_;
+  const double first_step_;  ///< s
   StepSizeController controller_;
-  StateBuffer begin_;
-  StateBuffer end_;
-  StateBuffer begin_carry_;
   StateBuffer end_carry_;
   bool restarted_ = true;
   double next_step_ = 0.0;
-  mutable StepStatistics statistics_;
 };
 
 }  // namespace spring_pendulum

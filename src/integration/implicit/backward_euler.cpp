@@ -38,7 +38,7 @@ void BackwardEuler::step(double time_step) {
   failed_ = failed_ || !solve(time_step);
   addPowers(current(), time_step);
   if (failed_) {
-    countEvaluations(1);  // limits on work also end a run after a failure
+    ++force_evaluations_;  // limits on work also end a run after a failure
     auto moving = current().values().bottomRows(current().size() - 1);
     moving.setConstant(std::numeric_limits<double>::quiet_NaN());
   }

@@ -49,27 +49,26 @@ std::array<double, 2> springlessAcceleration(const Chain& chain, std::size_t par
 
 StepStatistics RadauStepper::statistics() const {
   StepStatistics statistics = ErrorEstimatingStepper::statistics();
-  const double cost = kRadauTime.of(chain().size()) / kTaylorTime.of(chain().size());
+  const double cost = kRadauTime.of(chain_.size()) / kTaylorTime.of(chain_.size());
   statistics.extra_work = (cost - 1.0) * static_cast<double>(statistics.force_evaluations);
   return statistics;
 }
 
 RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKernels& kernels)
-    : ErrorEstimatingStepper(chain,
-                             {kShareOfTolerance * tolerance, static_cast<int>(kStages),
-                              kFirstStep * root(kShareOfTolerance * tolerance, kErrorOrder)},
-                             kernels),
+    : ErrorEstimatingStepper(chain, kShareOfTolerance * tolerance, static_cast<int>(kStages),
+                             kernels,
+                             kFirstStep * root(kShareOfTolerance * tolerance, kErrorOrder)),
       allowed_rate_(kShareOfTolerance * tolerance),
       stages_(chain.size()),
       previous_(chain.size()),
       springs_(static_cast<std::size_t>(chain.size() - 1)),
-      real_(this->chain(), radau::kReal),
-      pairs_{{{this->chain(), radau::kPairs[0]}, {this->chain(), radau::kPairs[1]}}},
+      real_(chain_, radau::kReal),
+      pairs_{{{chain_, radau::kPairs[0]}, {chain_, radau::kPairs[1]}}},
       change_(chain.size()) {}
 
 void RadauStepper::prepare(bool restarted) {
   std::swap(stages_, previous_);
-  previous_length_ = restarted ? 0.0 : statistics().last_step;
+  previous_length_ = restarted ? 0.0 : statistics_.last_step;
 }
 
 double RadauStepper::attempt(double h) {
@@ -119,14 +118,14 @@ void RadauStepper::predict(double h) {
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
     for (std::size_t c = 0; c < 2; ++c) {
-      guess(valueOf(begin(), i, 2 + c), old[2 + c], next[c], next[2 + c]);
+      guess(valueOf(begin_, i, 2 + c), old[2 + c], next[c], next[2 + c]);
     }
   }
-  if (chain().isDriven()) setAnchor(h);
+  if (chain_.isDriven()) setAnchor(h);
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     Row& tensions = stages_.tensions[i];
-    const Ends ends = endsOf(i, begin());
-    tensions.fill(springTension(chain().spring(), ends.separation, ends.relative_velocity));
+    const Ends ends = endsOf(i, begin_);
+    tensions.fill(springTension(chain_.spring(), ends.separation, ends.relative_velocity));
     if (previous_length_ == 0.0) continue;
     for (std::size_t s = 0; s < kStages; ++s) {
       tensions[s] = radau::dot(tension_weights[s], previous_.tensions[i]);
@@ -135,21 +134,21 @@ void RadauStepper::predict(double h) {
 }
 
 void RadauStepper::setAnchor(double h) {
-  const auto acceleration = springlessAcceleration(chain(), 0);
+  const auto acceleration = springlessAcceleration(chain_, 0);
   Increments& stage = stages_.particles[0];
   for (std::size_t c = 0; c < 2; ++c) {
     for (std::size_t s = 0; s < kStages; ++s) {
       const double time = h * radau::kNodes[s];
       stage[2 + c][s] = time * acceleration[c];
-      stage[c][s] = time * (valueOf(begin(), 0, 2 + c) + 0.5 * stage[2 + c][s]);
+      stage[c][s] = time * (valueOf(begin_, 0, 2 + c) + 0.5 * stage[2 + c][s]);
     }
   }
 }
 
 void RadauStepper::linearise() {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
-    const Ends middle = endsOf(i, endsOf(i, begin()), kMiddleStage);
-    springs_[i] = linearSpring(chain().spring(), middle.separation, middle.relative_velocity,
+    const Ends middle = endsOf(i, endsOf(i, begin_), kMiddleStage);
+    springs_[i] = linearSpring(chain_.spring(), middle.separation, middle.relative_velocity,
                                stages_.tensions[i][kMiddleStage]);
   }
 }
@@ -176,8 +175,8 @@ bool RadauStepper::solveStages(double h) {
 
 RadauStepper::Forces RadauStepper::springForces(std::size_t spring) {
   Forces forces;
-  const SpringLaw& law = chain().spring();
-  const Ends start = endsOf(spring, begin());
+  const SpringLaw& law = chain_.spring();
+  const Ends start = endsOf(spring, begin_);
   Row& tensions = stages_.tensions[spring];
   const PlaneVector<double>& r = springs_[spring].r;
   for (std::size_t s = 0; s < kStages; ++s) {
@@ -197,8 +196,8 @@ void RadauStepper::computeResiduals() {
   Forces left{};
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const Forces right = i < springs_.size() ? springForces(i) : Forces{};
-    const double mass = massOf(chain(), static_cast<Eigen::Index>(i));
-    const auto fall = springlessAcceleration(chain(), i);
+    const double mass = massOf(chain_, static_cast<Eigen::Index>(i));
+    const auto fall = springlessAcceleration(chain_, i);
     const Increments& increments = stages_.particles[i];
     const double drag = dragOn(i);
     Forces forces;
@@ -206,18 +205,18 @@ void RadauStepper::computeResiduals() {
       for (std::size_t s = 0; s < kStages; ++s) {
         forces[c][s] = (right[c][s] - left[c][s]) + mass * fall[c];
         if (drag == 0.0) continue;
-        forces[c][s] -= drag * (valueOf(begin(), i, 2 + c) + increments[2 + c][s]);
+        forces[c][s] -= drag * (valueOf(begin_, i, 2 + c) + increments[2 + c][s]);
       }
     }
     real_.setRightHandSide(i, mass, increments, forces);
     for (System<Complex>& pair : pairs_) pair.setRightHandSide(i, mass, increments, forces);
     left = right;
   }
-  counters().force_evaluations += static_cast<std::int64_t>(kStages);
+  statistics_.force_evaluations += static_cast<std::int64_t>(kStages);
 }
 
 RadauStepper::Change RadauStepper::updateStages() {
-  const double damping = chain().spring().damping;
+  const double damping = chain_.spring().damping;
   Change largest;
   double finite = 0.0;
   Increments left{};
@@ -254,16 +253,16 @@ double RadauStepper::estimateError(double h) {
 // particle.
 PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected) const {
   const LinearSpring& linear = springs_[spring];
-  Ends ends = endsOf(spring, begin());
+  Ends ends = endsOf(spring, begin_);
   double tension = previous_length_ > 0.0
                        ? previous_.tensions[spring].back()
-                       : springTension(chain().spring(), ends.separation, ends.relative_velocity);
+                       : springTension(chain_.spring(), ends.separation, ends.relative_velocity);
   if (corrected) {
     const Ends change = endsOf(spring, change_);
     ends.separation.x += change.separation.x;
     ends.separation.y += change.separation.y;
     tension +=
-        linear.tensionChange(chain().spring().damping, change.separation, change.relative_velocity);
+        linear.tensionChange(chain_.spring().damping, change.separation, change.relative_velocity);
   }
   const PlaneVector<double>& d = ends.separation;
   const double unit = tension * inverseSquareRoot(d.x * d.x + d.y * d.y);
@@ -273,7 +272,7 @@ PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected)
 double RadauStepper::filteredError(bool corrected) {
   const double q = real_.q;
   const auto position_part = [&](std::size_t i, std::size_t c) {
-    return q * valueOf(begin(), i, 2 + c) + radau::dot(radau::kError, stages_.particles[i][c]);
+    return q * valueOf(begin_, i, 2 + c) + radau::dot(radau::kError, stages_.particles[i][c]);
   };
   std::array<double, 2> here{}, left{};
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
@@ -285,8 +284,8 @@ double RadauStepper::filteredError(bool corrected) {
           springs_[i].stiffnessTimes({next[0] - here[0], next[1] - here[1]});
       right = {q * (force.x + change.x), q * (force.y + change.y)};
     }
-    const double mass = massOf(chain(), static_cast<Eigen::Index>(i));
-    const auto fall = springlessAcceleration(chain(), i);
+    const double mass = massOf(chain_, static_cast<Eigen::Index>(i));
+    const auto fall = springlessAcceleration(chain_, i);
     const double drag = dragOn(i);
     for (std::size_t c = 0; c < 2; ++c) {
       double& sum = real_.unknowns[c][i];
@@ -294,13 +293,13 @@ double RadauStepper::filteredError(bool corrected) {
       sum = mass * (error + q * fall[c]) + (right[c] - left[c]);
       if (drag == 0.0) continue;
       const double change = corrected ? valueOf(change_, i, 2 + c) : 0.0;
-      sum -= q * (drag * (valueOf(begin(), i, 2 + c) + change));
+      sum -= q * (drag * (valueOf(begin_, i, 2 + c) + change));
     }
     here = next;
     left = right;
   }
   real_.solve();
-  ++counters().force_evaluations;
+  ++statistics_.force_evaluations;
   for (std::size_t c = 0; c < 4; ++c) valueOf(change_, 0, c) = 0.0;
   double largest = 0.0, finite = 0.0;
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
@@ -317,8 +316,8 @@ double RadauStepper::filteredError(bool corrected) {
 }
 
 double RadauStepper::stepExplicitly(double h) {
-  kernels().stageSlope(kernelChain(), begin().data(), {}, change_.data());
-  ++counters().force_evaluations;
+  kernels_.stageSlope(constants_.chain(), begin_.data(), {}, change_.data());
+  ++statistics_.force_evaluations;
   double finite = 0.0;
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
@@ -330,9 +329,9 @@ double RadauStepper::stepExplicitly(double h) {
     }
   }
   for (std::size_t i = 0; i < springs_.size(); ++i) {
-    const Ends ends = endsOf(i, begin());
+    const Ends ends = endsOf(i, begin_);
     stages_.tensions[i].fill(
-        springTension(chain().spring(), ends.separation, ends.relative_velocity));
+        springTension(chain_.spring(), ends.separation, ends.relative_velocity));
   }
   setEndFromLastStage();
   return finite;
@@ -341,7 +340,7 @@ double RadauStepper::stepExplicitly(double h) {
 void RadauStepper::setEndFromLastStage() {
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
-      valueOf(change_, i, c) = valueOf(carry(), i, c) + stages_.particles[i][c].back();
+      valueOf(change_, i, c) = valueOf(carry_, i, c) + stages_.particles[i][c].back();
     }
   }
   setEnd(change_, {});
@@ -349,7 +348,7 @@ void RadauStepper::setEndFromLastStage() {
 
 const StateBuffer& RadauStepper::stateInside(double fraction) const {
   const Row weights = radau::lagrangeWeights(fraction, true);
-  change_.values() = begin().values();
+  change_.values() = begin_.values();
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
       valueOf(change_, i, c) += radau::dot(weights, stages_.particles[i][c]);

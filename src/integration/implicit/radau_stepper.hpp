@@ -112,7 +112,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
 
   /// Air drag on a particle, N·s/m; 0 if it is held.
   double dragOn(std::size_t particle) const {
-    return chain().isHeld(static_cast<Eigen::Index>(particle)) ? 0.0 : chain().airDrag();
+    return chain_.isHeld(static_cast<Eigen::Index>(particle)) ? 0.0 : chain_.airDrag();
   }
   /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.
   void predict(double h);

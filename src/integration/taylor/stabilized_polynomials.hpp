@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cstddef>
-#include <iterator>
+#include <initializer_list>
 
 namespace spring_pendulum {
 
@@ -31,7 +31,7 @@ struct StabilizedPolynomial {
 
 // Rows from benchmark/derivations/stabilized_polynomials.py, with increasing number of terms. The first is
 // the plain series.
-inline constexpr StabilizedPolynomial kStabilizedOrder4[] = {
+inline constexpr std::initializer_list<StabilizedPolynomial> kStabilizedOrder4 = {
     {4, 4, 2.7852, {}, {0.2}},
     {4, 5, 5.9923, {0.493152252166292}, {0.2, 0.177373401546154}},
     {4,
@@ -64,7 +64,7 @@ inline constexpr StabilizedPolynomial kStabilizedOrder4[] = {
      {0.2, 0.308791982945466, 0.22788151778443, 0.100780282683244, 0.0277533221775728,
       0.00446178976767287, 0.000324271325835708}},
 };
-inline constexpr StabilizedPolynomial kStabilizedOrder8[] = {
+inline constexpr std::initializer_list<StabilizedPolynomial> kStabilizedOrder8 = {
     {8, 8, 4.3136, {}, {0.05}},
     {8, 9, 7.0771, {0.582830717286382}, {0.05, 0.0656386058178435}},
     {8,
@@ -98,19 +98,9 @@ inline constexpr StabilizedPolynomial kStabilizedOrder8[] = {
       0.0169015357322995, 0.00196217494654426}},
 };
 
-/// The polynomials of one order.
-struct StabilizedPolynomials {
-  const StabilizedPolynomial* first;
-  std::size_t count;
-
-  const StabilizedPolynomial* begin() const { return first; }
-  const StabilizedPolynomial* end() const { return first + count; }
-};
-
 /// \param order 4 or 8
-inline StabilizedPolynomials stabilizedPolynomials(int order) {
-  if (order == 4) return {kStabilizedOrder4, std::size(kStabilizedOrder4)};
-  return {kStabilizedOrder8, std::size(kStabilizedOrder8)};
+inline std::initializer_list<StabilizedPolynomial> stabilizedPolynomials(int order) {
+  return order == 4 ? kStabilizedOrder4 : kStabilizedOrder8;
 }
 
 }  // namespace spring_pendulum

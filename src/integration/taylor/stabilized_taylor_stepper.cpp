@@ -64,7 +64,7 @@ StabilizedTaylorStepper::StabilizedTaylorStepper(const Chain& chain, int order, 
       time_of_velocity_error_(timeOfVelocityError(chain, fastest_rate_)),
       polynomials_(stabilizedPolynomials(order)),
       polynomial_(polynomials_.begin()),
-      expansion_(kernelChain(), (polynomials_.end() - 1)->terms),
+      expansion_(constants_.chain(), (polynomials_.end() - 1)->terms),
       change_(chain.size()),
       inside_(chain.size()) {}
 
@@ -87,30 +87,29 @@ double StabilizedTaylorStepper::admissible(double h) {
 }
 
 double StabilizedTaylorStepper::attempt(double h) {
-  TaylorWorkspace& work = expansion_.work();
+  TaylorWorkspace& work = expansion_.work;
   // A repeated step is shorter and needs no more terms.
   if (known_terms_ < polynomial_->terms) {
     known_terms_ = polynomial_->terms;
     work.order = known_terms_;
-    kernels().taylorSeries(work, begin().data());
-    counters().force_evaluations += known_terms_;
+    kernels_.taylorSeries(work, begin_.data());
+    statistics_.force_evaluations += known_terms_;
   }
-  kernels().taylorState(work, begin().data(), carry().data(), sumOf(*polynomial_, h),
-                        change_.data());
+  kernels_.taylorState(work, begin_.data(), carry_.data(), sumOf(*polynomial_, h), change_.data());
   setEnd(change_, {});
   // The series is invalid once the ends of a spring meet; see TaylorStepper::step.
   const auto middle = [&]() -> const StateBuffer& { return sumAt(0.5 * h); };
-  if (h > kShortestStep && springsChangeMuch(kernels(), work, h, begin(), end(), middle)) {
+  if (h > kShortestStep && springsChangeMuch(kernels_, work, h, begin_, end_, middle)) {
     return std::numeric_limits<double>::infinity();
   }
-  const LargestChange error = kernels().taylorLargestSum(work, errorOf(*polynomial_, h));
+  const LargestChange error = kernels_.taylorLargestSum(work, errorOf(*polynomial_, h));
   return std::max(time_of_velocity_error_ * error.velocity, error.position) *
          std::max(1.0, least_time_per_error_ / std::max(h, kLeastVibration));
 }
 
 const StateBuffer& StabilizedTaylorStepper::sumAt(double time) const {
-  kernels().taylorState(expansion_.work(), begin().data(), begin().data(),
-                        sumOf(*polynomial_, time), inside_.data());
+  kernels_.taylorState(expansion_.work, begin_.data(), begin_.data(), sumOf(*polynomial_, time),
+                       inside_.data());
   return inside_;
 }
 

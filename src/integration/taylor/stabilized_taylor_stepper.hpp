@@ -32,6 +32,8 @@
 #include "integration/taylor/stabilized_polynomials.hpp"
 #include "integration/taylor/taylor_expansion.hpp"
 
+#include <initializer_list>
+
 namespace spring_pendulum {
 
 class StabilizedTaylorStepper final : public ErrorEstimatingStepper {
@@ -50,18 +52,18 @@ class StabilizedTaylorStepper final : public ErrorEstimatingStepper {
   double admissible(double h) override;
   double attempt(double h) override;
   const StateBuffer& stateInside(double fraction) const override {
-    return sumAt(fraction * statistics().last_step);
+    return sumAt(fraction * statistics_.last_step);
   }
-  /// Returns the state `time` s after `begin()`.
+  /// Returns the state `time` s after `begin_`.
   const StateBuffer& sumAt(double time) const;
 
   double least_time_per_error_;    ///< s; shorter steps limit the error per time
   double fastest_rate_;            ///< upper bound of |λ| of the damped modes, 1/s
   double time_of_velocity_error_;  ///< s; position error = this x velocity error
-  StabilizedPolynomials polynomials_;
+  std::initializer_list<StabilizedPolynomial> polynomials_;
   const StabilizedPolynomial* polynomial_;
   TaylorExpansion expansion_;
-  int known_terms_ = 0;  ///< number of computed terms of the expansion about `begin()`
+  int known_terms_ = 0;  ///< number of computed terms of the expansion about `begin_`
   StateBuffer change_;   ///< change of the state in the step
   mutable StateBuffer inside_;
 };

@@ -99,7 +99,7 @@ TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
       kernels_(kernels),
       constants_(chain),
       expansion_(constants_.chain(), order),
-      work_(expansion_.work()),
+      work_(expansion_.work),
       begin_(chain.size()),
       end_(chain.size()),
       inside_(chain.size()) {}
@@ -120,15 +120,11 @@ void TaylorStepper::skipFreeEnd() {
   if (size != work_.chain.size) work_.chain.size = size;
 }
 
-void TaylorStepper::expand() {
+double TaylorStepper::step() {
   std::swap(begin_, end_);
   skipFreeEnd();
   kernels_.taylorSeries(work_, begin_.data());
   statistics_.force_evaluations += work_.order;
-}
-
-double TaylorStepper::step() {
-  expand();
   double h = longestAccurateStep(kernels_.lastCoefficients(work_), work_.order, allowed_rate_);
   if (h == 0.0) return 0.0;
   // When the ends of a spring meet, the series continues to negative lengths, but the motion does
@@ -136,7 +132,8 @@ double TaylorStepper::step() {
   // coefficients are mostly rounding errors, so the shortest step uses only one.
   for (;; h = std::max(0.5 * h, kShortestStep)) {
     const bool shortest = h <= kShortestStep;
-    sumSeries(h, shortest ? 1 : work_.order);
+    terms_ = shortest ? 1 : work_.order;
+    sumAt(h, end_);
     const auto middle = [&]() -> const StateBuffer& {
       sumAt(0.5 * h, inside_);
       return inside_;
@@ -144,19 +141,8 @@ double TaylorStepper::step() {
     if (shortest || !springsChangeMuch(kernels_, work_, h, begin_, end_, middle)) break;
   }
   ++statistics_.accepted;
-  return h;
-}
-
-void TaylorStepper::stepBy(double h) {
-  expand();
-  sumSeries(h, work_.order);
-  ++statistics_.accepted;
-}
-
-void TaylorStepper::sumSeries(double h, std::ptrdiff_t terms) {
-  terms_ = terms;
-  sumAt(h, end_);
   statistics_.last_step = h;
+  return h;
 }
 
 void TaylorStepper::sumAt(double time, StateBuffer& out) const {

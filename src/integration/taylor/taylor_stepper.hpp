@@ -61,15 +61,10 @@ class TaylorStepper final : public DenseOutputStepper {
   const StateBuffer& stateAt(double fraction) const override;
   StepStatistics statistics() const override { return statistics_; }
 
-  /// Takes a step of size h whatever its error. Tests measure the order with it.
-  void stepBy(double h);
-
  private:
   /// Excludes the end of the chain that falls freely throughout the next step. In one step,
   /// information travels as many springs as the series has coefficients. Changes no bit.
   void skipFreeEnd();
-  void expand();
-  void sumSeries(double h, std::ptrdiff_t terms);
   /// Computes the state `time` s after `begin_`.
   void sumAt(double time, StateBuffer& out) const;
 

@@ -29,11 +29,10 @@ double growthOf(const Method& method, Complex z) {
     return method.order == 1 ? -std::log(std::abs(1.0 - z)) : z.real();
   }
   const int order = std::min(method.order, static_cast<int>(ButcherTableau::kMaxStages));
-  const StabilizedPolynomial plain{order, order, 0.0, {}, {}};
+  const std::initializer_list<StabilizedPolynomial> plain{{order, order, 0.0, {}, {}}};
   const bool stabilized = method.name.rfind("Stabilized-", 0) == 0;
   double growth = kUnlimited;
-  for (const StabilizedPolynomial& series :
-       stabilized ? stabilizedPolynomials(order) : StabilizedPolynomials{&plain, 1}) {
+  for (const StabilizedPolynomial& series : stabilized ? stabilizedPolynomials(order) : plain) {
     Complex sum = 0.0;
     Complex term = 1.0;
     for (int i = 1; i <= series.terms; ++i) sum += series.weight(i) * (term *= z / (1.0 * i));
