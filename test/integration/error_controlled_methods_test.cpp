@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/reference.hpp"
@@ -58,7 +58,7 @@ StepStatistics statisticsOf(const Integrator& integrator) {
 
 /// The largest error at the times, in tolerances.
 double worstError(Integrator& integrator, const Scene& scene, const std::string& name,
-                  std::initializer_list<int> times, double tolerance) {
+                  const std::vector<int>& times, double tolerance) {
   State state = scene.start;
   double worst = 0.0;
   int now = 0;
@@ -75,25 +75,18 @@ double worstError(Integrator& integrator, const Scene& scene, const std::string&
 // 1.3 (Taylor-8), 2.0 (Taylor-12), 2.9 (Stabilized-Taylor-4), 3.5 (Stabilized-Taylor-8), 2.0
 // (Auto), all after 50 s of horizontal_11. At 1e-10 m steps must not lose their last bits.
 TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
-  for (const double tolerance : kTolerances) {
-    for (const char* name : {"single_vertical", "two_masses_45deg", "horizontal_11"}) {
-      const Scene scene = referenceScene(name);
-      const auto integrator = make(scene, tolerance);
-      EXPECT_LT(worstError(*integrator, scene, name, {1, 2, 5, 10, 20, 50}, tolerance), 10.0)
+  const std::pair<const char*, std::vector<int>> cases[] = {
+      {"single_vertical", {1, 2, 5, 10, 20, 50}},
+      {"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
+      {"horizontal_11", {1, 2, 5, 10, 20, 50}},
+      {"light_100", {1, 5}},
+      {"horizontal_1000", {1, 2}}};
+  for (const auto& [name, times] : cases) {
+    const Scene scene = referenceScene(name);
+    for (const double tolerance : kTolerances) {
+      EXPECT_LT(worstError(*make(scene, tolerance), scene, name, times, tolerance), 10.0)
           << name << " at " << tolerance;
     }
-  }
-}
-
-TEST_P(ErrorControlledMethod, KeepsItsToleranceOnLongAndLightChains) {
-  for (const double tolerance : kTolerances) {
-    const Scene light = referenceScene("light_100");
-    EXPECT_LT(worstError(*make(light, tolerance), light, "light_100", {1, 5}, tolerance), 10.0)
-        << tolerance;
-    const Scene longer = referenceScene("horizontal_1000");
-    EXPECT_LT(worstError(*make(longer, tolerance), longer, "horizontal_1000", {1, 2}, tolerance),
-              10.0)
-        << tolerance;
   }
 }
 
@@ -132,19 +125,6 @@ TEST_P(ErrorControlledMethod, GivesTheSameBitsHoweverOftenItIsSampled) {
     EXPECT_EQ(state.values(), expected.values()) << halvings;
     EXPECT_EQ(statisticsOf(*often).accepted, statisticsOf(*once).accepted) << halvings;
   }
-}
-
-TEST_P(ErrorControlledMethod, RestartsFromAnyState) {
-  const Scene scene = referenceScene("two_masses_45deg");
-  const auto used = make(scene, 1e-6);
-  State state = scene.start;
-  used->advance(state, 0.1, 7);
-  used->restart();
-  state = scene.start;
-  used->advance(state, 0.1, 10);
-  State expected = scene.start;
-  make(scene, 1e-6)->advance(expected, 0.1, 10);
-  EXPECT_EQ(state.values(), expected.values());
 }
 
 TEST_P(ErrorControlledMethod, LeavesOneParticleAlone) {
@@ -187,18 +167,6 @@ TEST_P(ErrorControlledMethod, CountsTheDissipatedEnergyOnlyIfAskedTo) {
   EXPECT_EQ(plain->dissipatedEnergy(), 0.0);
   EXPECT_EQ(tracked.values(), state.values());
   EXPECT_EQ(statisticsOf(*tracking).accepted, statisticsOf(*plain).accepted);
-}
-
-TEST_P(ErrorControlledMethod, TellsWhatItDid) {
-  const Scene scene = referenceScene("two_masses_45deg");
-  const auto integrator = make(scene, 1e-6);
-  State state = scene.start;
-  integrator->advance(state, 1.0, 2);
-  const StepStatistics statistics = statisticsOf(*integrator);
-  EXPECT_GT(statistics.accepted, 10);
-  EXPECT_GT(statistics.last_step, 0.0);
-  EXPECT_LE(statistics.last_step, kLongestStep);
-  EXPECT_EQ(statistics.force_evaluations, integrator->forceEvaluations());
 }
 
 }  // namespace

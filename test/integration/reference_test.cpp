@@ -10,6 +10,8 @@
 #include <ostream>
 #include <string>
 
+#include "own_methods.hpp"
+
 namespace spring_pendulum {
 namespace {
 
@@ -86,6 +88,7 @@ int stepsPerSecond(const Method& method) {
 }
 
 TEST(Order, IsTheSlopeOfTheErrorFromBothSides) {
+  registerOwnMethods();
   for (const Method& method : methodTable()) {
     if (!method.hasFixedStep()) continue;
     for (const char* scene_name : {"single_vertical", "two_masses_45deg"}) {

@@ -105,25 +105,5 @@ TEST(ChainSolver, TakesMassesOfAllSizes) {
   }
 }
 
-TEST(ChainSolver, TakesAChainWithoutMovingParticles) {
-  const Chain chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
-  ChainSolver<double> solver(chain);
-  solver.factor({}, 0.1);
-  double x = 3.0, y = 4.0;
-  solver.solve(&x, &y);
-  EXPECT_EQ(x, 3.0);
-  EXPECT_EQ(y, 4.0);
-}
-
-TEST(Complex, MultipliesAndDivides) {
-  const Complex a(2.0, -3.0), b(0.5, 4.0);
-  const Complex product = a * b;
-  EXPECT_EQ(product.re, 13.0);
-  EXPECT_EQ(product.im, 6.5);
-  const Complex quotient = product * reciprocal(b);
-  EXPECT_NEAR(quotient.re, 2.0, 1e-15);
-  EXPECT_NEAR(quotient.im, -3.0, 1e-15);
-}
-
 }  // namespace
 }  // namespace spring_pendulum

@@ -17,41 +17,25 @@ namespace {
 
 struct Maker {
   const char* name;
-  std::unique_ptr<DenseOutputStepper> (*make)(const Chain&, double, const ChainKernels&);
+  std::unique_ptr<DenseOutputStepper> (*make)(const Chain&, const ChainKernels&);
 };
 
-template <int order>
-std::unique_ptr<DenseOutputStepper> makeTaylor(const Chain& chain, double tolerance,
-                                               const ChainKernels& kernels) {
-  return std::make_unique<TaylorStepper>(chain, order, tolerance, kernels);
+/// \tparam kArguments a pointer to an embedded pair, or an order
+template <typename Stepper, auto... kArguments>
+std::unique_ptr<DenseOutputStepper> make(const Chain& chain, const ChainKernels& kernels) {
+  return std::make_unique<Stepper>(chain, kArguments..., 1e-5, kernels);
 }
 
-template <int order>
-std::unique_ptr<DenseOutputStepper> makeStabilized(const Chain& chain, double tolerance,
-                                                   const ChainKernels& kernels) {
-  return std::make_unique<StabilizedTaylorStepper>(chain, order, tolerance, kernels);
-}
-
-template <const EmbeddedPair& kPair>
-std::unique_ptr<DenseOutputStepper> makePair(const Chain& chain, double tolerance,
-                                             const ChainKernels& kernels) {
-  return std::make_unique<EmbeddedRungeKuttaStepper>(chain, &kPair, tolerance, kernels);
-}
-
-std::unique_ptr<DenseOutputStepper> makeRadau(const Chain& chain, double tolerance,
-                                              const ChainKernels& kernels) {
-  return std::make_unique<RadauStepper>(chain, tolerance, kernels);
-}
-
-constexpr Maker kMakers[] = {{"Taylor-7", makeTaylor<7>},
-                             {"Taylor-12", makeTaylor<12>},
-                             {"Stabilized-Taylor-4", makeStabilized<4>},
-                             {"Stabilized-Taylor-8", makeStabilized<8>},
-                             {"Dormand-Prince-5", makePair<kDormandPrince5>},
-                             {"Radau-9", makeRadau}};
+constexpr Maker kMakers[] = {
+    {"Taylor_7", make<TaylorStepper, 7>},
+    {"Taylor_12", make<TaylorStepper, 12>},
+    {"Stabilized_Taylor_4", make<StabilizedTaylorStepper, 4>},
+    {"Stabilized_Taylor_8", make<StabilizedTaylorStepper, 8>},
+    {"Dormand_Prince_5", make<EmbeddedRungeKuttaStepper, &kDormandPrince5>},
+    {"Radau_9", make<RadauStepper>}};
 
 State stateAfterSteps(const test::Scene& scene, const Maker& maker, const ChainKernels& kernels) {
-  const auto stepper = maker.make(scene.chain, 1e-5, kernels);
+  const auto stepper = maker.make(scene.chain, kernels);
   stepper->start(scene.start);
   for (int n = 0; n < 100; ++n) EXPECT_GT(stepper->step(), 0.0);
   State state(scene.start.size());
@@ -76,11 +60,7 @@ TEST_P(OnEveryInstructionSet, HasTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, OnEveryInstructionSet, testing::ValuesIn(kMakers),
-                         [](const testing::TestParamInfo<Maker>& method) {
-                           std::string name = method.param.name;
-                           for (char& c : name) c = c == '-' ? '_' : c;
-                           return name;
-                         });
+                         [](const auto& method) { return std::string(method.param.name); });
 
 }  // namespace
 }  // namespace spring_pendulum

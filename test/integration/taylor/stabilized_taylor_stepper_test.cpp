@@ -86,7 +86,7 @@ TEST(StabilizedPolynomials, ErrorEstimatesKeepClearOfFastModes) {
 
 TEST(StabilizedTaylorStepper, TableOfMethodsStatesTheLargestLimitAndTheLeastTerms) {
   for (const int order : {4, 8}) {
-    const StabilizedPolynomials all = stabilizedPolynomials(order);
+    const auto all = stabilizedPolynomials(order);
     EXPECT_EQ(rowOf(order).real_stability_limit, (all.end() - 1)->real_stability_limit);
     EXPECT_EQ(rowOf(order).stages, all.begin()->terms);
   }
@@ -151,20 +151,6 @@ TEST(StabilizedTaylorStepper, DenseOutputHasTheOrderOfTheMethod) {
   }
 }
 
-TEST(StabilizedTaylorStepper, NeedsAFractionOfTheEvaluationsThatStabilityAsksOfOthers) {
-  for (const char* method : {"Stabilized-Taylor-8", "Taylor-8"}) {
-    test::Scene scene = test::referenceScene("lighter_100");
-    const auto integrator = makeIntegrator(method, scene.chain, {1e-8, false, 1});
-    integrator->advance(scene.start, 1.0, 1);
-    EXPECT_LT(test::positionError(scene.start, test::referenceSolution("lighter_100", 1)), 1e-8);
-    if (std::string(method) == "Taylor-8") {
-      EXPECT_GT(integrator->forceEvaluations(), 7000);
-    } else {
-      EXPECT_LT(integrator->forceEvaluations(), 3000);
-    }
-  }
-}
-
 // A chain that stands upright, but for the last digits, falls through itself. Close to a collision all
 // steps are shortest steps; asked for the accuracy of a vibration, they would not grow again.
 TEST(StabilizedTaylorStepper, GetsPastACollision) {
@@ -183,19 +169,6 @@ TEST(StabilizedTaylorStepper, GetsPastACollision) {
             << order << " " << sideways << " " << tolerance;
       }
     }
-  }
-}
-
-TEST(StabilizedTaylorStepper, DissipatedEnergyClosesTheBalance) {
-  for (const int order : {4, 8}) {
-    test::Scene scene = test::referenceScene("light_100");
-    const double before = computeEnergy(scene.chain, scene.start).total();
-    const auto integrator =
-        makeIntegrator(rowOf(order), scene.chain, IntegratorOptions{1e-8, true, 1});
-    integrator->advance(scene.start, 0.1, 20);
-    const double after = computeEnergy(scene.chain, scene.start).total();
-    EXPECT_GT(integrator->dissipatedEnergy(), 0.4);
-    EXPECT_NEAR(before - after, integrator->dissipatedEnergy(), 1e-8) << order;
   }
 }
 
