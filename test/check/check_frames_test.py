@@ -126,7 +126,7 @@ class Lab:
         self.count += 1
         path = self.folder / f'scene_{self.count}.txt'
         scene = random_scene(self.rng)
-        np.savetxt(path, scene, fmt='%r')
+        np.savetxt(path, scene, fmt='%.17g')
         return scene, path
 
     def rng_array(self, shape):
