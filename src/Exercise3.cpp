@@ -1,12 +1,9 @@
 // The exercise: integrates the motion of a chain of particles and writes one file per frame.
-#include "io/formats/run_files.hpp"
-#include "io/program/closing.hpp"
 #include "io/program/command_line.hpp"
-#include "io/program/exit_status.hpp"
-#include "io/program/interruption.hpp"
+#include "io/program/program.hpp"
 #include "io/program/progress.hpp"
-#include "io/program/standard_streams.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
 namespace spring_pendulum {

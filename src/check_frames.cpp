@@ -3,12 +3,10 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
-#include "io/files/frame_folder_reader.hpp"
-#include "io/files/text_file.hpp"
+#include "io/files/frame_folder.hpp"
+#include "io/files/posix.hpp"
 #include "io/program/command_line.hpp"
-#include "io/program/exit_status.hpp"
-#include "io/program/interruption.hpp"
-#include "io/program/standard_streams.hpp"
+#include "io/program/program.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/run_files.hpp>

@@ -1,8 +1,6 @@
 // The ROS node: integrates the motion of a chain, writes its frames and shows it.
 #include "io/program/command_line.hpp"
-#include "io/program/exit_status.hpp"
-#include "io/program/interruption.hpp"
-#include "io/program/standard_streams.hpp"
+#include "io/program/program.hpp"
 #include "ros/node/node.hpp"
 #include "ros/parameters/parameters.hpp"
 #include <spring_pendulum/base/errors.hpp>

@@ -3,9 +3,8 @@
 #include "base/spelling.hpp"
 #include "io/files/touched_files.hpp"
 #include "io/formats/state_file.hpp"
-#include "io/program/arguments.hpp"
-#include "io/program/exit_status.hpp"
-#include "io/program/standard_streams.hpp"
+#include "io/program/command_line.hpp"
+#include "io/program/program.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 

@@ -8,7 +8,7 @@ symbols=$(nm -DC --defined-only "$1" | cut -d' ' -f3-)
 [ -n "$symbols" ] || die "no symbols"
 foreign=$(grep -vE '^((vtable|typeinfo|typeinfo name) for )?spring_pendulum::' <<< "$symbols" || true)
 [ -z "$foreign" ] || die "foreign symbols:" "$foreign"
-internal=$(grep -E 'Stepper|Kernel|FrameFolder|CheckedIntegrator|parseCommandLine' <<< "$symbols" || true)
+internal=$(grep -E 'Stepper|Kernel|OutputFolder|CheckedIntegrator|parseCommandLine' <<< "$symbols" || true)
 [ -z "$internal" ] || die "internal symbols:" "$internal"
 for name in 'makeIntegrator(' 'registerMethod(' 'Chain::Chain(' 'State::State(' 'readParticleFile('; do
   grep -qF "spring_pendulum::$name" <<< "$symbols" || die "not exported: $name"

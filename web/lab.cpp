@@ -3,10 +3,7 @@
 // The worker (worker.js) calls these functions. Runs read and write files as Exercise3 does; the files
 // are in memory. What Exercise3 prints to standard error goes to standard error here, too.
 #include "integration/tableau.hpp"
-#include "io/formats/run_files.hpp"
-#include "io/program/closing.hpp"
-#include "io/program/exit_status.hpp"
-#include "io/program/standard_streams.hpp"
+#include "io/program/program.hpp"
 #include "simulation/advice/linear_stability.hpp"
 #include <spring_pendulum/spring_pendulum.hpp>
 

@@ -5,7 +5,7 @@
 // more than the digits printed and the rounding errors of the motion allow.
 #pragma once
 
-#include "io/files/frame_folder_reader.hpp"
+#include "io/files/frame_folder.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <functional>

@@ -1,7 +1,7 @@
 // The numbers in the text of frames, and how exactly they were printed.
 #pragma once
 
-#include "io/files/frame_folder_reader.hpp"
+#include "io/files/frame_folder.hpp"
 #include <spring_pendulum/model/scene.hpp>
 
 #include <Eigen/Core>

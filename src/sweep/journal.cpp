@@ -1,8 +1,7 @@
 #include "sweep/journal.hpp"
 
 #include "base/numbers.hpp"
-#include "io/files/paths.hpp"
-#include "io/files/text_file.hpp"
+#include "io/files/posix.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 // last line, which is cut off before anything is appended.
 #pragma once
 
-#include "io/files/file_descriptor.hpp"
+#include "io/files/posix.hpp"
 
 #include <cstdint>
 #include <functional>

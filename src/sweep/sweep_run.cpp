@@ -2,11 +2,9 @@
 
 #include "base/numbers.hpp"
 #include "io/files/output_file.hpp"
-#include "io/files/paths.hpp"
-#include "io/program/exit_status.hpp"
-#include "io/program/interruption.hpp"
+#include "io/files/posix.hpp"
+#include "io/program/program.hpp"
 #include "io/program/progress.hpp"
-#include "io/program/standard_streams.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 

@@ -71,14 +71,6 @@ TEST(Documents, ShowTheExamplesAsTheyAre) {
   EXPECT_THAT(textOf("docs/methods.md"), testing::HasSubstr("```cpp\n" + shown + "```"));
 }
 
-TEST(Documents, ReadmeIsShort) {
-  std::ifstream file(PROJECT_DIR "/README.md");
-  int lines = 0;
-  for (std::string line; std::getline(file, line);) ++lines;
-  EXPECT_GT(lines, 50);
-  EXPECT_LE(lines, 100);  // 89 when written
-}
-
 /// Calls `visit` with every match of `pattern` in `text`.
 template <typename Visitor>
 void forEachMatch(const std::string& text, const std::string& pattern, const Visitor& visit) {

@@ -91,24 +91,21 @@ std::string noNumber(const std::string& line, const std::string& word) {
          " is not a number; write a finite number such as 0.5 or -2e-3";
 }
 
+std::string wrongCount(const std::string& line, const std::string& numbers) {
+  return "particle.txt:" + line + ": " + numbers +
+         " in this line; a particle needs 3: x y m, or 5: x y m vx vy";
+}
+
 const std::string kNoParticles = "particle.txt: no particles; write one line 'x y m' per particle";
 
 INSTANTIATE_TEST_SUITE_P(
     BadRows, ParticleFileRefuses,
     testing::Values(
         BadText{"", kNoParticles}, BadText{"\n# nothing\n\n", kNoParticles},
-        BadText{
-            "0 0 1\n1 0\n",
-            "particle.txt:2: 2 numbers in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
-        BadText{
-            "7",
-            "particle.txt:1: 1 number in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
-        BadText{
-            "0 0 1\n\n# c\n1 0 1 0\n",
-            "particle.txt:4: 4 numbers in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
-        BadText{
-            "0 0 1\n1 0 1 0 0 0\n",
-            "particle.txt:2: 6 numbers in this line; a particle needs 3: x y m, or 5: x y m vx vy"},
+        BadText{"0 0 1\n1 0\n", wrongCount("2", "2 numbers")},
+        BadText{"7", wrongCount("1", "1 number")},
+        BadText{"0 0 1\n\n# c\n1 0 1 0\n", wrongCount("4", "4 numbers")},
+        BadText{"0 0 1\n1 0 1 0 0 0\n", wrongCount("2", "6 numbers")},
         BadText{
             "0 0 1\n\n1 0 1 0 0\n",
             "particle.txt:3: has a velocity, but the particle in line 1 has none; give vx vy for "

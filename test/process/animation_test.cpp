@@ -1,7 +1,5 @@
 // animate_pendulum.plt animates any folder of frames at the true speed.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <utility>
@@ -14,6 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr const char* kData = PROJECT_DIR "/data";
+constexpr const char* kScript = PROJECT_DIR "/data/animate_pendulum.plt";
 
 /// For each picture of a GIF, how long it is shown, in hundredths of a second: the bytes 4 and 5 of
 /// its graphic control extension, 21 F9 04 (GIF89a specification, section 23).
@@ -28,20 +27,18 @@ std::vector<int> delaysOf(const std::string& gif) {
   return delays;
 }
 
-class Animation : public testing::Test {
+class Animation : public Exercise3Test {
  protected:
-  void makeFrames(int frames, const std::string& particles = kTwoParticles) const {
-    folder_.write("particle.txt", particles);
-    ASSERT_EQ(run(exercise3(folder_, {"Euler", "--frames", std::to_string(frames)})).status, 0);
+  void makeFrames(int frames) const {
+    ASSERT_EQ(runWith("Euler --frames " + std::to_string(frames)).status, 0);
   }
 
-  Result gnuplot(const std::string& commands) const {
-    return run({{"gnuplot", "-e", commands}, folder_.path()});
+  /// Loads the script of a path after other commands.
+  Result load(const std::string& path = kScript, const std::string& commands = "") const {
+    return run({{"gnuplot", "-e", commands + "load \"" + path + "\""}, folder_.path()});
   }
 
-  std::vector<int> delays() const { return delaysOf(readFile(folder_.path("pendulum.gif"))); }
-
-  TemporaryFolder folder_;
+  std::vector<int> delays() const { return delaysOf(read("pendulum.gif")); }
 };
 
 TEST_F(Animation, LoadsByBothSpellingsFromTheFolderOrElsewhere) {
@@ -53,7 +50,7 @@ TEST_F(Animation, LoadsByBothSpellingsFromTheFolderOrElsewhere) {
     std::filesystem::copy_file(paths.back(), folder_.path(name));
   }
   for (const std::string& path : paths) {
-    const Result result = gnuplot("load '" + path + "'");
+    const Result result = load(path);
     EXPECT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(delays(), std::vector<int>(3, 10)) << path;  // 0.1 s
     std::filesystem::remove(folder_.path("pendulum.gif"));
@@ -62,9 +59,8 @@ TEST_F(Animation, LoadsByBothSpellingsFromTheFolderOrElsewhere) {
 
 TEST_F(Animation, RunsAtTheTrueSpeed) {
   makeFrames(12);
-  const std::string load = std::string("load \"") + kData + "/animate_pendulum.plt\"";
   const auto delays_at = [&](const std::string& interval) {
-    const Result result = gnuplot("frame_interval = " + interval + "; " + load);
+    const Result result = load(kScript, "frame_interval = " + interval + "; ");
     EXPECT_EQ(result.status, 0) << result.errors;
     return delays();
   };
@@ -75,11 +71,11 @@ TEST_F(Animation, RunsAtTheTrueSpeed) {
 }
 
 TEST_F(Animation, TakesAnyScene) {
-  const std::string load = std::string("load \"") + kData + "/animate_pendulum.plt\"";
   for (const char* particles : {"0 0 1\n", "3 4 1\n3 3 1\n", "-1e6 0 1\n-1e6 1 1\n"}) {
-    makeFrames(2, particles);
+    folder_.write("particle.txt", particles);
+    makeFrames(2);
     folder_.write("frame_notes.txt", "no frame\n");
-    const Result result = gnuplot(load);
+    const Result result = load();
     EXPECT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(delays().size(), 2U) << particles;
   }
@@ -99,18 +95,18 @@ TEST_F(Animation, ShowsTheMotionBeforeADivergence) {
     const std::string far = n < 6 ? "0.5" : "1e9";
     folder_.write(fmt::format("frame_{:04}.txt", n), "0 0\n1 " + far + "\n");
   }
-  const Result result = gnuplot(std::string("load \"") + kData + "/animate_pendulum.plt\"");
+  const Result result = load();
   EXPECT_EQ(result.status, 0) << result.errors;
-  const auto [width, height] = sizeOf(readFile(folder_.path("pendulum.gif")));
+  const auto [width, height] = sizeOf(read("pendulum.gif"));
   EXPECT_EQ(width, 480 + 70);
   EXPECT_EQ(height, 240 + 75);
 }
 
 TEST_F(Animation, TellsWhenThereAreNoFrames) {
-  const Result result = gnuplot(std::string("load \"") + kData + "/animate_pendulum.plt\"");
+  const Result result = load();
   EXPECT_NE(result.status, 0);
   EXPECT_THAT(result.errors, HasSubstr("run gnuplot in the folder of the frames"));
-  EXPECT_TRUE(listFolder(folder_.path()).empty());
+  EXPECT_THAT(list(), testing::ElementsAre("particle.txt"));
 }
 
 }  // namespace

@@ -1,6 +1,12 @@
 // Exercise3 run as a program in a folder of its own.
 #pragma once
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,5 +29,53 @@ inline Command exercise3(const TemporaryFolder& folder, const std::vector<std::s
   command.arguments.insert(command.arguments.end(), options.begin(), options.end());
   return command;
 }
+
+/// Text of each file in a folder and its subfolders, by its path in the folder.
+using Files = std::map<std::string, std::string>;
+
+inline Files filesIn(const std::string& folder) {
+  Files files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::filesystem::path& path = entry.path();
+    if (entry.is_regular_file()) files[path.lexically_relative(folder)] = readFile(path.string());
+  }
+  return files;
+}
+
+/// Splits a command line at blanks; '' is an empty word.
+inline std::vector<std::string> wordsOf(const std::string& line) {
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  while ((begin = line.find_first_not_of(' ', begin)) != std::string::npos) {
+    const std::size_t end = std::min(line.find(' ', begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    if (words.back() == "''") words.back().clear();
+    begin = end;
+  }
+  return words;
+}
+
+inline void expectOneLine(const std::string& text) {
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  EXPECT_EQ(text.back(), '\n');
+}
+
+/// A test in a folder with a particle file.
+class Exercise3Test : public testing::Test {
+ protected:
+  explicit Exercise3Test(const std::string& particles = kTwoParticles) {
+    folder_.write("particle.txt", particles);
+  }
+
+  Command command(const std::string& options) const { return exercise3(folder_, wordsOf(options)); }
+  Result runWith(const std::string& options) const { return run(command(options)); }
+  std::string read(const std::string& name) const { return readFile(folder_.path(name)); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
+  std::vector<std::string> list(const std::string& name = ".") const {
+    return listFolder(folder_.path(name));
+  }
+
+  TemporaryFolder folder_;
+};
 
 }  // namespace spring_pendulum

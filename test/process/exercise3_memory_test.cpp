@@ -3,9 +3,6 @@
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -79,17 +76,23 @@ TEST_F(Exercise3Memory, IsSaidBeforeARunThatIsNotRefused) {
                 ": could not be created: it is a file or lies in one; give a folder\n");
 }
 
-TEST_F(Exercise3Memory, IsRefusedBeforeTheRunIfThereIsLess) {
-  Command command = exercise3(folder_, {"Radau-9", "--particles", "long.txt"});
-  command.prepare = [] {
-    const rlimit memory{60U << 20U, 60U << 20U};
-    if (setrlimit(RLIMIT_AS, &memory) != 0) _exit(1);
-  };
-  const Result result = run(command);
-  EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.errors,
-            "not enough memory: Radau-9 takes up to 0.14 GB of memory for 100000 "
-            "particles, but this process can use only 0.06 GB\n");
+TEST_F(Exercise3Memory, TooLittleIsOneLine) {
+  folder_.write("huge.txt", chainOf(1000000));
+  for (const auto& [options, message] :
+       {std::pair("Radau-9 long.txt",
+                  "not enough memory: Radau-9 takes up to 0.14 GB of memory for 100000 particles, "
+                  "but this process can use only 0.06 GB\n"),
+        std::pair("Euler huge.txt", "not enough memory for a chain of this length\n")}) {
+    Command limited = exercise3(folder_, wordsOf(options));
+    limited.prepare = [] {
+      const rlimit memory{60U << 20U, 60U << 20U};
+      if (setrlimit(RLIMIT_AS, &memory) != 0) _exit(1);
+    };
+    const Result result = run(limited);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.errors, message);
+    EXPECT_EQ(listFolder(folder_.path()).size(), 4U);
+  }
 }
 
 }  // namespace

@@ -1,11 +1,7 @@
 // Runs that save their state and runs that go on from it.
 #include <spring_pendulum/integration/method_table.hpp>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <csignal>
-#include <filesystem>
 #include <sstream>
 
 #include "process/exercise3.hpp"
@@ -15,27 +11,17 @@ namespace {
 
 using testing::HasSubstr;
 
-class Exercise3State : public testing::Test {
+class Exercise3State : public Exercise3Test {
  protected:
-  Exercise3State() { folder_.write("particle.txt", chainOf(50, "0.1")); }
-
-  Result runWith(const std::vector<std::string>& options) const {
-    return run(exercise3(folder_, options));
-  }
-  std::string read(const std::string& name) const { return readFile(folder_.path(name)); }
+  Exercise3State() : Exercise3Test(chainOf(50, "0.1")) {}
 
   /// Runs 6 of 12 frames and saves their state.
-  void save(const std::string& method, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> options{method, "particle.txt", "-o",       "parts", "--frames",
-                                     "6",    "--save-state", "state.txt"};
-    options.insert(options.end(), more.begin(), more.end());
-    ASSERT_EQ(runWith(options).errors, "");
+  void save(const std::string& method, const std::string& more = "") const {
+    const std::string options = " -o parts --frames 6 --save-state state.txt ";
+    ASSERT_EQ(runWith(method + options + more).errors, "");
   }
-  Result resume(const std::string& method, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> options{method,     "state.txt", "-o",      "parts",
-                                     "--frames", "12",        "--resume"};
-    options.insert(options.end(), more.begin(), more.end());
-    return runWith(options);
+  Result resume(const std::string& method, const std::string& more = "") const {
+    return runWith(method + " state.txt -o parts --frames 12 --resume " + more);
   }
 
   /// Expects the line of an error and that no frame is touched.
@@ -44,11 +30,9 @@ class Exercise3State : public testing::Test {
     const Result result = resume("Runge-Kutta-4");
     EXPECT_EQ(result.status, 2) << text;
     EXPECT_THAT(result.errors, HasSubstr(message));
-    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
-    EXPECT_EQ(listFolder(folder_.path("parts")).size(), 6u);
+    expectOneLine(result.errors);
+    EXPECT_EQ(list("parts").size(), 6u);
   }
-
-  TemporaryFolder folder_;
 };
 
 /// Frame, time and energies of each row. The dissipated energy counts from the start of a run.
@@ -67,19 +51,18 @@ TEST_F(Exercise3State, OutputsOfTwoFixedStepRunsAreThoseOfOne) {
   for (const Method& method : methodTable()) {
     if (!method.hasFixedStep()) continue;
     for (const std::string damping : {"0", "1"}) {
-      const std::vector<std::string> options{"--damping", damping, "--time-step", "0.001"};
-      std::vector<std::string> whole{method.name, "particle.txt", "-o", "whole", "--frames", "12"};
-      std::vector<std::string> first = options, second = options;
-      whole.insert(whole.end(), options.begin(), options.end());
-      whole.insert(whole.end(), {"--energy", "whole/e.csv", "--save-state", "whole/state"});
-      first.insert(first.end(), {"--energy", "parts/e.csv"});
-      second.insert(second.end(), {"--energy", "parts/e.csv", "--save-state", "parts/state"});
-      EXPECT_EQ(runWith(whole).status, 0);
-      save(method.name, first);
-      EXPECT_EQ(resume(method.name, second).status, 0);
-      ASSERT_EQ(listFolder(folder_.path("parts")), listFolder(folder_.path("whole")));
-      ASSERT_EQ(listFolder(folder_.path("parts")).size(), 14U);
-      for (const std::string& name : listFolder(folder_.path("whole"))) {
+      const std::string options = " --time-step 0.001 --damping " + damping;
+      EXPECT_EQ(runWith(method.name + options + " -o whole --frames 12 --energy whole/e.csv " +
+                        "--save-state whole/state")
+                    .status,
+                0);
+      save(method.name, options + " --energy parts/e.csv");
+      EXPECT_EQ(
+          resume(method.name, options + " --energy parts/e.csv --save-state parts/state").status,
+          0);
+      ASSERT_EQ(list("parts"), list("whole"));
+      ASSERT_EQ(list("parts").size(), 14U);
+      for (const std::string& name : list("whole")) {
         const std::string expected = read("whole/" + name), text = read("parts/" + name);
         EXPECT_TRUE(name == "e.csv" ? energiesIn(text) == energiesIn(expected) : text == expected)
             << method.name << ' ' << name << '\n'
@@ -90,7 +73,7 @@ TEST_F(Exercise3State, OutputsOfTwoFixedStepRunsAreThoseOfOne) {
 }
 
 TEST_F(Exercise3State, ErrorControlledRunsGoOnWithinTheTolerance) {
-  ASSERT_EQ(runWith({"Auto", "particle.txt", "-o", "whole", "--frames", "12"}).errors, "");
+  ASSERT_EQ(runWith("Auto -o whole --frames 12").errors, "");
   save("Auto");
   ASSERT_EQ(resume("Auto").errors, "");
   std::istringstream whole(read("whole/frame_0011.txt"));
@@ -101,30 +84,29 @@ TEST_F(Exercise3State, ErrorControlledRunsGoOnWithinTheTolerance) {
 }
 
 TEST_F(Exercise3State, SavesEveryDigitWithTheFrameAndItsTime) {
-  save("Runge-Kutta-4", {"--energy", "first.csv"});
+  save("Runge-Kutta-4", "--energy first.csv");
   const std::string state = read("state.txt");
   EXPECT_EQ(state.substr(0, state.find('\n')), "# state of 50 particles at frame 5, t = 0.5 s");
-  EXPECT_EQ(resume("Runge-Kutta-4", {"--energy", "second.csv", "--save-state", "again.txt"}).status,
-            0);
+  EXPECT_EQ(resume("Runge-Kutta-4", "--energy second.csv --save-state again.txt").status, 0);
   EXPECT_THAT(read("first.csv"), HasSubstr("\n5,0.5,"));
   EXPECT_THAT(read("second.csv"), HasSubstr("\n5,0.5,"));
   EXPECT_THAT(read("second.csv"), HasSubstr("\n11,1.1,"));
   // A run that starts where it ends writes the state that it reads.
-  const Result result = runWith({"Runge-Kutta-4", "again.txt", "--resume", "--frames", "12",
-                                 "--no-frames", "--save-state", "copy.txt"});
-  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(
+      runWith("Runge-Kutta-4 again.txt --resume --frames 12 --no-frames --save-state copy.txt")
+          .status,
+      0);
   EXPECT_EQ(read("copy.txt"), read("again.txt"));
 }
 
 TEST_F(Exercise3State, ASignalSavesTheLastFrame) {
-  std::vector<std::string> options{
-      "Runge-Kutta-4",     "particle.txt", "-o",          "parts", "--frames",     "1000000",
-      "--steps-per-frame", "1000",         "--time-step", "1e-4",  "--save-state", "state.txt"};
-  Process process(exercise3(folder_, options));
-  process.waitForFile(folder_.path("parts/frame_0002.txt"));
+  Process process(
+      command("Runge-Kutta-4 -o parts --frames 1000000 --steps-per-frame 1000 --time-step 1e-4 "
+              "--save-state state.txt"));
+  process.waitForFile(path("parts/frame_0002.txt"));
   process.sendSignal(SIGINT);
   EXPECT_EQ(process.wait().status, 128 + SIGINT);
-  const std::string last = listFolder(folder_.path("parts")).back();
+  const std::string last = list("parts").back();
   const std::string frame = std::to_string(std::stoi(last.substr(6)));
   EXPECT_THAT(read("state.txt"),
               testing::StartsWith("# state of 50 particles at frame " + frame + ","));
@@ -156,8 +138,7 @@ TEST_F(Exercise3State, RefusesStatesThatDoNotFit) {
 
 TEST_F(Exercise3State, AStateIsAnOrdinaryParticleFileToo) {
   save("Runge-Kutta-4");
-  const Result result = runWith({"Runge-Kutta-4", "state.txt", "-o", "again", "--frames", "2"});
-  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(runWith("Runge-Kutta-4 state.txt -o again --frames 2").status, 0);
   EXPECT_EQ(read("again/frame_0000.txt"), read("parts/frame_0005.txt"));
 }
 

@@ -1,9 +1,5 @@
 // Every system call of a run for its files fails once: one line, exit status 1, and no file lost or
 // incomplete. See support/fault_injection.cpp.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <map>
@@ -16,16 +12,6 @@ namespace spring_pendulum {
 namespace {
 
 using testing::AnyOf;
-
-using Files = std::map<std::string, std::string>;  // text by name
-
-Files filesIn(const std::string& folder) {
-  Files files;
-  for (const std::string& name : listFolder(folder)) {
-    files[name] = readFile(std::filesystem::path(folder) / name);
-  }
-  return files;
-}
 
 bool isUnfinished(const std::string& name) {
   return name.find(".tmp") != std::string::npos;

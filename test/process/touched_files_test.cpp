@@ -1,8 +1,5 @@
 // No file of a run has two uses: every output option of every program, pointed at every input and at the
 // other outputs. All inputs stay byte for byte the same, and a run that is refused touches nothing.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <fcntl.h>
 #include <filesystem>
 #include <map>
@@ -35,16 +32,6 @@ struct Program {
   std::vector<std::string> outputs;           ///< options
 };
 
-using Files = std::map<std::string, std::string>;
-
-Files filesIn(const TemporaryFolder& folder) {
-  Files files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
-    if (entry.is_regular_file()) files[entry.path().string()] = readFile(entry.path().string());
-  }
-  return files;
-}
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
@@ -60,13 +47,13 @@ class TouchedFiles : public testing::Test {
     folder.write("o/frame_0009.txt", "earlier\n");
     Files inputs;
     for (const auto& [name, text] : program.inputs) {
-      const std::string path = folder.path(name == input ? place : name);
-      folder.write(name == input ? place : name, replaced(text, input, place));
-      inputs[path] = readFile(path);
+      const std::string path = name == input ? place : name;
+      inputs[path] = replaced(text, input, place);
+      folder.write(path, inputs[path]);
     }
     fs::create_symlink(place, folder.path("soft"));
     fs::create_hard_link(folder.path(place), folder.path("hard"));
-    const Files before = filesIn(folder);
+    const Files before = filesIn(folder.path());
     Command command{{}, folder.path(), {}, {}};
     for (const std::string& word : program.command) {
       command.arguments.push_back(word == input ? place : word);
@@ -87,7 +74,7 @@ class TouchedFiles : public testing::Test {
     SCOPED_TRACE(result.errors);
     EXPECT_LE(result.status, 2);
     ++(result.status == 0 ? accepted_ : refused_);
-    Files after = filesIn(folder);
+    Files after = filesIn(folder.path());
     for (const auto& [path, text] : result.status == 0 ? inputs : before) {
       EXPECT_EQ(after[path], text) << path;
     }
@@ -172,9 +159,47 @@ TEST_F(TouchedFiles, OfRecordBagAreNoInputs) {
   program.command[0] = RECORD_BAG;
   program.outputs = {"--bag"};
   checkAgainstInputs(program);
+  const TemporaryFolder folder;
+  const std::string bag = folder.path("inputs.bag");
+  ASSERT_EQ(
+      run({{RECORD_BAG, "Euler", folder.write("in.txt", kTwoParticles), "--bag", bag}}).status, 0);
+  // The bag has no inputs, so the program ends with status 2; without the check, it would be replaced first.
+  checkAgainstInputs({{RECORD_BAG, "--inputs", "in.bag"},
+                      {{"in.bag", readFile(bag)}},
+                      {"--bag", "--output", "--energy", "--save-state"}});
   expectBoth(20);
 }
 #endif
+
+/// A name in an error message neither forges a line nor controls the terminal.
+TEST(StrangeNames, MakeOneLineInEveryProgram) {
+  const std::vector<std::vector<std::string>> programs{
+      {EXERCISE3, "Euler", "--no-frames", "--particles"},
+      {EXERCISE3, "Euler", "--no-frames", "--config"},
+      {EXERCISE3, "Euler", "--no-frames", "--energy"},
+      {SWEEP},
+      {CHECK_FRAMES},
+      {CHECK_FRAMES, "o", "--tableau"},
+#ifdef RECORD_BAG
+      {RECORD_BAG, "--inputs"},
+      {RECORD_BAG, "Euler", "--bag"},
+#endif
+  };
+  const TemporaryFolder folder;
+  folder.write("particle.txt", kTwoParticles);
+  for (const std::string name : {" a b ", "a\nb\x1b[31m", "-dash", "\xff"}) {
+    fs::create_directory(folder.path(name));  // where a file should be
+    for (std::vector<std::string> arguments : programs) {
+      arguments.push_back(name);
+      const Result result = run({arguments, folder.path()});
+      SCOPED_TRACE(testing::PrintToString(arguments) + result.errors);
+      EXPECT_THAT(result.status, testing::AnyOf(1, 2));
+      EXPECT_EQ(result.output, "");
+      expectOneLine(result.errors);
+      EXPECT_EQ(result.errors.find_first_of("\x1b\xff"), std::string::npos);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace spring_pendulum

@@ -28,7 +28,6 @@ class RunFiles {
   /// \throws InputError, FileError naming the file
   RunFiles(const Run& run, const Scenario& scenario, const std::string& config = "");
   ~RunFiles();
-  RunFiles(RunFiles&& other) noexcept;
 
   /// Writes the current frame of a run unless it has been written before or must not be shown.
   /// \throws FileError naming the file

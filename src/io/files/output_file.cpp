@@ -1,22 +1,27 @@
 #include "io/files/output_file.hpp"
 
 #include "io/files/frame_folder.hpp"
-#include "io/files/paths.hpp"
+#include "io/files/posix.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
-#include <sys/stat.h>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr mode_t kPermissions = 0666;  // reduced by the umask
+constexpr std::size_t kBufferSize = 1 << 16;
 
 /// Returns the path behind symbolic links.
 /// \throws InputError, FileError if an output must not be written there
@@ -40,21 +45,129 @@ std::string targetOf(const std::string& path) {
   return target;
 }
 
-std::string folderOf(const std::string& path) {
-  const fs::path folder = fs::path(path).parent_path();
-  return folder.empty() ? "." : folder.string();
-}
-
 }  // namespace
 
+OutputFolder::OutputFolder(const std::string& path) : given_path_(path), path_(fullPath(path)) {
+  std::error_code error, ignored;
+  fs::create_directories(path, error);
+  // For a link that leads nowhere, older standard libraries report that it is not a folder.
+  const bool leads_nowhere = fs::is_symlink(path, ignored) && !fs::exists(path, ignored);
+  if (error == std::errc::file_exists || (error && leads_nowhere)) {
+    throw FileError(path_ + ": could not be created: it is a link to a folder that does not exist");
+  }
+  if (error == std::errc::not_a_directory) {
+    throw FileError(path_ + ": could not be created: it is a file or lies in one; give a folder");
+  }
+  if (error) throw FileError(fmt::format("{}: could not be created: {}", path_, error.message()));
+  descriptor_ = FileDescriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor_.isOpen()) return;
+  throw FileError(fmt::format("{}: could not be opened: {}", path_, messageForErrno()));
+}
+
+void OutputFolder::checkPath() const {
+  struct stat by_path {};
+  struct stat opened {};
+  const bool leads_here = ::stat(given_path_.c_str(), &by_path) == 0 &&
+                          ::fstat(descriptor_.get(), &opened) == 0 && isSameFile(by_path, opened);
+  if (leads_here) return;
+  throw FileError(path_ + ": was moved or removed during the run, and its files with it");
+}
+
+std::string hiddenName(const std::string& name) {
+  return "." + name + ".tmp";
+}
+
+AtomicFile::AtomicFile(const OutputFolder& folder, std::string name, std::string path, Lock lock)
+    : folder_(folder), name_(std::move(name)), hidden_(hiddenName(name_)), path_(std::move(path)) {
+  do {
+    open(lock == Lock::kNone ? O_EXCL : O_NONBLOCK);
+  } while (lock != Lock::kNone && !takeLock());
+}
+
+void AtomicFile::open(int flags) {
+  file_ =
+      FileDescriptor(::openat(folder_.descriptor(), hidden_.c_str(),
+                              O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, kPermissions));
+  if (file_.isOpen()) return;
+  const std::string reason = messageForErrno();
+  struct stat taken {};
+  if (::fstatat(folder_.descriptor(), hidden_.c_str(), &taken, AT_SYMLINK_NOFOLLOW) == 0) {
+    refuseTaken();
+  }
+  refuse("could not be written: " + reason);
+}
+
+bool AtomicFile::takeLock() {
+  if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    refuse("another run is writing here; use a different path for each run");
+  }  // a file system without locks is not an error
+  struct stat opened {};
+  struct stat by_name {};
+  if (::fstat(file_.get(), &opened) != 0) refuseForErrno();
+  if (!S_ISREG(opened.st_mode) || opened.st_nlink > 1) refuseTaken();
+  const bool has_its_name =
+      ::fstatat(folder_.descriptor(), hidden_.c_str(), &by_name, AT_SYMLINK_NOFOLLOW) == 0 &&
+      isSameFile(by_name, opened);
+  if (!has_its_name) return false;
+  if (opened.st_size > 0 && ::ftruncate(file_.get(), 0) != 0) refuseForErrno();
+  return true;
+}
+
+void AtomicFile::discard() {
+  if (file_.isOpen()) ::unlinkat(folder_.descriptor(), hidden_.c_str(), 0);
+  file_.close();
+}
+
+void AtomicFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(file_.get(), text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuseForErrno();
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+void AtomicFile::finish() {
+  // Closing a duplicate reports write errors of a network file system and keeps the lock.
+  FileDescriptor copy(::fcntl(file_.get(), F_DUPFD_CLOEXEC, 0));
+  const int folder = folder_.descriptor();
+  if (!copy.isOpen() || !copy.close() ||
+      ::renameat(folder, hidden_.c_str(), folder, name_.c_str()) != 0) {
+    refuseForErrno();
+  }
+  file_.close();
+}
+
+void AtomicFile::refuse(const std::string& reason) const {
+  throw FileError(fmt::format("{}: {}", path_, reason));
+}
+
+void AtomicFile::refuseTaken() const {
+  refuse(fmt::format("needs the name {}, which is taken; remove that file", hidden_));
+}
+
+void AtomicFile::refuseForErrno() const {
+  refuse("could not be written: " + messageForErrno());
+}
+
 OutputFile::OutputFile(const std::string& path)
-    : path_(fullPath(path)),
-      target_(targetOf(path)),
-      folder_(folderOf(target_)),
-      file_(folder_, fs::path(target_).filename().string(), path_, AtomicFile::Lock::kOneWriter) {
+    : target_(targetOf(path)),
+      folder_((fs::path(".") / target_).parent_path().string()),
+      file_(folder_, fs::path(target_).filename().string(), fullPath(path),
+            AtomicFile::Lock::kOneWriter) {
   struct stat earlier {};
   const bool exists = ::stat(target_.c_str(), &earlier) == 0;
   if (exists) ::fchmod(file_.descriptor(), earlier.st_mode & 0777U);  // not all file systems can
+}
+
+void OutputFile::write(std::string_view text) {
+  text_ += text;
+  if (text_.size() >= kBufferSize) flush();
+}
+
+void OutputFile::flush() {
+  file_.write(text_);
+  text_.clear();
 }
 
 bool OutputFile::copyEarlier() {
@@ -66,7 +179,8 @@ bool OutputFile::copyEarlier() {
   return !error;
 }
 
-std::string OutputFile::unfinishedPath() const {
+std::string OutputFile::unfinishedPath() {
+  flush();
   return fmt::format("/proc/self/fd/{}", file_.descriptor());
 }
 
@@ -77,6 +191,7 @@ std::uintmax_t OutputFile::size() const {
 }
 
 void OutputFile::finish() {
+  flush();
   file_.finish();
   folder_.checkPath();
 }

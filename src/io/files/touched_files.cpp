@@ -1,8 +1,7 @@
 #include "io/files/touched_files.hpp"
 
-#include "io/files/atomic_file.hpp"
 #include "io/files/frame_folder.hpp"
-#include "io/files/paths.hpp"
+#include "io/files/posix.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
@@ -66,6 +65,12 @@ void checkPair(const Touched& a, const Touched& b) {
 }
 
 }  // namespace
+
+TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config) {
+  return {{scenario.particles, config},
+          {scenario.energy, scenario.save_state},
+          scenario.no_frames ? "" : scenario.output};
+}
 
 void checkTouchedFiles(const TouchedFiles& files) {
   std::vector<Touched> touched;

@@ -18,10 +18,10 @@ constexpr Eigen::Index kLargeFrame = 1000;
 }  // namespace
 
 FrameWriter::FrameWriter(const std::string& folder, std::int64_t first)
-    : folder_([&] {
-        const Stopwatch stopwatch(seconds_);
-        return FrameFolder(folder, first);
-      }()) {}
+    : folder_(folder), lock_(folder_, kFramesLock, folder_.path(), AtomicFile::Lock::kOneWriter) {
+  const Stopwatch stopwatch(seconds_);
+  earlier_frames_ = removeFrames(folder_, first);
+}
 
 FrameWriter::~FrameWriter() {
   stop();
@@ -29,18 +29,16 @@ FrameWriter::~FrameWriter() {
 
 void FrameWriter::write(std::int64_t index, const State& state) {
   const bool gains = state.size() >= kLargeFrame && std::thread::hardware_concurrency() > 1;
-  if (gains && !thread_.joinable()) startThread();
+  if (gains && !thread_.joinable()) {
+    try {
+      thread_ = std::thread([this] { work(); });
+    } catch (const std::system_error&) {  // the system refuses a thread: write in this one
+    }
+  }
   if (thread_.joinable()) {
     handOver(index, state);
   } else {
     writeNow(index, state);
-  }
-}
-
-void FrameWriter::startThread() {
-  try {
-    thread_ = std::thread([this] { work(); });
-  } catch (const std::system_error&) {  // the system refuses a thread: write in this one
   }
 }
 
@@ -87,7 +85,8 @@ void FrameWriter::finish() {
   stop();
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   const Stopwatch stopwatch(seconds_);
-  folder_.close();
+  lock_.discard();
+  folder_.checkPath();
 }
 
 void FrameWriter::writeNow(std::int64_t index, const State& state) {
@@ -96,7 +95,8 @@ void FrameWriter::writeNow(std::int64_t index, const State& state) {
   const double* const x = state.x().data();
   const double* const y = state.y().data();
   text_.resize(static_cast<std::size_t>(std::min(size, kLinesAtOnce)) * kLongestLine);
-  AtomicFile file = folder_.begin(index);
+  const std::string name = frameName(index);
+  AtomicFile file(folder_, name, folder_.path() + "/" + name, AtomicFile::Lock::kNone);
   for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
     char* end = text_.data();
     for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {

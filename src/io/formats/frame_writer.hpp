@@ -25,7 +25,9 @@ namespace spring_pendulum {
 /// particles took 1.19 times as long (median of 14 pairs of runs).
 class FrameWriter {
  public:
-  /// Same arguments and errors as FrameFolder.
+  /// Creates the folder if needed, locks it, and removes the frames of an earlier run.
+  /// \param first number of the first frame to be written; frames before it stay
+  /// \throws FileError naming the folder or file
   explicit FrameWriter(const std::string& folder, std::int64_t first = 0);
   /// Waits until the last frame is written.
   ~FrameWriter();
@@ -42,19 +44,20 @@ class FrameWriter {
   /// Absolute path of the folder.
   const std::string& folder() const { return folder_.path(); }
   /// Number of removed frames of an earlier run.
-  std::int64_t earlierFrames() const { return folder_.earlierFrames(); }
+  std::int64_t earlierFrames() const { return earlier_frames_; }
   /// Wall-clock time spent formatting and writing in either thread, s. Valid after `finish`.
   double seconds() const { return seconds_; }
 
  private:
-  void startThread();
   void handOver(std::int64_t index, const State& state);
   void work();
   void stop();
   void writeNow(std::int64_t index, const State& state);
 
   double seconds_ = 0.0;
-  FrameFolder folder_;
+  OutputFolder folder_;
+  AtomicFile lock_;  ///< never finished: it also shows that the folder is writable
+  std::int64_t earlier_frames_ = 0;
   std::vector<char> text_;  ///< buffer for some lines of a frame
 
   std::mutex mutex_;

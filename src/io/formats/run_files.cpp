@@ -1,17 +1,18 @@
-#include "io/formats/run_files.hpp"
-
 #include "base/numbers.hpp"
-#include "io/files/paths.hpp"
-#include "io/formats/energy_file.hpp"
+#include "io/files/posix.hpp"
+#include "io/files/touched_files.hpp"
 #include "io/formats/frame_writer.hpp"
 #include "io/formats/state_file.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -19,17 +20,32 @@
 namespace spring_pendulum {
 namespace {
 
-bool writesFrames(const Scenario& scenario) {
-  return !scenario.no_frames && !scenario.output.empty();
+/// Begins the energy balance of a run as CSV: one row per frame. Every number is the shortest text that
+/// reads back as the same double; the position error is nan where it is not measured.
+/// \param first frame of the first row; rows of earlier frames that the file has stay in it
+void beginEnergies(OutputFile& file, std::int64_t first) {
+  file.write(
+      "frame,time [s],kinetic [J],gravity [J],spring [J],total [J],dissipated [J],residual [J],"
+      "residual/scale [1],position error [m]\n");
+  std::ifstream earlier(first > 0 ? file.path() : "");
+  for (std::string row; std::getline(earlier, row);) {
+    const auto frame = parseInteger(row.substr(0, row.find(',')));
+    if (frame.value_or(first) < first) file.write(row + '\n');
+  }
+}
+
+std::string energyRow(std::int64_t frame, const EnergyEntry& entry, double position_error) {
+  std::string row = std::to_string(frame);
+  for (const double value :
+       {entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
+        entry.energy.total(), entry.dissipated.value(), entry.residual.value(),
+        entry.relative_residual.value(), position_error}) {
+    row += ',' + numberText(value);
+  }
+  return row + '\n';
 }
 
 }  // namespace
-
-TouchedFiles touchedFiles(const Scenario& scenario, const std::string& config) {
-  return {{scenario.particles, config},
-          {scenario.energy, scenario.save_state},
-          writesFrames(scenario) ? scenario.output : ""};
-}
 
 Scene readScene(const Scenario& scenario, std::string_view argument) {
   namespace fs = std::filesystem;
@@ -44,27 +60,23 @@ Scene readScene(const Scenario& scenario, std::string_view argument) {
 }
 
 struct RunFiles::Files {
-  std::optional<EnergyFile> energy;
-  std::optional<StateFile> state;
+  std::optional<OutputFile> energy, state;
+  Scene last;  ///< what the state file gets
+  double last_time = 0.0;
   std::optional<FrameWriter> frames;
-  std::int64_t next_frame = 0;
-  std::map<std::int64_t, std::int64_t> left_out;  ///< first frame and end of what a jump left out
+  std::map<std::int64_t, std::int64_t> missing;  ///< first frame and end of what is not written
   bool finished = false;
 
-  /// Whether a frame is not written yet; counts it as written.
+  /// Whether a frame is to be written; counts it as written.
   bool takes(std::int64_t frame) {
-    if (frame >= next_frame) {
-      if (frame > next_frame) left_out[next_frame] = frame;
-      next_frame = frame + 1;
-      return true;
-    }
-    const auto after = left_out.upper_bound(frame);
-    if (after == left_out.begin()) return false;
+    if (!frames && !energy && !state) return false;
+    const auto after = missing.upper_bound(frame);
+    if (after == missing.begin()) return false;
     const auto [first, end] = *std::prev(after);
     if (frame >= end) return false;
-    left_out.erase(first);
-    if (first < frame) left_out[first] = frame;
-    if (frame + 1 < end) left_out[frame + 1] = end;
+    missing.erase(first);
+    if (first < frame) missing[first] = frame;  // a run may jump to a later frame and back
+    if (frame + 1 < end) missing[frame + 1] = end;
     return true;
   }
 
@@ -78,32 +90,41 @@ struct RunFiles::Files {
 
 RunFiles::RunFiles(const Run& run, const Scenario& scenario, const std::string& config)
     : files_(new Files) {
-  files_->next_frame = run.firstFrame();
-  checkTouchedFiles(touchedFiles(scenario, config));
-  if (!scenario.energy.empty()) files_->energy.emplace(scenario.energy, run.firstFrame());
+  files_->missing[run.firstFrame()] = std::numeric_limits<std::int64_t>::max();
+  const TouchedFiles touched = touchedFiles(scenario, config);
+  checkTouchedFiles(touched);
+  if (!scenario.energy.empty()) {
+    beginEnergies(files_->energy.emplace(scenario.energy), run.firstFrame());
+  }
   if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);
-  if (writesFrames(scenario)) {
-    files_->frames.emplace(scenario.output, run.firstFrame());
+  if (!touched.frame_folder.empty()) {
+    files_->frames.emplace(touched.frame_folder, run.firstFrame());
   }
 }
 
 RunFiles::~RunFiles() = default;
-RunFiles::RunFiles(RunFiles&&) noexcept = default;
 
 void RunFiles::write(const Run& run) {
   Files& to = *files_;
   const std::int64_t frame = run.frame();
   if (to.finished || !run.isAtFrame() || !run.isShown() || !to.takes(frame)) return;
   if (to.frames) to.frames->write(frame, run.state());
-  if (to.energy) to.energy->write(frame, run.energyEntry(), run.positionError().now);
-  if (to.state) to.state->keep(run);
+  if (to.energy) to.energy->write(energyRow(frame, run.energyEntry(), run.positionError().now));
+  if (!to.state) return;
+  if (to.last.masses.size() == 0) to.last.masses = run.chain().masses();
+  to.last.state = run.state();
+  to.last.frame = frame;
+  to.last_time = run.time();
 }
 
 void RunFiles::finish() {
   if (files_->finished) return;
   files_->finished = true;
   if (files_->energy) files_->energy->finish();
-  if (files_->state) files_->state->finish();
+  const Scene& last = files_->last;
+  if (last.masses.size() > 0) {  // else no frame was reached
+    writeState(*files_->state, last.masses.view(), last.state, last.frame, files_->last_time);
+  }
   if (files_->frames) files_->frames->finish();
 }
 

@@ -1,14 +1,14 @@
 #include "io/program/command_line.hpp"
 
 #include "base/spelling.hpp"
-#include "io/files/text_file.hpp"
+#include "io/files/posix.hpp"
 #include "io/formats/yaml_tree.hpp"
-#include "io/program/arguments.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 
-#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/errors.hpp>
+#include <boost/program_options/parsers.hpp>
 #include <boost/program_options/value_semantic.hpp>
 #include <fmt/format.h>
 
@@ -23,8 +23,13 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr std::string_view kMethodKey = "method";
-constexpr std::string_view kParticlesKey = "particles";
 constexpr unsigned kLineLength = 90;
+
+std::string unknownOption(const std::string& name, const po::options_description& description) {
+  std::vector<std::string> known;
+  for (const auto& option : description.options()) known.push_back("--" + option->long_name());
+  return unknownName("option", name, known);
+}
 
 /// `time-step` for `time_step`
 std::string optionName(std::string_view key) {
@@ -33,15 +38,12 @@ std::string optionName(std::string_view key) {
   return name;
 }
 
-/// `particles,p`: the name for the parser, with a letter for the most frequent options.
-std::string withLetter(const std::string& name) {
-  return name == "particles" || name == "output" ? name + ',' + name[0] : name;
-}
-
 void addWithValue(po::options_description& description, const std::string& name,
                   const std::string& placeholder, const std::string& help) {
-  description.add_options()(withLetter(name).c_str(),
-                            po::value<std::string>()->value_name(placeholder), help.c_str());
+  const bool has_letter = name == "particles" || name == "output";
+  const std::string names = has_letter ? name + ',' + name[0] : name;  // "particles,p"
+  description.add_options()(names.c_str(), po::value<std::string>()->value_name(placeholder),
+                            help.c_str());
 }
 
 bool isOnCommandLine(const Option& option, const ProgramText& program) {
@@ -143,10 +145,10 @@ void setPositional(const std::vector<std::string>& texts, const std::vector<po::
     if (isMethod(texts[i])) {
       throw InputError(fmt::format("{}: give only one METHOD", inQuotes(texts[i])));
     }
-    if (i > 1 || has(given, kParticlesKey)) {
+    if (i > 1 || has(given, "particles")) {
       throw InputError(fmt::format("{}: give only one particle file", inQuotes(texts[i])));
     }
-    options.set(options.find(kParticlesKey, ""), texts[i], "FILE");
+    options.set(options.find("particles", ""), texts[i], "FILE");
   }
 }
 
@@ -189,6 +191,42 @@ void refuseUnused(const OptionSet& options, const Scenario& scenario) {
   for (const std::string_view key : unusedKeys(scenario, options)) {
     if (options.placeOf(key) != dashed(key)) continue;
     throw InputError(fmt::format("{}: {}", dashed(key), whyUnused(scenario.method, dashed)));
+  }
+}
+
+std::vector<po::option> splitArguments(int argc, const char* const* argv,
+                                       const po::options_description& description) {
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  namespace style = po::command_line_style;
+  try {
+    std::vector<po::option> options = po::command_line_parser(arguments)
+                                          .options(description)
+                                          .style(style::unix_style & ~style::allow_guessing)
+                                          .run()
+                                          .options;
+    std::set<std::string> given;
+    for (const po::option& option : options) {
+      const std::vector<std::string>& tokens = option.original_tokens;
+      if (option.string_key.empty()) continue;
+      if (!given.insert(option.string_key).second)
+        throw InputError(fmt::format("--{}: is given twice", option.string_key));
+      if (tokens.size() < 2 || tokens[1].rfind("--", 0) != 0) continue;
+      throw InputError(fmt::format("--{}: needs a value, see --help", option.string_key));
+    }
+    return options;
+  } catch (const po::unknown_option& error) {
+    throw InputError(unknownOption(error.get_option_name(), description));
+  } catch (const po::invalid_command_line_syntax& error) {
+    const std::string name = error.get_option_name();
+    const std::size_t begin = name.find_first_not_of('-');
+    const po::option_description* const option =
+        begin < name.size() ? description.find_nothrow(name.substr(begin), false) : nullptr;
+    if (option == nullptr) throw InputError(unknownOption(name, description));
+    const bool takes_value = option->semantic()->max_tokens() > 0;
+    throw InputError(
+        fmt::format("{}: {} value, see --help", name, takes_value ? "needs a" : "takes no"));
+  } catch (const po::error& error) {
+    throw InputError(fmt::format("{}, see --help", error.what()));
   }
 }
 

@@ -5,6 +5,9 @@
 #include "simulation/options/option_set.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 
+#include <boost/program_options/option.hpp>
+#include <boost/program_options/options_description.hpp>
+
 #include <functional>
 #include <set>
 #include <string>
@@ -61,6 +64,13 @@ Switches parseCommandLine(int argc, const char* const* argv, const ProgramText& 
 /// On the command line, unlike in a file, an option that the method does not use is an error.
 /// \throws InputError
 void refuseUnused(const OptionSet& options, const Scenario& scenario);
+
+/// Returns the arguments in their order; one without a name is positional.
+/// \param argv the name of the program and its arguments
+/// \throws InputError for an unknown option, with the one that was probably meant, or a missing value
+std::vector<boost::program_options::option> splitArguments(
+    int argc, const char* const* argv,
+    const boost::program_options::options_description& description);
 
 /// Returns the meaning of an option with its default in brackets, for the help text.
 std::string optionHelp(const Option& option);

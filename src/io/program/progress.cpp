@@ -1,7 +1,7 @@
 #include "io/program/progress.hpp"
 
 #include "base/numbers.hpp"
-#include "io/program/standard_streams.hpp"
+#include "io/program/program.hpp"
 
 #include <fmt/format.h>
 
@@ -10,21 +10,13 @@
 #include <utility>
 
 namespace spring_pendulum {
-namespace {
-
-constexpr std::chrono::seconds kFirstDelay{1};
-constexpr std::chrono::milliseconds kNextDelay{200};
-constexpr std::chrono::minutes kDelayInLog{1};
-
-}  // namespace
 
 Progress::Progress(std::int64_t total, std::string unit)
     : total_(std::max<std::int64_t>(1, total)),
       unit_(std::move(unit)),
       is_terminal_(::isatty(STDERR_FILENO) == 1),
-      next_time_(start_) {
-  next_time_ += is_terminal_ ? Clock::duration(kFirstDelay) : Clock::duration(kDelayInLog);
-}
+      delay_(is_terminal_ ? 1 : 60),
+      next_time_(start_ + delay_) {}
 
 Progress::~Progress() {
   if (is_visible_) printError("\r\x1b[K");
@@ -34,7 +26,7 @@ void Progress::show(std::int64_t done) {
   if (done_before_ < 0) done_before_ = done;
   const Clock::time_point now = Clock::now();
   if (now < next_time_) return;
-  next_time_ = now + (is_terminal_ ? Clock::duration(kNextDelay) : kDelayInLog);
+  next_time_ = now + delay_;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double rate = static_cast<double>(done - done_before_) / seconds;
   const double left = static_cast<double>(std::max<std::int64_t>(0, total_ - done));

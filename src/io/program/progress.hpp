@@ -8,8 +8,7 @@
 
 namespace spring_pendulum {
 
-/// On a terminal, a line that is replaced five times per second after the first second; elsewhere, a new
-/// line per minute.
+/// On a terminal, a line that is replaced every second; elsewhere, a new line per minute.
 class Progress {
  public:
   /// \param unit what is counted, in the plural
@@ -28,6 +27,7 @@ class Progress {
   std::string unit_;
   bool is_terminal_;
   bool is_visible_ = false;
+  std::chrono::seconds delay_;
   std::int64_t done_before_ = -1;  ///< in the first call; -1: not called yet
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_time_;

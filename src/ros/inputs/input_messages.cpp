@@ -1,7 +1,7 @@
 #include "ros/inputs/input_messages.hpp"
 
 #include "base/numbers.hpp"
-#include "io/files/text_file.hpp"
+#include "io/files/posix.hpp"
 #include "simulation/options/option_set.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>

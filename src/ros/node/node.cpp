@@ -1,9 +1,10 @@
 #include "ros/node/node.hpp"
 
 #include "base/numbers.hpp"
-#include "io/files/paths.hpp"
+#include "io/files/posix.hpp"
+#include "io/files/touched_files.hpp"
 #include "io/formats/state_file.hpp"
-#include "io/program/interruption.hpp"
+#include "io/program/program.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 

@@ -1,7 +1,6 @@
 // The node: one loop that owns a run, shows its states in time, and acts on requests between them.
 #pragma once
 
-#include "io/formats/run_files.hpp"
 #include "ros/inputs/driver.hpp"
 #include "ros/inputs/handles.hpp"
 #include "ros/inputs/robots.hpp"
@@ -12,6 +11,7 @@
 #include "ros/node/run_log.hpp"
 #include "ros/parameters/parameters.hpp"
 #include <spring_pendulum/PendulumState.h>
+#include <spring_pendulum/io/run_files.hpp>
 
 #include <memory>
 #include <string>

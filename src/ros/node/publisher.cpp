@@ -1,7 +1,7 @@
 #include "ros/node/publisher.hpp"
 
 #include "base/numbers.hpp"
-#include "io/program/interruption.hpp"
+#include "io/program/program.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,8 @@
 #include "ros/node/run_log.hpp"
 
 #include "base/numbers.hpp"
-#include "io/files/paths.hpp"
-#include "io/program/closing.hpp"
-#include "io/program/interruption.hpp"
-#include "io/program/standard_streams.hpp"
+#include "io/files/posix.hpp"
+#include "io/program/program.hpp"
 #include <spring_pendulum/simulation/outcome.hpp>
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // The log messages of a node about its run.
 #pragma once
 
-#include "io/formats/run_files.hpp"
 #include "ros/node/publisher.hpp"
+#include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 

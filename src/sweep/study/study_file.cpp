@@ -1,6 +1,6 @@
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
-#include "io/files/text_file.hpp"
+#include "io/files/posix.hpp"
 #include "io/formats/yaml_tree.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
