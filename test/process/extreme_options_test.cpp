@@ -35,13 +35,14 @@ class ExtremeOptions : public testing::Test {
   /// Some of the options with a range, at extreme values.
   std::vector<std::string> randomArguments() {
     const Method& method = methodTable()[random_() % methodTable().size()];
-    std::vector<std::string> arguments{method.name, "--frames", "3", "--output", "o"};
+    const std::string frames = random_() % 4 == 0 ? pick(kCounts) : "3";
+    std::vector<std::string> arguments{method.name, "--frames", frames, "--output", "o"};
     Scenario scenario;
     for (const Option& option : scenarioOptions(scenario)) {
       const bool is_other =
           option.applies_to ==
           (method.hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep);
-      if (is_other || random_() % 4 != 0) continue;
+      if (is_other || option.key == "frames" || random_() % 4 != 0) continue;
       std::string name = "--" + std::string(option.key);
       std::replace(name.begin() + 2, name.end(), '_', '-');
       if (std::holds_alternative<Number>(option.value)) {
