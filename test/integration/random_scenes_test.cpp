@@ -60,14 +60,14 @@ TEST(Oracle, MeasuresGrowthOfASmallChange) {
   EXPECT_LT(motion->growth, 1.1 * expected);
 }
 
-TEST(RandomScenes, AreReproducibleAndOfEveryFamily) {
+TEST(RandomScenes, AreReproducibleAndOfDifferentFamilies) {
   std::set<std::string> families;
-  for (unsigned seed = 0; seed < test::sceneFamilies().size(); ++seed) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
     const Scene scene = test::randomScene(seed);
     EXPECT_EQ(scene.start.values(), test::randomScene(seed).start.values());
     families.insert(scene.name.substr(0, scene.name.rfind(' ')));
   }
-  EXPECT_EQ(families.size(), test::sceneFamilies().size());
+  EXPECT_EQ(families.size(), 30U);
 }
 
 TEST(RandomScenes, KeepTheTolerance) {

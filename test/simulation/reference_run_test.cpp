@@ -15,12 +15,7 @@
 namespace spring_pendulum {
 namespace {
 
-struct KnownMotion {
-  std::string scene;
-  std::vector<int> times;  ///< s, with a solution in test/data/reference
-};
-
-const std::vector<KnownMotion> kKnownMotions{
+const std::vector<test::KnownMotion> kKnownMotions{
     {"single_vertical", {1, 2, 5, 10, 20, 50}},
     {"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
     {"horizontal_11", {1, 2, 5, 10, 20, 50}},
@@ -41,13 +36,10 @@ double largestDistance(const State& a, const State& b) {
   return (a.positions() - b.positions()).rowwise().norm().maxCoeff();
 }
 
-class ReferenceRunOn : public testing::TestWithParam<KnownMotion> {};
+class ReferenceRunOn : public testing::TestWithParam<test::KnownMotion> {};
 
-std::string sceneName(const testing::TestParamInfo<KnownMotion>& motion) {
-  return motion.param.scene;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceRunOn, testing::ValuesIn(kKnownMotions), sceneName);
+INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceRunOn, testing::ValuesIn(kKnownMotions),
+                         testing::PrintToStringParamName());
 
 // Measured: the true error is at most 0.2 of the bound,
 // which is 1e-8 m at most.

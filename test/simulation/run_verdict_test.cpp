@@ -240,25 +240,16 @@ TEST(Run, StopsInsideTheReferenceRun) {
   EXPECT_EQ(asked, 4);
 }
 
-struct KnownMotion {
-  std::string scene;
-  std::vector<int> times;  ///< s, with a solution in test/data/reference
-};
+class ReportedErrorOn : public testing::TestWithParam<test::KnownMotion> {};
 
-class ReportedErrorOn : public testing::TestWithParam<KnownMotion> {};
-
-std::string sceneName(const testing::TestParamInfo<KnownMotion>& motion) {
-  return motion.param.scene;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, ReportedErrorOn,
-                         testing::Values(KnownMotion{"single_vertical", {1, 2, 5, 10, 20, 50}},
-                                         KnownMotion{"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
-                                         KnownMotion{"horizontal_11", {1, 2, 5, 10, 20, 50}},
-                                         KnownMotion{"horizontal_1000", {1, 2}},
-                                         KnownMotion{"light_100", {1, 5}},
-                                         KnownMotion{"lighter_100", {1}}),
-                         sceneName);
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ReportedErrorOn,
+    testing::Values(test::KnownMotion{"single_vertical", {1, 2, 5, 10, 20, 50}},
+                    test::KnownMotion{"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
+                    test::KnownMotion{"horizontal_11", {1, 2, 5, 10, 20, 50}},
+                    test::KnownMotion{"horizontal_1000", {1, 2}},
+                    test::KnownMotion{"light_100", {1, 5}}, test::KnownMotion{"lighter_100", {1}}),
+    testing::PrintToStringParamName());
 
 // Below its uncertainty the reference cannot resolve an error.
 TEST_P(ReportedErrorOn, IsTrueWithinAFactorOfTwoForEveryMethod) {

@@ -51,15 +51,6 @@ TEST(StabilityWarning, NeverComesBeforeAStableRun) {
   EXPECT_GE(warned, unstable / 2) << "of " << unstable;
 }
 
-TEST(StabilityWarning, NamesTheStepTheLimitAndAMethodThatWouldDo) {
-  const Scene light = test::horizontalChain("", 11, 0.001);
-  const std::string text =
-      stabilityWarning(light.chain, light.start, scenarioOf(light, "Runge-Kutta-4", 0.01, 5.0));
-  EXPECT_THAT(text, StartsWith("Runge-Kutta-4 may be unstable with a time step of 0.01 s; largest "
-                               "stable step for Runge-Kutta-4: 0.00"));
-  EXPECT_THAT(text, HasSubstr("; or use Auto"));
-}
-
 TEST(StabilityWarning, IsSilentWithoutSpringsOrSteps) {
   const Scene light = test::horizontalChain("", 11, 0.001);
   Scenario still = scenarioOf(light, "Euler", 0.01, 5.0);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "support/scenes.hpp"
 
@@ -218,29 +220,16 @@ std::vector<Family> masses() {
   };
 }
 
-std::vector<Family> allFamilies() {
-  std::vector<Family> families = shapes();
-  for (const auto& more : {springs(), masses()}) {
-    families.insert(families.end(), more.begin(), more.end());
-  }
-  return families;
-}
-
 const std::vector<Family>& families() {
-  static const std::vector<Family> kFamilies = allFamilies();
+  static const std::vector<Family> kFamilies = [] {
+    std::vector<Family> all = shapes();
+    for (const auto& more : {springs(), masses()}) all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
   return kFamilies;
 }
 
 }  // namespace
-
-const std::vector<std::string>& sceneFamilies() {
-  static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names;
-    for (const Family& family : families()) names.push_back(family.name);
-    return names;
-  }();
-  return kNames;
-}
 
 Scene randomScene(unsigned seed) {
   const Family& family = families()[seed % families().size()];

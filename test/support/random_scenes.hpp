@@ -2,15 +2,9 @@
 // different families.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "support/scene.hpp"
 
 namespace spring_pendulum::test {
-
-/// "equal", "light tail", ...
-const std::vector<std::string>& sceneFamilies();
 
 /// Scene `seed` belongs to family `seed` modulo their number; its name is "light tail 17".
 /// Particles: 2 to 12, in long families 13 to 60; light particles down to 1e-9 kg, stiffness up to

@@ -1,6 +1,7 @@
 // The scenes of test/data/reference and their exact motion.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,16 @@ namespace spring_pendulum::test {
 
 inline Eigen::Map<const Eigen::VectorXd> column(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+/// A reference scene and times in s for which it has an exact state; a parameter of tests.
+struct KnownMotion {
+  std::string scene;
+  std::vector<int> times;
+};
+
+inline std::ostream& operator<<(std::ostream& stream, const KnownMotion& motion) {
+  return stream << motion.scene;
 }
 
 /// A scene whose particles start at rest.
