@@ -12,16 +12,21 @@
 #include <spring_pendulum/io/run_files.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace spring_pendulum {
 namespace {
+
+constexpr std::pair<const char*, ButcherTableau> kCourseMethods[] = {
+    {"Heun", {2, {{{}, {1.0}}}, {0.5, 0.5}}}, {"Ralston", {2, {{{}, {2.0 / 3.0}}}, {0.25, 0.75}}}};
 
 /// \param text a number, or a fraction such as 2/3
 double coefficientOf(const std::string& text, const std::string& path) {
@@ -63,47 +68,35 @@ const Method& registerTableau(const std::string& path) {
 /// Exit status of each verdict and of a folder that could not be read, by severity.
 constexpr int kStatus[] = {kDone, 5, 4, kFileFailed};
 
-/// Checks a folder and prints the result, in a table with columns of this width, or alone if it is 0.
-/// \returns the index of its exit status
-int check(const std::string& folder, const Scenario& scenario, const Scene& particles,
-          bool method_is_given, std::size_t width) {
-  std::string row;
-  int severity = 3;
-  try {
-    const FrameCheck result = checkFrames(scenario, particles, readFrameFolder(folder),
-                                          {method_is_given, [] { return interruption() != 0; }});
-    severity = static_cast<int>(result.verdict);
-    if (width == 0) printOutput(reportOf(result));
-    row = result.result;
-    for (const std::string& note : result.notes) row += "; note: " + note;
-  } catch (const FileError& error) {
-    if (interruption() != 0) {
-      printError(fmt::format("{}: {}\n", folder, error.what()));
-      return severity;
-    }
-    if (width == 0) throw;
-    row = fmt::format("unreadable: {}", error.what());
-  }
-  if (width > 0) printOutput(fmt::format("{:<{}}  {}\n", folder, width, row));
-  flushOutput();
-  return severity;
-}
-
+/// Checks the folders and prints the results, as a table if there are several.
 /// \returns 1 if any folder is unreadable, else 4 if any is different, else 5 if any is undecided
-int checkAll(const Scenario& scenario, const OptionSet& options, const Switches& switches) {
-  if (scenario.start != Start::kFile) throw InputError("start: not with check_frames");
+int checkAll(const Scenario& scenario, bool method_is_given,
+             const std::vector<std::string>& folders) {
   const Scene particles = readScene(scenario);
   catchInterruptions();
+  const bool is_table = folders.size() > 1;
   std::size_t width = 0;
-  for (const std::string& folder : switches.folders) width = std::max(width, folder.size());
-  if (switches.folders.size() == 1) width = 0;
-  const bool is_given = options.isGiven("method") || options.isGiven("tableau");
-  int severity = 0;
-  for (const std::string& folder : switches.folders) {
-    severity = std::max(severity, check(folder, scenario, particles, is_given, width));
-    if (interruption() != 0) return kSignalled + interruption();
+  for (const std::string& folder : folders) width = std::max(width, folder.size());
+  std::size_t worst = 0;
+  for (const std::string& folder : folders) {
+    std::string text;
+    std::size_t severity = 3;
+    try {
+      const FrameCheck result = checkFrames(scenario, particles, readFrameFolder(folder),
+                                            method_is_given, [] { return interruption() != 0; });
+      severity = static_cast<std::size_t>(result.verdict);
+      text = fmt::format("{}", fmt::join(result.lines, is_table ? "; " : "\n"));
+    } catch (const FileError& error) {
+      if (interruption() != 0) printError(fmt::format("{}: {}\n", folder, error.what()));
+      if (interruption() != 0) break;
+      if (!is_table) throw;
+      text = fmt::format("unreadable: {}", error.what());
+    }
+    printOutput(is_table ? fmt::format("{:<{}}  {}\n", folder, width, text) : text + "\n");
+    flushOutput();
+    worst = std::max(worst, severity);
   }
-  return kStatus[severity];
+  return interruption() != 0 ? kSignalled + interruption() : kStatus[worst];
 }
 
 int runCommandLine(int argc, const char* const* argv) {
@@ -111,13 +104,17 @@ int runCommandLine(int argc, const char* const* argv) {
       "check_frames",
       "Compares frames with each method, and says which mistake is in the program that wrote them.",
       "frames --particles particle.txt",
-      {{"list-mistakes", "describe the known mistakes", listOfMistakes}},
+      {},
       "DIR ...",
       "0 equal, 1 could not read, 2 wrong use or bad input, 4 different,\n"
       "5 undecided: frames are missing or too sensitive to compare, 128 + n stopped by signal n.",
       {"method", "particles", "resume", "frames", "steps_per_frame", "time_step", "tolerance",
        "frame_interval", "stiffness", "damping", "rest_length", "gravity", "air_drag", "tableau"}};
-  registerCourseMethods();
+  for (const auto& [name, tableau] : kCourseMethods) {
+    Method method = methodOfTableau(name, tableau);
+    method.use = "of other courses: right only if it is asked for";
+    registerMethod(method);
+  }
   Scenario scenario;
   std::string tableau;
   OptionSet options(scenarioOptions(scenario));
@@ -130,7 +127,8 @@ int runCommandLine(int argc, const char* const* argv) {
     scenario.method = registerTableau(tableau);
     refuseUnused(options, scenario);
   }
-  if (switches.answer.empty()) return checkAll(scenario, options, switches);
+  const bool is_given = options.isGiven("method") || options.isGiven("tableau");
+  if (switches.answer.empty()) return checkAll(scenario, is_given, switches.folders);
   printOutput(switches.answer);
   return kDone;
 }

@@ -74,7 +74,7 @@ async function check(frames) {
   const result = await library.call('check', {
     settings: options, file: settings.file, given: get('check-method').checked, frames,
   }, () => say(`Searching for the mistake, ${Math.round((performance.now() - began) / 1000)} s …`));
-  say(...result.report.trim().split('\n'));
+  say(...result.report);
   const method = methodOf(run.method);
   const interval = method?.fixed ? Number(options.steps_per_frame) * Number(options.time_step) : Number(options.frame_interval);
   drawOver(frames, interval);

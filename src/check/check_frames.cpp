@@ -8,35 +8,40 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "check/search.hpp"
+#include "check/motion.hpp"
 
 namespace spring_pendulum {
 namespace {
 
-constexpr const char* kExercise[] = {"Euler", "Runge-Kutta-2", "Runge-Kutta-4"};
-
+/// The methods that students write for the exercise.
+constexpr unsigned kOfExercise =
+    StudentProgram::kEuler | StudentProgram::kMidpoint | StudentProgram::kRungeKutta4;
 /// Methods of other courses, which are right only if they are asked for.
-constexpr std::pair<const char*, ButcherTableau> kCourseMethods[] = {
-    {"Heun", {2, {{{}, {1.0}}}, {0.5, 0.5}}}, {"Ralston", {2, {{{}, {2.0 / 3.0}}}, {0.25, 0.75}}}};
+constexpr unsigned kOfCourses = StudentProgram::kHeun | StudentProgram::kOtherTableau;
 
-bool isOfCourse(const Method& method) {
-  return std::any_of(std::begin(kCourseMethods), std::end(kCourseMethods),
-                     [&](const auto& other) { return method.name == other.first; });
-}
+using Methods = std::vector<const Method*>;
+
+/// A program whose mistakes reproduce the frames.
+struct Explanation {
+  StudentProgram program;
+  std::int64_t last_frame;  ///< reproduced up to this frame
+};
 
 class Checker {
  public:
-  Checker(const Scenario& scenario, const Scene& particles, AllFrames frames,
-          const CheckOptions& options)
-      : scenario_(scenario), particles_(particles), frames_(std::move(frames)), options_(options) {
+  Checker(const Scenario& scenario, const Scene& particles, AllFrames frames, bool method_is_given,
+          std::function<bool()> stop)
+      : scenario_(scenario),
+        particles_(particles),
+        frames_(std::move(frames)),
+        stop_(std::move(stop)) {
     for (const Method& method : methodTable()) {
       const bool is_wanted =
-          options.method_is_given ? &method == &scenario.method.get() : !isOfCourse(method);
+          method_is_given ? &method == &scenario.method.get() : (kindOf(method) & kOfCourses) == 0;
       (is_wanted ? wanted_ : others_).push_back(&method);
-      if (is_wanted && kindOf(method) != 0)
-        wanted_written_.insert(wanted_written_.begin(), &method);
     }
   }
 
@@ -46,173 +51,254 @@ class Checker {
       departure_.reset();
       compareWith(wanted_);
     }
-    if (options_.stop && options_.stop())
-      throw FileError("stopped before the frames were compared");
-    FrameCheck result;
-    result.notes = frames_.notes;
-    methods_.empty() && departure_ ? describeDifferent(result) : describeEqual(result);
+    if (stop_ && stop_()) throw FileError("stopped before the frames were compared");
+    FrameCheck result = methods_.empty() && departure_ ? different() : equal();
+    for (const std::string& note : frames_.notes) result.lines.push_back("note: " + note);
     return result;
   }
 
  private:
   static constexpr double kMostWork = 10.0;  ///< s
 
-  /// Notes the methods that agree, and the departure from the nearest of those that students write, or
-  /// from the only one.
+  /// Notes the methods that agree longest, and the nearest departure.
   void compareWith(const Methods& methods) {
     const Chain chain(particles_.masses, scenario_.constants);
     for (const Method* method : methods) {
       Plan plan = scenario_;
       plan.method = *method;
-      WorkLimit work{kMostWork / static_cast<double>(methods.size()), options_.stop};
-      const Agreement agreement = compare(
-          frames_, [&] { return motionOf(plan, chain, particles_); }, work, &chain);
+      WorkLimit work{kMostWork / static_cast<double>(methods.size()), stop_};
+      const Agreement agreement = compare(frames_, *motionOf(plan, chain, particles_),
+                                          *motionOf(plan, chain, particles_), work, &chain);
       if (work.isStopped()) return;
       if (agreement.complete) {
         if (agreement.last_frame > last_frame_) methods_.clear();
         last_frame_ = std::max(last_frame_, agreement.last_frame);
         if (agreement.last_frame == last_frame_) methods_.push_back(method->name);
-      } else if (agreement.departure && &methods == &wanted_ &&
-                 (kindOf(*method) != 0 || methods.size() == 1)) {
-        noteDeparture(plan, agreement);
       }
+      // The departure from the nearest of the wanted methods that students write, or from the only one.
+      const bool is_nearer = !departure_ || agreement.frames > known_frames_ ||
+                             (agreement.frames == known_frames_ && agreement.departure &&
+                              agreement.departure->distance < departure_->distance);
+      if (!agreement.departure || !is_nearer || &methods != &wanted_) continue;
+      if (kindOf(*method) == 0 && methods.size() > 1) continue;
+      known_frames_ = agreement.frames;
+      departure_ = agreement.departure;
+      nearest_ = plan;
     }
   }
 
-  void noteDeparture(const Plan& plan, const Agreement& agreement) {
-    const bool is_nearer =
-        !departure_ || agreement.frames > known_frames_ ||
-        (agreement.frames == known_frames_ && agreement.departure->distance < departure_->distance);
-    if (!is_nearer) return;
-    known_frames_ = agreement.frames;
-    departure_ = agreement.departure;
-    nearest_ = plan;
-  }
-
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
-  std::vector<Explanation> explain(FrameCheck& result) {
-    Search search{scenario_, particles_, frames_, known_frames_, {kMostWork, options_.stop}};
-    std::vector<Explanation> found = findMistakes(search, wanted_written_, true);
+  std::vector<Explanation> explain() {
+    Methods written;
+    for (const Method* method : wanted_) {  // the best first
+      if (kindOf(*method) != 0) written.insert(written.begin(), method);
+    }
+    std::vector<Explanation> found = findMistakes(written, 1);
     if (!found.empty()) return found;
     compareWith(others_);
     if (last_frame_ > frames_.start) return found;
     methods_.clear();
-    Methods written = wanted_written_;
-    for (const char* const name : kExercise) {
-      const Method* const method = &findMethod(name);
-      if (std::find(wanted_.begin(), wanted_.end(), method) == wanted_.end())
-        written.push_back(method);
+    for (const Method* method : others_) {
+      if ((kindOf(*method) & kOfExercise) != 0) written.push_back(method);
     }
-    found = findMistakes(search, written);
-    if (search.gave_up && found.empty())
-      result.notes.emplace_back("the search for mistakes stopped before all were tried");
+    found = findMistakes(written, 5);
+    if (search_limit_.isOver() && found.empty())
+      frames_.notes.emplace_back("the search for mistakes stopped before all were tried");
     return found;
   }
 
-  std::string comparedText() const {
+  /// Returns the simplest explanations on the first levels.
+  std::vector<Explanation> findMistakes(const Methods& methods, int levels) {
+    constexpr std::size_t kEvidence = 20;  // frames after the departure in a strong explanation
+    const std::vector<FrameNumbers>& frames = frames_.frames;
+    const std::int64_t far = frames[std::min(known_frames_ + kEvidence, frames.size() - 1)].index;
+    std::vector<Explanation> best;
+    for (int level = 0; level < levels; ++level) {
+      for (const Method* method : methods) tryMistakes(StudentProgram(*method, scenario_), level);
+      std::vector<Explanation> found = std::exchange(found_, {});
+      // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
+      const auto weak =
+          std::stable_partition(found.begin(), found.end(),
+                                [&](const Explanation& one) { return one.last_frame >= far; });
+      if (weak != found.begin()) return {found.begin(), weak};
+      if (best.empty() && levels > 1 && level < 3) best = found;
+    }
+    return best;
+  }
+
+  /// Tries, by level, a mistake, a wrong number, float, two mistakes, or a mistake and a wrong number.
+  void tryMistakes(StudentProgram right, int level) {
+    constexpr int kDigitsOfFloat = 9;  // more digits show whether the numbers are floats
+    const std::vector<Mistake>& table = knownMistakes();
+    const StudentProgram in_float = right.with(table.back());
+    if (frames_.are_floats) right = in_float;
+    if (level == 0 && frames_.are_floats && explains(right)) return;
+    if (level < 2) tryChanges(right, 0, level == 1);
+    if (level == 2 && !frames_.are_floats && frames_.digits <= kDigitsOfFloat) explains(in_float);
+    for (std::size_t i = 0; level > 2 && i + 1 < table.size(); ++i) {
+      if (right.canMake(table[i])) tryChanges(right.with(table[i]), i + 1, level == 4);
+    }
+  }
+
+  /// Tries all mistakes from `first` on, or wrong numbers, besides those that a program has.
+  void tryChanges(const StudentProgram& base, std::size_t first, bool numbers) {
+    for (const Constant& constant : fittedConstants()) {
+      for (const double factor : {1.0, 0.1, 10.0, -1.0}) {
+        if (!numbers || search_limit_.isOver() || fit(base, constant, factor)) break;
+        if (!base.mistakes.empty()) break;
+      }
+    }
+    const std::vector<Mistake>& table = knownMistakes();
+    for (std::size_t i = first; i < table.size() && !numbers && !search_limit_.isOver(); ++i) {
+      if (base.canMake(table[i])) explains(base.with(table[i]));
+    }
+  }
+
+  Agreement agreementWith(const StudentProgram& program) {
+    return compare(frames_, *motionOf(program, particles_), *motionOf(program, particles_),
+                   search_limit_);
+  }
+
+  bool isExplanation(const Agreement& agreement) const {
+    return agreement.complete && agreement.frames > known_frames_ && !search_limit_.isOver();
+  }
+
+  bool explains(const StudentProgram& program) {
+    const Agreement agreement = agreementWith(program);
+    const bool explains = isExplanation(agreement);
+    if (explains) found_.push_back({program, agreement.last_frame});
+    return explains;
+  }
+
+  /// Fits a constant to a frame: the secant method for least squares.
+  void improve(StudentProgram& program, const Constant& constant, const FrameNumbers& frame) {
+    constexpr int kMostSteps = 12;
+    constexpr double kFirstChange = 1e-4;
+    constexpr double kRounding = 1e-12;  // relative; weighs tiny numbers with many digits less
+    const auto differences = [&]() -> Eigen::ArrayX2d {
+      const auto motion = motionOf(program, particles_);
+      motion->advanceTo(frame.index, search_limit_);
+      return (motion->positions() - frame.positions) /
+             (frame.units + kRounding * frame.positions.abs().maxCoeff());
+    };
+    double& value = constant.in(program);
+    double change = value == 0.0 ? kFirstChange : kFirstChange * value;
+    Eigen::ArrayX2d old = differences();
+    for (int i = 0; i < kMostSteps && !search_limit_.isOver(); ++i) {
+      value += change;
+      const Eigen::ArrayX2d now = differences();
+      const Eigen::ArrayX2d slope = (now - old) / change;
+      change = -(now * slope).sum() / slope.square().sum();
+      if (!std::isfinite(change) || std::abs(change) <= 1e-15 * std::abs(value)) return;
+      old = now;
+    }
+  }
+
+  /// Fits a constant, starting from its value times `factor`, to more and more frames, and rounds it.
+  bool fit(StudentProgram program, const Constant& constant, double factor = 1.0) {
+    constexpr double kSmallestMistake = 1e-5;  // relative; smaller ones are rounding errors
+    constexpr int kMostDigits = 15;
+    const std::vector<FrameNumbers>& frames = frames_.frames;
+    double& value = constant.in(program);
+    const double right = value;
+    value *= factor;
+    Agreement agreement = agreementWith(program);
+    while (!agreement.complete && !search_limit_.isOver()) {
+      const std::size_t before = agreement.frames;
+      improve(program, constant, frames[std::min(frames.size() - 1, before + before / 2)]);
+      agreement = agreementWith(program);
+      if (!agreement.complete && agreement.frames <= before) return false;
+    }
+    if (!isExplanation(agreement)) return false;
+    const double fitted = value;
+    for (int digits = 1; digits <= kMostDigits; ++digits) {
+      value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
+      if (isExplanation(agreementWith(program))) break;
+    }
+    const double scale = right == 0.0 ? 1.0 : std::abs(right);
+    if (std::abs(value - right) <= kSmallestMistake * scale) return false;
+    std::string sentence(constant.sentence);
+    sentence.replace(sentence.find("{}"), 2, roundedText(value, kMostDigits));
+    program.mistakes.emplace_back(constant.name);
+    program.sentences.push_back(fmt::format("{} instead of {}", sentence, roundedText(right, 6)));
+    return explains(program);
+  }
+
+  /// "Euler or Auto: all 500 frames in the 6 digits printed"
+  std::string methodsText() const {
     const auto count = static_cast<std::int64_t>(frames_.frames.size());
     const bool has_all = last_frame_ == frames_.frames.back().index;
     return fmt::format(
-        "{} in the {} printed",
+        "{}: {} in the {} printed", fmt::join(methods_, " or "),
         has_all ? "all " + counted(count, "frame") : fmt::format("frames up to {}", last_frame_),
         counted(frames_.digits, "digit"));
   }
 
-  void describeEqual(FrameCheck& result) const {
+  FrameCheck equal() const {
     constexpr const char* kTooLate = "rounding errors grow too much, or it takes too long";
     const std::int64_t last = scenario_.frames - 1;
     // Programs differ by a frame or so in how they count.
     const bool has_last = last_frame_ >= std::max(std::min(last, frames_.start + 1),
                                                   std::min(last - 2, last * 49 / 50));
-    result.verdict = has_last ? FrameVerdict::kEqual : FrameVerdict::kUndecided;
-    result.result = has_last ? "" : "undecided: ";
+    std::string text = has_last ? "" : "undecided: ";
     if (methods_.empty()) {
-      result.result += fmt::format("frame {} is the first one, and too late to be compared: {}",
-                                   frames_.frames.front().index, kTooLate);
-      return;
+      text += fmt::format("frame {} is the first one, and too late to be compared: {}",
+                          frames_.frames.front().index, kTooLate);
+    } else {
+      text += "equal to " + methodsText();
+      if (last_frame_ != frames_.frames.back().index) {
+        text += fmt::format("; later frames are not compared: {}", kTooLate);
+      } else if (!has_last) {
+        text +=
+            fmt::format("; the frames up to {} are missing (--frames {})", last, scenario_.frames);
+      }
     }
-    result.result += fmt::format("equal to {}: {}", methods_.front(), comparedText());
-    if (last_frame_ != frames_.frames.back().index) {
-      result.result += fmt::format("; later frames are not compared: {}", kTooLate);
-    } else if (!has_last) {
-      result.result +=
-          fmt::format("; the frames up to {} are missing (--frames {})", last, scenario_.frames);
-    }
-    if (methods_.size() == 1) return;
-    result.notes.push_back(fmt::format("{} would look the same in these digits",
-                                       fmt::join(methods_.begin() + 1, methods_.end(), " and ")));
+    return {has_last ? FrameVerdict::kEqual : FrameVerdict::kUndecided, {text}};
   }
 
-  void describeDifferent(FrameCheck& result) {
-    constexpr std::size_t kMostShown = 3;
-    const std::vector<Explanation> found =
-        departure_->is_compared ? explain(result) : std::vector<Explanation>{};
-    result.verdict = FrameVerdict::kDifferent;
-    result.departure_time = nearest_.timeOfFrame(departure_->frame);
-    result.details = {fmt::format("depart from {} at frame {}, t = {} s, {}",
-                                  nearest_.method.get().name, departure_->frame,
-                                  roundedText(*result.departure_time, 6), departure_->text)};
-    result.result = "different: no known mistake reproduces the frames";
-    if (!methods_.empty())
-      result.result =
-          fmt::format("different: frames of {}: {}", fmt::join(methods_, " or "), comparedText());
-    for (std::size_t i = 0; i < std::min(found.size(), kMostShown); ++i) {
+  FrameCheck different() {
+    std::vector<Explanation> found;
+    if (departure_->is_compared) found = explain();
+    const double time = nearest_.timeOfFrame(departure_->frame);
+    std::vector<std::string> lines{
+        "", fmt::format("depart from {} at frame {}, t = {} s, {}", nearest_.method.get().name,
+                        departure_->frame, roundedText(time, 6), departure_->text)};
+    for (std::size_t i = 0; i < std::min<std::size_t>(found.size(), 3); ++i) {
       const auto& [program, last] = found[i];
-      const std::string& method = program.method.get().name;
-      if (i == 0)
-        result.result =
-            fmt::format("different: {} with {}", method, fmt::join(program.mistakes, " + "));
-      result.details.push_back(
-          fmt::format("{}{}: the program {} (reproduces the frames{})", i == 0 ? "" : "or ", method,
-                      fmt::join(program.sentences, " and "),
+      lines.push_back(
+          fmt::format("{}{}: the program {} (reproduces the frames{})", i == 0 ? "" : "or ",
+                      program.method.get().name, fmt::join(program.sentences, " and "),
                       last == frames_.frames.back().index ? "" : fmt::format(" up to {}", last)));
     }
+    lines.front() = !methods_.empty() ? "different: frames of " + methodsText()
+                    : found.empty()   ? "different: no known mistake reproduces the frames"
+                                      : fmt::format("different: {} with {}",
+                                                    found.front().program.method.get().name,
+                                                    fmt::join(found.front().program.mistakes, " + "));
+    return {FrameVerdict::kDifferent, lines, time};
   }
 
   const Scenario& scenario_;
   const Scene& particles_;
   AllFrames frames_;
-  const CheckOptions& options_;
+  std::function<bool()> stop_;
   Methods wanted_, others_;
-  Methods wanted_written_;            ///< those that students write
   std::vector<std::string> methods_;  ///< those that the frames equal longest
   std::int64_t last_frame_ = -1;      ///< the last one that could be compared
   std::size_t known_frames_ = 0;      ///< number of frames before the departure
   std::optional<Departure> departure_;
+  WorkLimit search_limit_{kMostWork, stop_};
+  std::vector<Explanation> found_;
   Plan nearest_;  ///< with the method from which the frames depart
 };
 
 }  // namespace
 
-void registerCourseMethods() {
-  for (const auto& [name, tableau] : kCourseMethods) {
-    Method method = methodOfTableau(name, tableau);
-    method.use = "of other courses: right only if it is asked for";
-    registerMethod(method);
-  }
-}
-
 FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
-                       const std::vector<FrameText>& frames, const CheckOptions& options) {
+                       const std::vector<FrameText>& frames, bool method_is_given,
+                       const std::function<bool()>& stop) {
   checkScenario(scenario);
-  return Checker(scenario, particles, readFrames(frames, particles), options).check();
-}
-
-std::string reportOf(const FrameCheck& check) {
-  std::string report = check.result + "\n";
-  for (const std::string& line : check.details) report += line + "\n";
-  for (const std::string& note : check.notes) report += "note: " + note + "\n";
-  return report;
-}
-
-std::string listOfMistakes() {
-  std::string list = "The program ...\n";
-  for (const Mistake& mistake : knownMistakes())
-    list += fmt::format("  {:<22} {}\n", mistake.name, mistake.sentence);
-  list += "Fitted numbers: the program ...\n";
-  for (const Constant& constant : fittedConstants())
-    list += fmt::format("  {:<22} {}\n", constant.name, constant.sentence);
-  return list;
+  return Checker(scenario, particles, readFrames(frames, particles), method_is_given, stop).check();
 }
 
 }  // namespace spring_pendulum

@@ -15,46 +15,29 @@
 
 namespace spring_pendulum {
 
-/// By severity.
-enum class FrameVerdict {
-  kEqual,
-  kUndecided,  ///< no difference, but the last frames are missing or cannot be compared
-  kDifferent
-};
+/// By severity. Undecided: no difference, but the last frames are missing or cannot be compared.
+enum class FrameVerdict { kEqual, kUndecided, kDifferent };
 
 struct FrameCheck {
-  FrameVerdict verdict = FrameVerdict::kUndecided;
-  std::string result;                    ///< "different: Euler with no_damping"
-  std::vector<std::string> details;      ///< where different frames depart, and the mistakes
-  std::vector<std::string> notes;        ///< on missing frames, for example
-  std::optional<double> departure_time;  ///< s
+  FrameVerdict verdict;
+  /// The verdict; for different frames where they depart, and the mistakes; notes.
+  std::vector<std::string> lines;
+  std::optional<double> departure_time = {};  ///< s
 };
-
-struct CheckOptions {
-  /// Whether the frames must be those of `Scenario::method`. Otherwise any method is right.
-  bool method_is_given = false;
-  /// Asked every few milliseconds; when it returns true, the check ends.
-  std::function<bool()> stop = {};
-};
-
-/// Adds methods that other courses ask for to the method table: Heun, Ralston.
-void registerCourseMethods();
 
 /// Checks frames.
 /// \param scenario  the constants of the model, steps, tolerance and number of frames that the program
 ///   should have
 /// \param particles the start
 /// \param frames    in any order, some may be missing
+/// \param method_is_given whether the frames must be those of `Scenario::method`. Otherwise they may be
+///   those of any method but explicit Runge-Kutta methods of other courses.
+/// \param stop      asked every few milliseconds; when it returns true, the check ends
 /// \throws InputError for a value of the scenario out of its range
 /// \throws FileError naming frame and line if there are no frames, or one of them can't be read or
-///   has another number of particles, and if `CheckOptions::stop` ends the check before a verdict
+///   has another number of particles, and if `stop` ends the check before a verdict
 FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
-                       const std::vector<FrameText>& frames, const CheckOptions& options = {});
-
-/// Returns the result, the details and the notes, each on a line of its own.
-std::string reportOf(const FrameCheck& check);
-
-/// Returns a line for each known mistake: its name and its sentence.
-std::string listOfMistakes();
+                       const std::vector<FrameText>& frames, bool method_is_given,
+                       const std::function<bool()>& stop = {});
 
 }  // namespace spring_pendulum

@@ -72,8 +72,7 @@ struct StudentProgram : Plan, Constants {
     kRungeKutta4 = 8,
     kOtherTableau = 16,
     kSymplectic = 32,
-    kImplicit = 64,
-    kInAir = 128
+    kImplicit = 64
   };
   /// When the numbers of a particle are overwritten.
   enum class Order {
@@ -110,7 +109,7 @@ unsigned kindOf(const Method& method);
 
 struct Mistake {
   std::string_view name;      ///< several rows may share a name
-  unsigned kinds;             ///< of the programs in which it can be made
+  unsigned kinds;             ///< of the programs in which it can be made; 0: it is tried by itself
   std::string_view sentence;  ///< follows "the program "
   void (*make)(StudentProgram&);
 };

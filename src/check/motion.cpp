@@ -171,32 +171,28 @@ class ProgramMotion : public Motion {
     return result;
   }
 
-  /// The accelerations at the end of a step, or what they are linearised at its begin.
-  Vectors accelerationsAt(const Rows& end, const Rows& begin) const {
-    if (!program_.is_linearised) return accelerations(end);
-    constexpr double kPart = 1e-4;
-    const Rows part = kPart * (end - begin);
-    return accelerations(begin) +
-           (accelerations(begin + part) - accelerations(begin - part)) / (2.0 * kPart);
-  }
-
   /// Newton's method for v' = v + h a(p + h v', v').
   void stepImplicitly() {
     constexpr int kMostIterations = 30;
     constexpr double kConverged = 1e-11;
     constexpr double kChange = 1e-6;  // m/s, for the derivatives
+    constexpr double kPart = 1e-4;    // of the change in a step, for linear forces
     const double h = program_.time_step;
     const Rows begin = state_;
     const auto missing = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
       const Eigen::Map<const Vectors> velocities(v.data(), 2, begin.cols());
       state_ << begin.topRows<2>() + h * velocities, velocities;
-      const Vectors difference =
-          begin.bottomRows<2>() + h * accelerationsAt(state_, begin) - velocities;
+      const Rows part = kPart * (state_ - begin);
+      const Vectors a =
+          !program_.is_linearised
+              ? accelerations(state_)
+              : accelerations(begin) +
+                    (accelerations(begin + part) - accelerations(begin - part)) / (2.0 * kPart);
+      const Vectors difference = begin.bottomRows<2>() + h * a - velocities;
       return Eigen::Map<const Eigen::VectorXd>(difference.data(), v.size());
     };
     const Vectors velocities = begin.bottomRows<2>();
     Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(velocities.data(), velocities.size());
-    const double scale = 1.0 + v.cwiseAbs().maxCoeff();
     for (int n = 0; n < kMostIterations; ++n) {
       const Eigen::VectorXd error = missing(v);
       Eigen::MatrixXd matrix(v.size(), v.size());
@@ -206,7 +202,7 @@ class ProgramMotion : public Motion {
       }
       const Eigen::VectorXd change = matrix.partialPivLu().solve(error);
       v += change;
-      if (!(change.cwiseAbs().maxCoeff() > kConverged * scale)) break;
+      if (!(change.cwiseAbs().maxCoeff() > kConverged * (1.0 + v.cwiseAbs().maxCoeff()))) break;
     }
     missing(v);
   }
@@ -218,12 +214,6 @@ class ProgramMotion : public Motion {
   std::vector<double> start_lengths_;  ///< of the spring before each particle, m
   std::int64_t step_ = 0;
 };
-
-/// NaN if one of the numbers is not finite.
-double largestDistance(const Eigen::ArrayX2d& a, const Eigen::ArrayX2d& b) {
-  const Eigen::ArrayX2d distance = (a - b).abs();
-  return distance.allFinite() ? distance.maxCoeff() : std::numeric_limits<double>::quiet_NaN();
-}
 
 /// The first particle of a frame that differs from a motion by more than a unit of the last digit and
 /// `error` m.
@@ -256,17 +246,6 @@ double energyOf(const Chain& chain, const Eigen::ArrayX2d& positions) {
   State state(chain.size());
   state.positions() = positions.matrix();
   return computeEnergy(chain, state).total();
-}
-
-/// A departure of a frame that is too late to be compared, if no motion between these potential
-/// energies can have it.
-std::optional<Departure> impossibleIn(const FrameNumbers& frame, const Chain& chain, double least,
-                                      double most) {
-  constexpr double kMargin = 1.1;
-  if (!frame.positions.allFinite())
-    return Departure{frame.index, 0.0, "which has a number that is not finite", false};
-  if (energyOf(chain, frame.positions) <= least + kMargin * (most - least)) return std::nullopt;
-  return Departure{frame.index, 0.0, "which has more energy than any frame before", false};
 }
 
 }  // namespace
@@ -302,11 +281,12 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
   return std::make_unique<ProgramMotion>(program, particles);
 }
 
-Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& limit,
+Agreement compare(const AllFrames& frames, Motion& motion, Motion& companion, WorkLimit& limit,
                   const Chain* chain) {
+  constexpr double kWorkOfNumbers = 1e-7;  // s, to compare one
+  constexpr double kMargin = 1.1;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
-  const std::unique_ptr<Motion> motion = make();
-  const std::unique_ptr<Motion> companion = make();
   double least_energy = std::numeric_limits<double>::infinity();  // J
   double most_energy = -least_energy;
   std::mt19937 random(1);  // the same on every machine
@@ -314,33 +294,39 @@ Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& l
   bool is_comparable = true;
   double rounding = 0.0;  // m
   double scale = 0.0;     // largest coordinate, m
-  companion->disturb(random);
+  companion.disturb(random);
   std::int64_t index = frames.start;
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
-    if (limit.isOver() || !motion->advanceTo(index, limit)) break;
-    const Eigen::ArrayX2d positions = motion->positions();
+    if (limit.isOver() || !motion.advanceTo(index, limit)) break;
+    limit.done += kWorkOfNumbers * static_cast<double>(frame->positions.size());
+    const Eigen::ArrayX2d positions = motion.positions();
     if (chain != nullptr && positions.allFinite()) {
       least_energy = std::min(least_energy, energyOf(*chain, positions));
       most_energy = std::max(most_energy, energyOf(*chain, positions));
     }
     if (is_comparable) {
-      if (!companion->advanceTo(index, limit)) break;
-      const double spread = largestDistance(positions, companion->positions());
-      rounding = spread <= rounding ? rounding : spread;  // NaN replaces it
+      if (!companion.advanceTo(index, limit)) break;
+      const Eigen::ArrayX2d spread = (positions - companion.positions()).abs();
+      rounding = spread.allFinite() ? std::max(rounding, spread.maxCoeff()) : kNan;
       scale = std::max(scale, positions.isFinite().select(positions.abs(), 0.0).maxCoeff());
       is_comparable = rounding <= kComparable * scale || scale == 0.0;
-      if (motion->tolerance() == 0.0) companion->disturb(random);
+      if (motion.tolerance() == 0.0) companion.disturb(random);
     }
     if (!is_comparable && chain == nullptr) break;
     if (index < frame->index) continue;  // missing
     if (is_comparable) {
-      agreement.departure = departureOf(*frame, positions, rounding + motion->tolerance());
+      agreement.departure = departureOf(*frame, positions, rounding + motion.tolerance());
       if (agreement.departure) return agreement;
       ++agreement.frames;
       agreement.last_frame = index;
     } else if (positions.allFinite()) {
-      agreement.departure = impossibleIn(*frame, *chain, least_energy, most_energy);
-      if (agreement.departure) return agreement;
+      const double most = least_energy + kMargin * (most_energy - least_energy);
+      if (!(energyOf(*chain, frame->positions) <= most)) {  // also if it is not a number
+        agreement.departure = Departure{
+            index, 0.0, "which has a number that is not finite, or more energy than any before",
+            false};
+        return agreement;
+      }
     }
     ++frame;
   }

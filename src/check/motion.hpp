@@ -1,8 +1,9 @@
-// Motions that frames are compared with: methods of the table, and programs of students. What counts
-// as equal follows from the digits printed and from a companion of the motion: the same motion, disturbed
-// by more rounding errors than there are.
+// Frames, and the motions that they are compared with: methods of the table, and programs of students.
+// What counts as equal follows from the digits printed and from a companion of the motion: the same motion,
+// disturbed by more rounding errors than there are.
 #pragma once
 
+#include "io/files/frame_folder.hpp"
 #include <spring_pendulum/model/scene.hpp>
 
 #include <Eigen/Core>
@@ -15,10 +16,34 @@
 #include <random>
 #include <string>
 
-#include "check/frames.hpp"
 #include "check/mistakes.hpp"
 
 namespace spring_pendulum {
+
+struct FrameNumbers {
+  std::int64_t index = 0;
+  Eigen::ArrayX2d positions;  ///< N×2, m; nan and inf as printed
+  Eigen::ArrayX2d units;      ///< N×2, one unit of the last digit printed, m
+
+  /// \param share of a unit by which numbers may differ
+  bool equals(const Eigen::ArrayX2d& numbers, double share) const {
+    return ((positions - numbers).abs() <= share * units).all();
+  }
+};
+
+struct AllFrames {
+  std::vector<FrameNumbers> frames;  ///< by increasing index
+  int digits = 0;                    ///< largest number of significant digits
+  bool are_floats = false;           ///< whether a program in float has written them
+  std::int64_t start = 0;            ///< index of the frame that should be the start
+  std::vector<std::string> notes;    ///< on missing frames and on the format
+
+  /// If the first frame is the start with another index, lets it have that of the start.
+  bool renumber(const Eigen::ArrayX2d& positions);
+};
+
+/// \throws FileError naming frame and line
+AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles);
 
 /// Limits the work of comparisons and fits.
 struct WorkLimit {
@@ -78,13 +103,12 @@ struct Agreement {
   std::int64_t last_frame = -1;        ///< index of the last frame that agrees
 };
 
-using MotionMaker = std::function<std::unique_ptr<Motion>()>;
-
 /// Compares until the first frame that differs, or until rounding errors have grown to a thousandth
 /// of the size of the motion, after which nothing can be compared, or until the limit is reached.
+/// \param companion the same motion
 /// \param chain of the motion: later frames must be finite, and must not have much more potential energy
 ///   than any state of the motion before. Null: they are not looked at.
-Agreement compare(const AllFrames& frames, const MotionMaker& make, WorkLimit& limit,
+Agreement compare(const AllFrames& frames, Motion& motion, Motion& companion, WorkLimit& limit,
                   const Chain* chain = nullptr);
 
 }  // namespace spring_pendulum

@@ -220,13 +220,6 @@ def start_with_frames(lab, names, *options):
                             stderr=subprocess.PIPE, universal_newlines=True)
 
 
-def late_frames_fail(lab, names):
-    """Whether frames that would take long to compute are refused in one line."""
-    process = start_with_frames(lab, names)
-    output, errors = process.communicate()
-    return (process.returncode, output, errors.count('\n')) == (1, '', 1)
-
-
 def garbage_is_not_equal(lab):
     """Whether right frames that end early, or in random numbers, are not accepted, and no mistake is named."""
     path = PROJECT / 'data' / 'random_masses.txt'
@@ -334,12 +327,10 @@ def misuse_is_refused(lab):
 def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
     with tempfile.TemporaryDirectory() as folder:
         lab = Lab(pathlib.Path(folder), (check, exercise), int(seed))
-        endless = start_with_frames(lab, ['frame_0000.txt', 'frame_0001.txt'], '--frames', '2', '--method', 'Euler',
+        endless = start_with_frames(lab, ['frame_0000.txt', 'frame_0001.txt'], '--method', 'Euler',
                                     '--steps-per-frame', '2000000000')
         named_rightly = try_wrong(lab, int(frames), int(number_wrong))
         accused = try_right(lab, int(frames), int(number_right))
-        assert late_frames_fail(lab, ['frame_0000.txt', 'frame_99999999999.txt'])
-        assert late_frames_fail(lab, ['frame_99999999999.txt'])
         assert garbage_is_not_equal(lab)
         assert other_courses_are_judged(lab)
         assert resumed_run_is_equal(lab, 'Runge-Kutta-4') and resumed_run_is_equal(lab, 'Auto')
