@@ -3,7 +3,6 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
-#include "io/files/frame_folder.hpp"
 #include "io/files/posix.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/program.hpp"
@@ -16,11 +15,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <sstream>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace spring_pendulum {
 namespace {
@@ -31,9 +27,8 @@ constexpr std::pair<const char*, ButcherTableau> kCourseMethods[] = {
 /// \param text a number, or a fraction such as 2/3
 double coefficientOf(const std::string& text, const std::string& path) {
   const std::size_t slash = std::min(text.find('/'), text.size());
-  const std::optional<double> above = parseNumber(text.substr(0, slash));
-  const std::optional<double> below =
-      slash == text.size() ? 1.0 : parseNumber(text.substr(slash + 1));
+  const auto above = parseNumber(text.substr(0, slash));
+  const auto below = parseNumber(slash == text.size() ? "1" : text.substr(slash + 1));
   if (!above || !below || *below == 0.0)
     throw InputError(fmt::format("{}: {} is not a number", path, inQuotes(text)));
   return *above / *below;

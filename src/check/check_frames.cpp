@@ -23,12 +23,7 @@ constexpr unsigned kOfExercise =
 constexpr unsigned kOfCourses = StudentProgram::kHeun | StudentProgram::kOtherTableau;
 
 using Methods = std::vector<const Method*>;
-
-/// A program whose mistakes reproduce the frames.
-struct Explanation {
-  StudentProgram program;
-  std::int64_t last_frame;  ///< reproduced up to this frame
-};
+using Programs = std::vector<StudentProgram>;
 
 class Checker {
  public:
@@ -37,7 +32,7 @@ class Checker {
       : scenario_(scenario),
         particles_(particles),
         frames_(std::move(frames)),
-        stop_(std::move(stop)) {
+        search_limit_{kMostWork, std::move(stop)} {
     for (const Method& method : methodTable()) {
       const bool is_wanted =
           method_is_given ? &method == &scenario.method.get() : (kindOf(method) & kOfCourses) == 0;
@@ -51,7 +46,7 @@ class Checker {
       departure_.reset();
       compareWith(wanted_);
     }
-    if (stop_ && stop_()) throw FileError("stopped before the frames were compared");
+    if (search_limit_.isStopped()) throw FileError("stopped before the frames were compared");
     FrameCheck result = methods_.empty() && departure_ ? different() : equal();
     for (const std::string& note : frames_.notes) result.lines.push_back("note: " + note);
     return result;
@@ -66,7 +61,7 @@ class Checker {
     for (const Method* method : methods) {
       Plan plan = scenario_;
       plan.method = *method;
-      WorkLimit work{kMostWork / static_cast<double>(methods.size()), stop_};
+      WorkLimit work{kMostWork / static_cast<double>(methods.size()), search_limit_.stop};
       const Agreement agreement = compare(frames_, *motionOf(plan, chain, particles_),
                                           *motionOf(plan, chain, particles_), work, &chain);
       if (work.isStopped()) return;
@@ -88,12 +83,12 @@ class Checker {
   }
 
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
-  std::vector<Explanation> explain() {
+  Programs explain() {
     Methods written;
     for (const Method* method : wanted_) {  // the best first
       if (kindOf(*method) != 0) written.insert(written.begin(), method);
     }
-    std::vector<Explanation> found = findMistakes(written, 1);
+    Programs found = findMistakes(written, 1);
     if (!found.empty()) return found;
     compareWith(others_);
     if (last_frame_ > frames_.start) return found;
@@ -108,18 +103,18 @@ class Checker {
   }
 
   /// Returns the simplest explanations on the first levels.
-  std::vector<Explanation> findMistakes(const Methods& methods, int levels) {
+  Programs findMistakes(const Methods& methods, int levels) {
     constexpr std::size_t kEvidence = 20;  // frames after the departure in a strong explanation
     const std::vector<FrameNumbers>& frames = frames_.frames;
     const std::int64_t far = frames[std::min(known_frames_ + kEvidence, frames.size() - 1)].index;
-    std::vector<Explanation> best;
+    Programs best;
     for (int level = 0; level < levels; ++level) {
       for (const Method* method : methods) tryMistakes(StudentProgram(*method, scenario_), level);
-      std::vector<Explanation> found = std::exchange(found_, {});
+      Programs found = std::exchange(found_, {});
       // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
       const auto weak =
           std::stable_partition(found.begin(), found.end(),
-                                [&](const Explanation& one) { return one.last_frame >= far; });
+                                [&](const StudentProgram& one) { return one.last_frame >= far; });
       if (weak != found.begin()) return {found.begin(), weak};
       if (best.empty() && levels > 1 && level < 3) best = found;
     }
@@ -163,11 +158,11 @@ class Checker {
     return agreement.complete && agreement.frames > known_frames_ && !search_limit_.isOver();
   }
 
-  bool explains(const StudentProgram& program) {
+  bool explains(StudentProgram program) {
     const Agreement agreement = agreementWith(program);
-    const bool explains = isExplanation(agreement);
-    if (explains) found_.push_back({program, agreement.last_frame});
-    return explains;
+    program.last_frame = agreement.last_frame;
+    if (isExplanation(agreement)) found_.push_back(program);
+    return isExplanation(agreement);
   }
 
   /// Fits a constant to a frame: the secant method for least squares.
@@ -257,38 +252,39 @@ class Checker {
   }
 
   FrameCheck different() {
-    std::vector<Explanation> found;
+    Programs found;
     if (departure_->is_compared) found = explain();
     const double time = nearest_.timeOfFrame(departure_->frame);
     std::vector<std::string> lines{
         "", fmt::format("depart from {} at frame {}, t = {} s, {}", nearest_.method.get().name,
                         departure_->frame, roundedText(time, 6), departure_->text)};
     for (std::size_t i = 0; i < std::min<std::size_t>(found.size(), 3); ++i) {
-      const auto& [program, last] = found[i];
-      lines.push_back(
-          fmt::format("{}{}: the program {} (reproduces the frames{})", i == 0 ? "" : "or ",
-                      program.method.get().name, fmt::join(program.sentences, " and "),
-                      last == frames_.frames.back().index ? "" : fmt::format(" up to {}", last)));
+      const StudentProgram& program = found[i];
+      lines.push_back(fmt::format("{}{}: the program {} (reproduces the frames{})",
+                                  i == 0 ? "" : "or ", program.method.get().name,
+                                  fmt::join(program.sentences, " and "),
+                                  program.last_frame == frames_.frames.back().index
+                                      ? ""
+                                      : fmt::format(" up to {}", program.last_frame)));
     }
     lines.front() = !methods_.empty() ? "different: frames of " + methodsText()
-                    : found.empty()   ? "different: no known mistake reproduces the frames"
-                                      : fmt::format("different: {} with {}",
-                                                    found.front().program.method.get().name,
-                                                    fmt::join(found.front().program.mistakes, " + "));
+                    : found.empty()
+                        ? "different: no known mistake reproduces the frames"
+                        : fmt::format("different: {} with {}", found.front().method.get().name,
+                                      fmt::join(found.front().mistakes, " + "));
     return {FrameVerdict::kDifferent, lines, time};
   }
 
   const Scenario& scenario_;
   const Scene& particles_;
   AllFrames frames_;
-  std::function<bool()> stop_;
+  WorkLimit search_limit_;
   Methods wanted_, others_;
   std::vector<std::string> methods_;  ///< those that the frames equal longest
   std::int64_t last_frame_ = -1;      ///< the last one that could be compared
   std::size_t known_frames_ = 0;      ///< number of frames before the departure
   std::optional<Departure> departure_;
-  WorkLimit search_limit_{kMostWork, stop_};
-  std::vector<Explanation> found_;
+  Programs found_;
   Plan nearest_;  ///< with the method from which the frames depart
 };
 

@@ -9,9 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <sstream>
-#include <string_view>
 
 #include "check/motion.hpp"
 
