@@ -97,7 +97,3 @@ class Doors(unittest.TestCase):
                     status, errors, seen = outcome(door, {**base, key: changed})
                     if status != 2 or not re.search(r'\b%s\b' % key, errors.replace('-', '_')):
                         self.assertNotEqual(seen, outcome(door, base)[2])
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -66,7 +66,3 @@ sys.modules["matplotlib"] = None; sp.simulate({str(SCENE)!r}, frames=3).plot()""
         done = subprocess.run([sys.executable, '-c', code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.assertEqual(done.stdout, 'False\n')
         self.assertIn('install python3-matplotlib', done.stderr)
-
-
-if __name__ == '__main__':
-    unittest.main()

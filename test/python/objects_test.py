@@ -57,13 +57,6 @@ class Copies(unittest.TestCase):
             moved.x[1] = 50
             self.assertEqual(state.x[1], 1)
 
-    def test_of_a_run_and_of_its_parts(self):
-        run = sp.simulate(SCENE, method='Auto', frames=20)
-        for other in (copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))):
-            self.assertEqual(other.positions.tobytes(), run.positions.tobytes())
-            self.assertEqual((repr(other), other.verdict), (repr(run), run.verdict))
-            np.testing.assert_array_equal(other.energy, run.energy)
-
 
 class Threads(unittest.TestCase):
     def test_integrate_at_once_with_the_same_bits(self):
@@ -108,7 +101,6 @@ class Threads(unittest.TestCase):
         self.assertGreater(ticks, 10)
         self.assertGreater(refusals, 10)
         integrator.advance(state, 1e-6, 1)
-
 
     def test_start_anew_in_a_forked_process(self):
         chain, state = long_chain(20000)
@@ -158,7 +150,3 @@ class CtrlC(unittest.TestCase):
             integrator.advance(state, 1e-3, 1)
             self.assertGreater(integrator.force_evaluations, before)
         self.assertEqual(sp.simulate(SCENE).verdict.kind, 'ok')
-
-
-if __name__ == '__main__':
-    unittest.main()

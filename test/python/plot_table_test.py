@@ -91,7 +91,3 @@ class Pictures(unittest.TestCase):
         self.assertEqual(len(pairs), 11)
         for method, color in pairs:
             self.assertEqual(color, METHODS[method][0], method)
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,49 +1,13 @@
-"""Positions against an independent integration of independent equations; tables that need them."""
+"""Integrators, own methods and tables are those of simulate."""
 import unittest
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from support import DATA, SCENE
+from support import SCENE
 
 import spring_pendulum as sp
 
 
-def accelerations(positions, velocities, masses, stiffness=50.0, damping=1.0, rest_length=1.0, gravity=9.81):
-    """The equations of motion, written for NumPy."""
-    separation = np.diff(positions, axis=0)
-    length = np.linalg.norm(separation, axis=1, keepdims=True)
-    direction = separation / length
-    rate = np.sum(np.diff(velocities, axis=0) * direction, axis=1, keepdims=True)
-    force = (stiffness * (length - rest_length) + damping * rate) * direction
-    total = np.zeros_like(positions)
-    total[:-1] += force
-    total[1:] -= force
-    result = total / masses[:, None] - [0, gravity]
-    result[0] = 0
-    return result
-
-
-def dop853(rows, times):
-    count = len(rows)
-
-    def slope(_, z):
-        positions, velocities = z.reshape(2, count, 2)
-        return np.concatenate([velocities, accelerations(positions, velocities, rows[:, 2])]).ravel()
-
-    start = np.concatenate([rows[:, :2], np.zeros((count, 2))]).ravel()
-    solution = solve_ivp(slope, (0, times[-1]), start, method='DOP853', rtol=1e-13, atol=1e-13, t_eval=times)
-    return solution.y.T.reshape(len(times), 2, count, 2)[:, 0]
-
-
-class Accuracy(unittest.TestCase):
-    def test_positions_are_within_ten_tolerances_of_dop853(self):
-        for scene in ('particle.txt', 'one_spring.txt', 'horizontal_11.txt'):
-            rows = np.loadtxt(DATA / scene)
-            tolerance = 1e-8
-            run = sp.simulate(rows, method='Auto', tolerance=tolerance, frame_interval=0.1, frames=31)
-            error = abs(run.positions - dop853(rows, run.time)).max()
-            self.assertLess(error, 10 * tolerance, scene)  # measured: at most 6e-12 m
-
+class Integrators(unittest.TestCase):
     def test_advance_is_the_same_motion(self):
         rows = np.loadtxt(SCENE)
         state = sp.State(rows[:, 0], rows[:, 1])
@@ -80,7 +44,3 @@ class WorkPrecision(unittest.TestCase):
     def test_divergence_is_an_infinite_error(self):
         point, = sp.work_precision(SCENE, ['Euler'], time_steps=[0.2], stiffness=500.0)
         self.assertEqual((point.error, point.control, point.value), (float('inf'), 'time_step', 0.2))
-
-
-if __name__ == '__main__':
-    unittest.main()
