@@ -17,7 +17,7 @@ class MethodMotion : public Motion {
  public:
   MethodMotion(const Plan& plan, const Chain& chain, const Scene& particles)
       : Motion(plan, particles),
-        integrator_(makeIntegrator(plan.method, chain, {plan.tolerance})) {}
+        integrator_(makeIntegrator(plan.method, chain, {plan.tolerance, false, 1})) {}
 
   bool advanceTo(std::int64_t frame, WorkLimit& limit) override {
     const std::int64_t steps = (frame - frame_) * plan_.steps();
