@@ -38,7 +38,7 @@ State startOf(Eigen::Index size) {
 /// A chain that advances frame by frame.
 class Carried {
  public:
-  Carried(const Chain& chain, const EngineOptions& options)
+  Carried(const Chain& chain, const IntegratorOptions& options)
       : Carried(chain,
                 std::make_unique<ExplicitRungeKutta>(chain, kClassicalRungeKuttaTableau, options)) {
   }
@@ -81,7 +81,7 @@ double forcesOf(const Carried& carried) {
 /// A skip of the engine: a chain without the term and one with it.
 Pair timeEngineSkip(const std::string& name, const Chain& chain, const Chain& with_term,
                     int rounds) {
-  EngineOptions options;
+  IntegratorOptions options;
   options.threads = 1;
   Carried with(chain, options);
   Carried without(with_term, options);
@@ -120,7 +120,7 @@ Pair timeEnergySkip(Eigen::Index size, int rounds) {
 /// Without frame files.
 Pair timeFramesSkip(Eigen::Index size, const std::string& folder, int rounds) {
   const Chain chain = uniformChain(size, 1.0);
-  Carried carried(chain, EngineOptions{});
+  Carried carried(chain, IntegratorOptions{});
   const std::string frames = folder + "/skips_frames";
   const auto timings = timeInTurns({{"with", [&] { carried.reset(); }, [&] { carried.run(); }},
                                     {"without", [&] { carried.reset(); },

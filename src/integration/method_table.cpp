@@ -34,10 +34,7 @@ std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const C
   if (!chain.isPlain() || findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr) {
     return std::make_unique<PlainRungeKutta>(chain, *method.tableau, options.track_dissipation);
   }
-  EngineOptions engine;
-  engine.track_dissipation = options.track_dissipation;
-  engine.threads = options.threads;
-  return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, engine);
+  return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, options);
 }
 
 /// \tparam FixedStepMethod made from a chain
@@ -47,13 +44,12 @@ std::unique_ptr<Integrator> makeFixedStep(const Method&, const Chain& chain,
   return std::make_unique<FixedStepMethod>(chain, options.track_dissipation);
 }
 
-/// \tparam Stepper    made from a chain, arguments and a tolerance
-/// \tparam kArguments a pointer to an embedded pair, or an order
-template <typename Stepper, auto... kArguments>
+/// \tparam Stepper made from a chain, perhaps an order, and a tolerance
+template <typename Stepper, int... kOrder>
 std::unique_ptr<Integrator> makeErrorControlled(const Method&, const Chain& chain,
                                                 const IntegratorOptions& options) {
   return std::make_unique<DenseOutputIntegrator>(
-      chain, std::make_unique<Stepper>(chain, kArguments..., options.tolerance),
+      chain, std::make_unique<Stepper>(chain, kOrder..., options.tolerance),
       options.track_dissipation);
 }
 
@@ -91,7 +87,7 @@ std::deque<Method> builtInMethods() {
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "
        "doi:10.1016/0771-050X(80)90013-3",
        "the best-known embedded pair, for comparison", &kDormandPrince5.tableau,
-       makeErrorControlled<EmbeddedRungeKuttaStepper, &kDormandPrince5>, false, 430},
+       makeErrorControlled<EmbeddedRungeKuttaStepper>, false, 430},
       {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
@@ -191,11 +187,10 @@ void checkMethod(const Method& method) {
   }
 }
 
-constexpr std::pair<std::string_view, std::string_view> kAbbreviations[] = {
-    {"RK2", "Runge-Kutta-2"}, {"RK4", "Runge-Kutta-4"}};
-
-/// Names of other methods and programs, and the method here that is nearest.
+/// Names of other methods and programs, and the method here that is nearest. The first two are accepted.
 constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
+    {"RK2", "Runge-Kutta-2"},
+    {"RK4", "Runge-Kutta-4"},
     {"BDF", "Radau-9"},
     {"DOP853", "Taylor-8"},
     {"Heun", "Runge-Kutta-2"},
@@ -241,12 +236,11 @@ const Method& findMethod(std::string_view name) {
   for (const Method& method : methodTable()) {
     if (isSameName(method.name, name)) return method;
   }
-  for (const auto& [abbreviation, method] : kAbbreviations) {
-    if (isSameName(abbreviation, name)) return findMethod(method);
-  }
   std::string meant;
-  for (const auto& [other, nearest] : kOtherNames) {
-    if (isSameName(other, name)) meant = nearest;
+  for (const auto& other : kOtherNames) {
+    if (!isSameName(other.first, name)) continue;
+    if (&other < kOtherNames + 2) return findMethod(other.second);
+    meant = other.second;
   }
   throw InputError(unknownName("method", name, methodNames(), meant));
 }

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace spring_pendulum {
 namespace {
 
@@ -60,11 +62,6 @@ std::unique_ptr<DenseOutputStepper> make(const Chain& chain, double tolerance) {
   return std::make_unique<Stepper>(chain, kOrder..., tolerance);
 }
 
-bool needsOrder12(const Chain& chain, double tolerance) {
-  const bool fast = largestDampingRate(chain) > kFastRate;
-  return tolerance < (fast ? kTightToleranceIfFast : kTightTolerance);
-}
-
 }  // namespace
 
 bool AutoStepper::Pace::isFasterThan(const Pace& other, double factor) const {
@@ -76,7 +73,8 @@ AutoStepper::AutoStepper(const Chain& chain, double tolerance)
       tolerance_(tolerance),
       fastest_rate_(largestDampingRate(chain)),
       vibrates_fast_(fastestVibration(chain) > kFastVibration) {
-  const bool order_12 = needsOrder12(chain, tolerance);
+  const bool order_12 =
+      tolerance < (fastest_rate_ > kFastRate ? kTightToleranceIfFast : kTightTolerance);
   explicit_limit_ = order_12 ? kTaylor12RealStabilityLimit : kTaylor8RealStabilityLimit;
   const bool implicit_only = fastest_rate_ >= kRateForImplicitOnly;
   successor_is_better_ = !order_12 && !implicit_only;
@@ -102,7 +100,7 @@ DenseOutputStepper& AutoStepper::startedAt(Candidate& candidate, const State& st
 
 void AutoStepper::release(Candidate& candidate) {
   if (!candidate.stepper || chain_.size() <= kKeepsUpTo) return;
-  candidate.earlier = statisticsOf(candidate);
+  candidate.earlier = evaluationsOf(candidate);
   candidate.stepper.reset();
 }
 
@@ -120,19 +118,14 @@ void AutoStepper::start(const State& state) {
 
 // The difference is taken before the product. Its rounding then does not depend on earlier work, so
 // a restarted run gives the same bits.
-double AutoStepper::workSince(const Candidate& candidate, const StepStatistics& before) {
-  const StepStatistics now = statisticsOf(candidate);
+double AutoStepper::workSince(const Candidate& candidate, std::int64_t evaluations_before) {
   return candidate.work_per_evaluation *
-         static_cast<double>(now.force_evaluations - before.force_evaluations);
+         static_cast<double>(evaluationsOf(candidate) - evaluations_before);
 }
 
-StepStatistics AutoStepper::statisticsOf(const Candidate& candidate) {
-  StepStatistics sum = candidate.earlier;
-  if (!candidate.stepper) return sum;
-  const StepStatistics present = candidate.stepper->statistics();
-  sum.force_evaluations += present.force_evaluations;
-  sum.rejected += present.rejected;
-  return sum;
+std::int64_t AutoStepper::evaluationsOf(const Candidate& candidate) {
+  const auto& stepper = candidate.stepper;
+  return candidate.earlier + (stepper ? stepper->statistics().force_evaluations : 0);
 }
 
 bool AutoStepper::isStiff() const {
@@ -158,7 +151,7 @@ double AutoStepper::step() {
     }
   }
   Candidate& candidate = candidates_[active_];
-  const StepStatistics before = statisticsOf(candidate);
+  const std::int64_t before = evaluationsOf(candidate);
   last_step_ = candidate.stepper->step();
   const double work = workSince(candidate, before);
   recent_.work += work;
@@ -176,7 +169,7 @@ AutoStepper::Pace AutoStepper::paceOf(Candidate& candidate, const State& state) 
     if (!(stepper.step() > 0.0)) return {};
   }
   Pace pace;
-  const StepStatistics before = statisticsOf(candidate);
+  const std::int64_t before = evaluationsOf(candidate);
   for (int i = 0; i < kCounted; ++i) {
     const double covered = stepper.step();
     if (!(covered > 0.0)) return {};
@@ -198,7 +191,7 @@ void AutoStepper::race() {
   raced_ = recent_;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (i == active_) continue;
-    const StepStatistics before = statisticsOf(candidates_[i]);
+    const std::int64_t before = evaluationsOf(candidates_[i]);
     const Pace pace = paceOf(candidates_[i], state_);
     work += workSince(candidates_[i], before);
     release(candidates_[i]);
@@ -223,17 +216,15 @@ void AutoStepper::change(std::size_t to) {
 }
 
 StepStatistics AutoStepper::statistics() const {
-  StepStatistics sum;
-  for (const Candidate& candidate : candidates_) {
-    const StepStatistics its = statisticsOf(candidate);
-    sum.force_evaluations += its.force_evaluations;
-    sum.extra_work +=
-        (candidate.work_per_evaluation - 1.0) * static_cast<double>(its.force_evaluations);
-    sum.rejected += its.rejected;
-  }
-  sum.accepted = steps_;
-  sum.last_step = last_step_;
-  return sum;
+  std::int64_t evaluations = 0;
+  for (const Candidate& candidate : candidates_) evaluations += evaluationsOf(candidate);
+  return {evaluations, steps_, last_step_};
+}
+
+double AutoStepper::workPerEvaluation() const {
+  double work = 0.0;
+  for (const Candidate& candidate : candidates_) work += workSince(candidate, 0);
+  return work / static_cast<double>(std::max<std::int64_t>(1, statistics().force_evaluations));
 }
 
 std::string AutoStepper::report(double ahead) const {

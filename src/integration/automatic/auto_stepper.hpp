@@ -43,6 +43,7 @@ class AutoStepper final : public DenseOutputStepper {
     return active().stepper->stateAt(fraction);
   }
   StepStatistics statistics() const override;
+  double workPerEvaluation() const override;
 
   /// "Taylor-8 for 0.4 s, Stabilized-Taylor-8 for 4.6 s, 1 switch"
   std::string report(double ahead) const override;
@@ -57,7 +58,7 @@ class AutoStepper final : public DenseOutputStepper {
     std::unique_ptr<DenseOutputStepper> (*make)(const Chain& chain, double tolerance);
     std::unique_ptr<DenseOutputStepper> stepper{};  ///< constructed when used
     double covered = 0.0;                           ///< time integrated with it, s
-    StepStatistics earlier{};                       ///< of released steppers
+    std::int64_t earlier = 0;                       ///< evaluations of released steppers
   };
   /// Simulated time and the work spent on it.
   struct Pace {
@@ -67,9 +68,8 @@ class AutoStepper final : public DenseOutputStepper {
   };
 
   const Candidate& active() const { return candidates_[active_]; }
-  /// Evaluations, rejected steps and what was left out, with those of released steppers.
-  static StepStatistics statisticsOf(const Candidate& candidate);
-  static double workSince(const Candidate& candidate, const StepStatistics& before);
+  static std::int64_t evaluationsOf(const Candidate& candidate);
+  static double workSince(const Candidate& candidate, std::int64_t evaluations_before);
   Pace paceOf(Candidate& candidate, const State& state);
   bool isStiff() const;
   /// Whether the work since the last race suffices for another. Otherwise begins a new measurement of

@@ -26,28 +26,18 @@
 namespace spring_pendulum {
 
 struct EmbeddedPair {
-  static constexpr std::size_t kMaxSlopes = ButcherTableau::kMaxStages;
   static constexpr std::size_t kMaxDegree = 4;
-  using Weights = std::array<double, kMaxSlopes>;
+  using Weights = std::array<double, ButcherTableau::kMaxStages>;
 
   ButcherTableau tableau;
-  /// The estimated error of a step is O(h^error_order).
-  int error_order = 0;
-  /// Largest estimated error of a step, in tolerances. With this value, the position error is at
-  /// most 7 tolerances after 50 s of the weakly chaotic reference scene `horizontal_11` and far
-  /// below one tolerance on all other reference scenes.
-  double share_of_tolerance = 0.0;
-  /// e_i
-  Weights error{};
-  /// Number of slopes in the dense output: all stages and k_s.
-  std::size_t dense_slopes = 0;
+  Weights error{};  ///< e_i
   /// b_i(θ) = sum over d of dense[i][d] θ^(d+1)
-  std::array<std::array<double, kMaxDegree>, kMaxSlopes> dense{};
+  std::array<std::array<double, kMaxDegree>, ButcherTableau::kMaxStages> dense{};
 
-  /// b_i(θ) of the dense output.
+  /// b_i(θ) of the dense output, for all stages and k_s.
   Weights denseWeights(double theta) const {
     Weights weights{};
-    for (std::size_t i = 0; i < dense_slopes; ++i) {
+    for (std::size_t i = 0; i <= tableau.stages; ++i) {
       for (std::size_t d = kMaxDegree; d-- > 0;) weights[i] = theta * (dense[i][d] + weights[i]);
     }
     return weights;
@@ -76,11 +66,8 @@ inline constexpr EmbeddedPair kDormandPrince5{
        {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
        {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0}}},
      {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0}},
-    5,
-    2e-4,
     {71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0,
      -1.0 / 40.0},
-    7,
     {{{1.0, -8048581381.0 / 2820520608.0, 8663915743.0 / 2820520608.0,
        -12715105075.0 / 11282082432.0},
       {},
@@ -95,8 +82,7 @@ inline constexpr EmbeddedPair kDormandPrince5{
 
 class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
  public:
-  /// \param pair not null, must outlive the stepper
-  EmbeddedRungeKuttaStepper(const Chain& chain, const EmbeddedPair* pair, double tolerance,
+  EmbeddedRungeKuttaStepper(const Chain& chain, double tolerance,
                             const ChainKernels& kernels = fastestChainKernels());
 
  private:
@@ -104,7 +90,6 @@ class EmbeddedRungeKuttaStepper final : public ErrorEstimatingStepper {
   double attempt(double h) override;
   const StateBuffer& stateInside(double fraction) const override;
 
-  const EmbeddedPair& pair_;
   std::vector<StateBuffer> slopes_;
   mutable StateBuffer inside_;
 };

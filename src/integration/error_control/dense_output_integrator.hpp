@@ -10,7 +10,7 @@
 #include "integration/error_control/dense_output_stepper.hpp"
 #include "integration/kernels/energy_flow.hpp"
 #include "integration/kernels/held_motion.hpp"
-#include "integration/kernels/kernel_constants.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include "integration/work.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
@@ -26,7 +26,8 @@ class DenseOutputIntegrator final : public Integrator {
   DenseOutputIntegrator(const Chain& chain, std::unique_ptr<DenseOutputStepper> stepper,
                         bool track_dissipation = false);
   double work() const override {
-    return kTaylorTime.of(constants_.chain().size) * statistics().work();
+    return kTaylorTime.of(constants_.chain().size) * stepper_->workPerEvaluation() *
+           static_cast<double>(forceEvaluations());
   }
   std::int64_t forceEvaluations() const override { return statistics().force_evaluations; }
   double dissipatedEnergy() const override { return before_step_.dissipated + in_step_.dissipated; }

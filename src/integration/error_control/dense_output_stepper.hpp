@@ -3,7 +3,7 @@
 // restarts and the dissipated energy. `AutoStepper` is a stepper that owns several steppers.
 #pragma once
 
-#include "integration/kernels/state_buffer.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include <spring_pendulum/model/state.hpp>
 
 #include <cstddef>
@@ -15,14 +15,8 @@ namespace spring_pendulum {
 /// Work of a stepper since its construction.
 struct StepStatistics {
   std::int64_t force_evaluations = 0;  ///< evaluations of F for the whole chain
-  /// Cost of the evaluations beyond that of as many evaluations of Taylor-8, in the same unit.
-  double extra_work = 0.0;
-  std::int64_t accepted = 0;  ///< accepted steps
-  std::int64_t rejected = 0;  ///< steps whose error was too large
-  double last_step = 0.0;     ///< size of the last accepted step, s
-
-  /// Cost of all evaluations, in force evaluations of Taylor-8.
-  double work() const { return static_cast<double>(force_evaluations) + extra_work; }
+  std::int64_t accepted = 0;           ///< accepted steps
+  double last_step = 0.0;              ///< size of the last accepted step, s
 };
 
 /// Smallest step size. A step of this size is accepted whatever its estimated error, so that the
@@ -54,6 +48,9 @@ class DenseOutputStepper {
   virtual const StateBuffer& stateAt(double fraction) const = 0;
 
   virtual StepStatistics statistics() const = 0;
+
+  /// Mean cost of an evaluation, in force evaluations of Taylor-8.
+  virtual double workPerEvaluation() const { return 1.0; }
 
   /// See Integrator::report.
   /// \param ahead time in s from the last output to the end of the last step

@@ -50,11 +50,10 @@ double ErrorEstimatingStepper::step() {
       return h;
     }
     if (is_shortest) return 0.0;
-    ++statistics_.rejected;
   }
 }
 
-void ErrorEstimatingStepper::setEnd(const StateBuffer& change, SlopeSum sum) {
+void ErrorEstimatingStepper::setEnd(const StateBuffer& change, const SlopeSum& sum) {
   kernels_.compensatedSum(begin_.pitch(), begin_.data(), change.data(), sum, end_.data(),
                           end_carry_.data());
 }

@@ -11,8 +11,7 @@
 #include "integration/error_control/dense_output_stepper.hpp"
 #include "integration/error_control/step_size_controller.hpp"
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/kernel_constants.hpp"
-#include "integration/kernels/state_buffer.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include <spring_pendulum/model/chain.hpp>
 
 namespace spring_pendulum {
@@ -48,7 +47,7 @@ class ErrorEstimatingStepper : public DenseOutputStepper {
   virtual double admissible(double h) { return h; }
 
   /// end_ = begin_ + (change + sum), where change contains `carry_`.
-  void setEnd(const StateBuffer& change, SlopeSum sum);
+  void setEnd(const StateBuffer& change, const SlopeSum& sum);
 
   const Chain chain_;
   const KernelConstants constants_;

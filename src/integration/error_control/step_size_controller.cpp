@@ -19,16 +19,11 @@ constexpr int kExponentBias = 1023;
 constexpr std::int64_t kMantissa = (std::int64_t{1} << kMantissaBits) - 1;
 constexpr std::int64_t kOneBits = std::int64_t{kExponentBias} << kMantissaBits;  ///< bits of 1.0
 
-std::int64_t bitsOf(double x) {
-  std::int64_t bits = 0;
-  std::memcpy(&bits, &x, sizeof(bits));
-  return bits;
-}
-
-double fromBits(std::int64_t bits) {
-  double x = 0.0;
-  std::memcpy(&x, &bits, sizeof(x));
-  return x;
+template <typename To, typename From>
+To withBitsOf(From from) {
+  To to{};
+  std::memcpy(&to, &from, sizeof(to));
+  return to;
 }
 
 /// Returns log2(1 + f) for f in [0, 1], exact at both ends; error at most 1.6e-5 (the polynomial
@@ -49,13 +44,14 @@ double powerOfTwo(double f) {
 
 double root(double x, int k) {
   if (!(x > 0.0)) return 0.0;
-  const std::int64_t bits = bitsOf(std::max(x, kSmallest));
-  const double mantissa = fromBits((bits & kMantissa) | kOneBits);
+  const std::int64_t bits = withBitsOf<std::int64_t>(std::max(x, kSmallest));
+  const double mantissa = withBitsOf<double>((bits & kMantissa) | kOneBits);
   const double logarithm = static_cast<double>((bits >> kMantissaBits) - kExponentBias) +
                            binaryLogarithm(mantissa - 1.0);
   const double biased = logarithm * (1.0 / k) + kExponentBias;
   const auto whole = static_cast<std::int64_t>(biased);
-  return fromBits(whole << kMantissaBits) * powerOfTwo(biased - static_cast<double>(whole));
+  return withBitsOf<double>(whole << kMantissaBits) *
+         powerOfTwo(biased - static_cast<double>(whole));
 }
 
 double StepSizeController::next(double h, double error) {

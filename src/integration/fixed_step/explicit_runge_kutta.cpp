@@ -21,37 +21,38 @@ Eigen::Index usableBlockSize(Eigen::Index wanted, std::size_t stages) {
                   2 * StateBuffer::paddedSize(static_cast<Eigen::Index>(stages)));
 }
 
-Eigen::Index greatestNumberOfShares(const EngineOptions& options, Eigen::Index particles) {
-  const Eigen::Index blocks = particles / options.block_size;
+Eigen::Index greatestNumberOfShares(int threads, Eigen::Index blocks) {
   if (blocks <= 1) return 1;  // asking for the cores takes as long as 100 steps of a short chain
   const auto available = static_cast<Eigen::Index>(std::thread::hardware_concurrency());
-  return std::max<Eigen::Index>(
-      1, std::min(options.threads > 0 ? options.threads : available, blocks));
+  return std::max<Eigen::Index>(1, std::min(threads > 0 ? threads : available, blocks));
 }
 
 }  // namespace
 
 ExplicitRungeKutta::ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
-                                       const EngineOptions& options)
+                                       const IntegratorOptions& options,
+                                       const EngineOptions& engine)
     : FixedStepIntegrator(chain, options.track_dissipation && chain.spring().damping != 0.0,
-                          options.kernels != nullptr ? *options.kernels : fastestChainKernels()),
-      options_(options),
+                          engine.kernels != nullptr ? *engine.kernels : fastestChainKernels()),
+      engine_(engine),
       stages_(tableau.stages),
-      track_dissipation_(energy_flow_.ofSprings() != nullptr),
       tableau_(tableau),
-      kernel_(findAdvanceKernel(kernels_, tableau,
-                                {chain.spring().damping != 0.0, track_dissipation_})) {
+      kernel_(
+          findAdvanceKernel(kernels_, tableau,
+                            {chain.spring().damping != 0.0, energy_flow_.ofSprings() != nullptr})) {
   assert(kernel_ != nullptr);
-  options_.block_size = usableBlockSize(options.block_size, stages_);
-  const bool one_block = chain.size() <= options_.block_size;
-  if (!one_block) largest_halo_ = largestHalo(options_.block_size, stages_);
-  const Eigen::Index rows = one_block ? chain.size() : options_.block_size + 2 * largest_halo_;
-  shares_.resize(static_cast<std::size_t>(greatestNumberOfShares(options_, chain.size())));
+  engine_.block_size = usableBlockSize(engine.block_size, stages_);
+  const bool one_block = chain.size() <= engine_.block_size;
+  if (!one_block) largest_halo_ = largestHalo(engine_.block_size, stages_);
+  const Eigen::Index rows = one_block ? chain.size() : engine_.block_size + 2 * largest_halo_;
+  shares_.resize(static_cast<std::size_t>(
+      greatestNumberOfShares(options.threads, chain.size() / engine_.block_size)));
   for (Share& share : shares_) {
     share.left.resize(largest_halo_, 4);
     share.right.resize(largest_halo_, 4);
     share.block = StateBuffer(rows);
-    if (track_dissipation_ && !one_block) share.dissipated = AlignedNumbers(share.block.pitch());
+    if (energy_flow_.ofSprings() != nullptr && !one_block)
+      share.dissipated = AlignedNumbers(share.block.pitch());
     share.workspace = AlignedNumbers(stepWorkspaceSize(stages_));
   }
   workers_ = std::make_unique<WorkerThreads>(static_cast<int>(shares_.size()), [this](int share) {
@@ -94,8 +95,8 @@ void ExplicitRungeKutta::stepWhole(State& state, std::int64_t steps) {
 int ExplicitRungeKutta::threadsFor(std::int64_t steps) const {
   const double work =
       kFixedStepTime.of(chain().size) * static_cast<double>(stages_) * static_cast<double>(steps);
-  return static_cast<int>(std::clamp(work / options_.least_work_per_thread, 1.0,
-                                     static_cast<double>(workers_->size())));
+  return static_cast<int>(
+      std::clamp(work / engine_.least_work_per_thread, 1.0, static_cast<double>(workers_->size())));
 }
 
 void ExplicitRungeKutta::divide(int threads) {
@@ -115,7 +116,7 @@ void ExplicitRungeKutta::divide(int threads) {
 void ExplicitRungeKutta::workOn(Share& share) {
   const Eigen::Index size = share.end - share.begin;
   if (size == 0) return;
-  const Eigen::Index blocks = (size + options_.block_size - 1) / options_.block_size;
+  const Eigen::Index blocks = (size + engine_.block_size - 1) / engine_.block_size;
   const Eigen::Index block_size = StateBuffer::paddedSize((size + blocks - 1) / blocks);
   for (Eigen::Index begin = share.begin; begin < share.end; begin += block_size) {
     stepBlock(share, begin, std::min(share.end, begin + block_size));
@@ -135,11 +136,11 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
     share.left.topRows(pass_.halo) = state.middleRows(end - pass_.halo, pass_.halo);
   }
   double* const in_block = share.dissipated.data();
-  if (track_dissipation_)
+  if (in_block != nullptr)
     std::copy_n(energy_flow_.ofSprings() + begin, end - begin, in_block + (begin - first));
   const KernelChain piece = constants_.piece(first, last, share.block.pitch());
   kernel_(piece, weights_, pass_.steps, share.block.data(), in_block, share.workspace.data());
-  if (track_dissipation_)
+  if (in_block != nullptr)
     std::copy_n(in_block + (begin - first), end - begin, energy_flow_.ofSprings() + begin);
   const Eigen::Index moving = std::max<Eigen::Index>(1, begin);
   state.middleRows(moving, end - moving) = block.middleRows(moving - first, end - moving);

@@ -20,22 +20,20 @@
 
 namespace spring_pendulum {
 
-/// Performance settings; results do not depend on them, except for `track_dissipation`.
+/// Performance settings, on which no result depends.
 struct EngineOptions {
-  int threads = 0;  ///< largest number; 0: one per processor core
   /// Scene per block. A block and its workspace should fit into the second-level cache.
   Eigen::Index block_size = 4096;
   /// Least work per call and thread, s, see `work`. Waking a thread takes longer than less work.
   double least_work_per_thread = 1e-4;
   const ChainKernels* kernels = nullptr;  ///< null: the fastest kernels that the processor supports
-  bool track_dissipation = false;         ///< integrate the dissipated power as well
 };
 
 class ExplicitRungeKutta final : public FixedStepIntegrator {
  public:
   /// \param tableau one that has a kernel (`findAdvanceKernel`)
   ExplicitRungeKutta(const Chain& chain, const ButcherTableau& tableau,
-                     const EngineOptions& options = {});
+                     const IntegratorOptions& options, const EngineOptions& engine = {});
 
  private:
   void integrate(State& state, double time_step, std::int64_t steps) override;
@@ -64,9 +62,8 @@ class ExplicitRungeKutta final : public FixedStepIntegrator {
   void workOn(Share& share);
   void stepBlock(Share& share, Eigen::Index begin, Eigen::Index end);
 
-  EngineOptions options_;
+  EngineOptions engine_;
   std::size_t stages_;
-  bool track_dissipation_;
   const ButcherTableau& tableau_;
   AdvanceKernel kernel_;
   Eigen::Index largest_halo_ = 0;  ///< 0: the whole chain is one block

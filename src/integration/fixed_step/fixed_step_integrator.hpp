@@ -5,8 +5,7 @@
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/energy_flow.hpp"
 #include "integration/kernels/held_motion.hpp"
-#include "integration/kernels/kernel_constants.hpp"
-#include "integration/kernels/state_buffer.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include "integration/work.hpp"
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
@@ -39,7 +38,7 @@ class FixedStepIntegrator : public Integrator {
   const KernelChain& chain() const { return constants_.chain(); }
   /// Computes F of a state.
   void evaluate(const StateBuffer& state, StateBuffer& slope) {
-    kernels_.stageSlope(chain(), state.data(), {}, slope.data());
+    kernels_.stageSlope(chain(), state.data(), kNoSlopes, slope.data());
     ++force_evaluations_;
   }
   /// Adds the powers at a state, dissipated and supplied, times `time` s.

@@ -13,12 +13,12 @@ PlainRungeKutta::PlainRungeKutta(const Chain& chain, const ButcherTableau& table
 void PlainRungeKutta::step(double time_step) {
   const Eigen::Index pitch = current().pitch();
   for (std::size_t i = 0; i < tableau_.stages; ++i) {
-    kernels_.combine(pitch, current().data(), StageSum(time_step, tableau_.a[i], slopes_),
+    kernels_.combine(pitch, current().data(), stageSum(time_step, tableau_.a[i], slopes_),
                      stage_.data());
     evaluate(stage_, slopes_[i]);
     if (tableau_.b[i] != 0.0) addPowers(stage_, time_step * tableau_.b[i]);
   }
-  kernels_.combine(pitch, current().data(), StageSum(time_step, tableau_.b, slopes_),
+  kernels_.combine(pitch, current().data(), stageSum(time_step, tableau_.b, slopes_),
                    current().data());
 }
 

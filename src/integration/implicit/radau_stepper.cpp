@@ -47,11 +47,8 @@ std::array<double, 2> springlessAcceleration(const Chain& chain, std::size_t par
 
 }  // namespace
 
-StepStatistics RadauStepper::statistics() const {
-  StepStatistics statistics = ErrorEstimatingStepper::statistics();
-  const double cost = kRadauTime.of(chain_.size()) / kTaylorTime.of(chain_.size());
-  statistics.extra_work = (cost - 1.0) * static_cast<double>(statistics.force_evaluations);
-  return statistics;
+double RadauStepper::workPerEvaluation() const {
+  return kRadauTime.of(chain_.size()) / kTaylorTime.of(chain_.size());
 }
 
 RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKernels& kernels)
@@ -160,8 +157,10 @@ bool RadauStepper::solveStages(double h) {
     computeResiduals();
     real_.solve();
     for (System<Complex>& pair : pairs_) pair.solve();
-    const Change change = updateStages();
-    const double size = change.norm();
+    const LargestChange change = updateStages();
+    // std::max may drop a NaN; the second term keeps it.
+    const double size =
+        std::max(change.position, change.velocity) + 0.0 * (change.position + change.velocity);
     if (!std::isfinite(size)) return false;
     const double contraction = iteration == 0 ? 1.0 : size / last;
     // Without contraction, either only rounding errors are left or the step is too long.
@@ -215,9 +214,9 @@ void RadauStepper::computeResiduals() {
   statistics_.force_evaluations += static_cast<std::int64_t>(kStages);
 }
 
-RadauStepper::Change RadauStepper::updateStages() {
+LargestChange RadauStepper::updateStages() {
   const double damping = chain_.spring().damping;
-  Change largest;
+  LargestChange largest{};
   double finite = 0.0;
   Increments left{};
   for (std::size_t i = 1; i < stages_.particles.size(); ++i) {
@@ -316,7 +315,7 @@ double RadauStepper::filteredError(bool corrected) {
 }
 
 double RadauStepper::stepExplicitly(double h) {
-  kernels_.stageSlope(constants_.chain(), begin_.data(), {}, change_.data());
+  kernels_.stageSlope(constants_.chain(), begin_.data(), kNoSlopes, change_.data());
   ++statistics_.force_evaluations;
   double finite = 0.0;
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
@@ -343,7 +342,7 @@ void RadauStepper::setEndFromLastStage() {
       valueOf(change_, i, c) = valueOf(carry_, i, c) + stages_.particles[i][c].back();
     }
   }
-  setEnd(change_, {});
+  setEnd(change_, kNoSlopes);
 }
 
 const StateBuffer& RadauStepper::stateInside(double fraction) const {

@@ -30,7 +30,6 @@
 #include "integration/implicit/linear_spring.hpp"
 #include "integration/implicit/radau_coefficients.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -42,7 +41,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
   RadauStepper(const Chain& chain, double tolerance,
                const ChainKernels& kernels = fastestChainKernels());
 
-  StepStatistics statistics() const override;
+  double workPerEvaluation() const override;
 
  private:
   using Row = radau::Row;
@@ -90,13 +89,6 @@ class RadauStepper final : public ErrorEstimatingStepper {
     Scalar q{};  ///< h / eigenvalue, s
     std::array<std::vector<Scalar>, 2> unknowns;
   };
-  struct Change {
-    double position = 0.0;  ///< largest change of a coordinate, m
-    double velocity = 0.0;  ///< m/s
-    /// NaN if not finite
-    double norm() const { return std::max(position, velocity) + 0.0 * (position + velocity); }
-  };
-
   /// Position and velocity of the right end of a spring relative to its left end.
   struct Ends {
     PlaneVector<double> separation;
@@ -126,7 +118,7 @@ class RadauStepper final : public ErrorEstimatingStepper {
   void computeResiduals();
   /// Computes the tensions of a spring and its forces on its left particle, at all stages.
   Forces springForces(std::size_t spring);
-  Change updateStages();
+  LargestChange updateStages();
   /// Returns the largest estimated error of a coordinate, m.
   double estimateError(double h);
   /// Returns one estimate of the error and stores the error of each particle in `change_`.

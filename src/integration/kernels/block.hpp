@@ -97,22 +97,6 @@ template <typename Number>
   return {only(force.x, springs), only(force.y, springs)};
 }
 
-/// Returns the forces of the springs between the particles of a block and their left neighbours, as
-/// they act on the left neighbours. Without damping no velocity is read, which changes no bit.
-template <bool kDamped>
-[[gnu::always_inline]] inline PlaneVector<Pack> springForces(const KernelChain& chain,
-                                                             const Block& left, const Block& here,
-                                                             std::ptrdiff_t block) {
-  const PlaneVector<Pack> separation = separationsOf(left, here);
-  PlaneVector<Pack> force;
-  if constexpr (kDamped) {
-    force = springForce(chain.spring, separation, relativeVelocitiesOf(left, here));
-  } else {
-    force = undampedSpringForce(chain.spring, separation);
-  }
-  return onlySprings(force, chain, block);
-}
-
 /// dissipated += weight * rate², with weight = k_d times a time, kg.
 [[gnu::always_inline]] inline void addDissipation(double weight, Pack rate, double* dissipated) {
   fused(weight, rate * rate, Pack::load(dissipated)).store(dissipated);

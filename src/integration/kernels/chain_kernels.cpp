@@ -1,6 +1,6 @@
 #include "integration/kernels/chain_kernels.hpp"
 
-#include "integration/kernels/kernel_constants.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
@@ -70,9 +70,10 @@ KernelConstants::KernelConstants(const Chain& chain) {
   chain_.gravity = chain.isDriven() ? 0.0 : chain.gravity();
   chain_.size = chain.size();
   chain_.pitch = StateBuffer::pitchFor(chain.size());
-  inverse_masses_ = AlignedNumbers(chain_.pitch);
-  std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, inverse_masses_.data());
-  chain_.inverse_masses = inverse_masses_.data();
+  inverse_masses_ = AlignedNumbers(kFirstMoving + chain_.pitch);
+  double* const inverse_masses = inverse_masses_.data() + kFirstMoving;
+  std::copy_n(chain.inverseMasses().data() + 1, chain.size() - 1, inverse_masses);
+  chain_.inverse_masses = inverse_masses;
   if (chain.isDriven()) {
     drive_ = AlignedNumbers(2 * chain_.pitch);
     chain_.drive = drive_.data();

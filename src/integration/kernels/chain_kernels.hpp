@@ -42,9 +42,10 @@ struct KernelChain {
   const double* drive = nullptr;
   double anchor[2] = {};  ///< acceleration of the first particle of a driven chain, m/s²
   const double* drag_rates = nullptr;  ///< k_air/m of the moving particles, 1/s; null without air
-  const double* inverse_masses = nullptr;  ///< of the N - 1 moving particles, 1/kg; then zeros
-  std::ptrdiff_t size = 0;                 ///< N >= 1; the first particle is held
-  std::ptrdiff_t pitch = 0;                ///< length of a column, see `StateBuffer::pitchFor`
+  /// Of the N - 1 moving particles, 1/kg, between zeros: element -1 is that of the first particle
+  const double* inverse_masses = nullptr;
+  std::ptrdiff_t size = 0;   ///< N >= 1; the first particle is held
+  std::ptrdiff_t pitch = 0;  ///< length of a column, see `StateBuffer::pitchFor`
 };
 
 /// The term w k of a sum: weight (step size times a coefficient) and slope (N×4).
@@ -55,9 +56,10 @@ struct WeightedSlope {
 
 /// A sum of weighted slopes. Terms are added in the given order, which determines the rounding.
 struct SlopeSum {
-  const WeightedSlope* terms = nullptr;
+  WeightedSlope terms[ButcherTableau::kMaxStages];  ///< the first `count`
   std::ptrdiff_t count = 0;
 };
+inline constexpr SlopeSum kNoSlopes{};
 
 /// The coefficients of a tableau times the step size h, for each stage i.
 struct StepWeights {
@@ -121,8 +123,6 @@ inline constexpr std::ptrdiff_t kLargestTaylorOrder = 14;
 /// columns are padded to `pitch`; the padding holds springs that exert no force.
 struct TaylorWorkspace {
   KernelChain chain;
-  /// Inverse masses of the left neighbours of the moving particles, 1/kg; 0 if fixed or padding
-  const double* left_inverse_masses = nullptr;
   std::ptrdiff_t order = 0;  ///< K in 2..14, number of force coefficients
 
   /// Groups of 8 springs, each with `kSpringRows` rows of 4 × 8 doubles. Row n <= 14 holds
@@ -135,10 +135,6 @@ struct TaylorWorkspace {
   /// Not 16: groups of 16 rows of 256 bytes would be 4 KiB apart, and loads would wait for stores to
   /// the same row of another group (4K aliasing). The series of 101 particles took 10 % longer.
   static constexpr std::ptrdiff_t kSpringRows = kLargestTaylorOrder + 3;
-  static std::ptrdiff_t springNumbers(std::ptrdiff_t pitch) { return pitch * 4 * kSpringRows; }
-  static std::ptrdiff_t accelerationNumbers(std::ptrdiff_t pitch, std::ptrdiff_t order) {
-    return pitch * 2 * order;
-  }
 };
 
 /// Weights of the acceleration coefficients 0..count-1 in the position and velocity sums, and of
@@ -156,10 +152,11 @@ struct ChainKernels {
   std::string_view name;  ///< "baseline", "avx2", "avx512"
 
   /// slope = F(state + sum), or F(state) for an empty sum. Row 0 is zero unless the chain is driven.
-  void (*stageSlope)(const KernelChain& chain, const double* state, SlopeSum sum, double* slope);
+  void (*stageSlope)(const KernelChain& chain, const double* state, const SlopeSum& sum,
+                     double* slope);
 
   /// out = state + sum; `out` may be `state`
-  void (*combine)(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out);
+  void (*combine)(std::ptrdiff_t pitch, const double* state, const SlopeSum& sum, double* out);
 
   /// to += weight * from, for `count` numbers, a multiple of 8
   void (*addWeighted)(std::ptrdiff_t count, double weight, const double* from, double* to);
@@ -168,10 +165,10 @@ struct ChainKernels {
   /// error of the addition, exact where |change + sum| <= |state|. The caller passes it as part of
   /// the next `change`. W. Kahan, Comm. ACM 8 (1965) 40, doi:10.1145/363707.363723.
   void (*compensatedSum)(std::ptrdiff_t pitch, const double* state, const double* change,
-                         SlopeSum sum, double* out, double* lost);
+                         const SlopeSum& sum, double* out, double* lost);
 
   /// Returns the largest absolute values of a sum over the first `size` particles.
-  LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum);
+  LargestChange (*largestChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, const SlopeSum& sum);
 
   /// Returns how much the springs between the first `size` particles change in a step of h s.
   SpringChange (*springChange)(std::ptrdiff_t size, std::ptrdiff_t pitch, double h,

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/state_buffer.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include "model/block_sums.hpp"
 #include <spring_pendulum/model/chain.hpp>
 

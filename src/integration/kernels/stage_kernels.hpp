@@ -43,7 +43,7 @@ class Largest {
   Pack::Bits largest_{};
 };
 
-[[gnu::always_inline]] inline Block plusSum(Block result, SlopeSum sum, std::ptrdiff_t pitch,
+[[gnu::always_inline]] inline Block plusSum(Block result, const SlopeSum& sum, std::ptrdiff_t pitch,
                                             std::ptrdiff_t block) {
   for (std::ptrdiff_t k = 0; k < sum.count; ++k) {
     const Block slope = load(placeOf(sum.terms[k].slope, pitch, block));
@@ -53,7 +53,7 @@ class Largest {
 }
 
 [[gnu::always_inline]] inline Block combinedBlock(std::ptrdiff_t pitch, const double* state,
-                                                  SlopeSum sum, std::ptrdiff_t block) {
+                                                  const SlopeSum& sum, std::ptrdiff_t block) {
   return plusSum(load(placeOf(state, pitch, block)), sum, pitch, block);
 }
 
@@ -77,7 +77,7 @@ inline void addDrag(const KernelChain& chain, const double* velocities, double* 
 
 // Local copy of the chain: through the reference it would be reloaded after every store.
 template <bool kDamped>
-void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum sum,
+void stageSlope(const KernelChain& callers_chain, const double* state, const SlopeSum& sum,
                 double* slope) {
   const KernelChain chain = callers_chain;
   const std::ptrdiff_t blocks = blocksOf(chain.size);
@@ -85,7 +85,14 @@ void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum 
   PlaneVector<Pack> next_forces{};
   for (std::ptrdiff_t block = blocks - 1; block >= 0; --block) {
     const Block left = combinedBlock(chain.pitch, state, sum, block - 1);
-    const PlaneVector<Pack> forces = springForces<kDamped>(chain, left, here, block);
+    const PlaneVector<Pack> separation = separationsOf(left, here);
+    PlaneVector<Pack> forces;
+    if constexpr (kDamped) {
+      forces = springForce(chain.spring, separation, relativeVelocitiesOf(left, here));
+    } else {  // no velocity is read, which changes no bit
+      forces = undampedSpringForce(chain.spring, separation);
+    }
+    forces = onlySprings(forces, chain, block);
     store(slopeOf(chain, here, forces, next_forces, block), placeOf(slope, chain.pitch, block));
     next_forces = forces;
     here = left;
@@ -93,7 +100,7 @@ void stageSlope(const KernelChain& callers_chain, const double* state, SlopeSum 
   store({}, placeOf(slope, chain.pitch, -1));
 }
 
-void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, double* slope) {
+void stageSlope(const KernelChain& chain, const double* state, const SlopeSum& sum, double* slope) {
   const auto spring_slope = chain.spring.damping == 0.0 ? stageSlope<false> : stageSlope<true>;
   spring_slope(chain, state, sum, slope);
   double* accelerations = slope + 2 * chain.pitch + kFirstMoving;
@@ -109,7 +116,7 @@ void stageSlope(const KernelChain& chain, const double* state, SlopeSum sum, dou
   if (chain.drag_rates != nullptr) addDrag(chain, slope + kFirstMoving, accelerations);
 }
 
-void combine(std::ptrdiff_t pitch, const double* state, SlopeSum sum, double* out) {
+void combine(std::ptrdiff_t pitch, const double* state, const SlopeSum& sum, double* out) {
   for (std::ptrdiff_t block = -1; block < (pitch - kFirstMoving) / kLanes; ++block) {
     store(combinedBlock(pitch, state, sum, block), placeOf(out, pitch, block));
   }
@@ -127,8 +134,8 @@ void addDissipation(const KernelChain& callers_chain, const double* state, doubl
   }
 }
 
-void compensatedSum(std::ptrdiff_t pitch, const double* state, const double* change, SlopeSum sum,
-                    double* out, double* lost) {
+void compensatedSum(std::ptrdiff_t pitch, const double* state, const double* change,
+                    const SlopeSum& sum, double* out, double* lost) {
   for (std::ptrdiff_t block = -1; block < (pitch - kFirstMoving) / kLanes; ++block) {
     const Block from = load(placeOf(state, pitch, block));
     const Block step = combinedBlock(pitch, change, sum, block);
@@ -154,7 +161,7 @@ template <typename OfBlock>
   return {position.result(), velocity.result()};
 }
 
-LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, SlopeSum sum) {
+LargestChange largestChange(std::ptrdiff_t size, std::ptrdiff_t pitch, const SlopeSum& sum) {
   return largestOf(size, [&](std::ptrdiff_t block) { return plusSum({}, sum, pitch, block); });
 }
 
@@ -181,7 +188,7 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
     const Pack in_middle = fused(0.125 * h, slowing, 0.5 * at_end);
     const Pack square = before.x * before.x + before.y * before.y;
     const Pack grown = change.x * change.x + change.y * change.y;
-    const Pack::Bits without = reaches(grown, Pack::all(kNoLength * kNoLength));
+    const Pack::Bits without = reaches(grown, kNoLength * kNoLength);
     const Pack::Bits with_length = reaches(absolute(at_end), kMuch * square);
     const Pack::Bits springs = laneNumbers().lanes < static_cast<double>(size - 1 - block * kLanes);
     much |= springs & (square.lanes == 0.0 ? without : with_length);

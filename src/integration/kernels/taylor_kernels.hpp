@@ -217,13 +217,14 @@ template <Index n>
     const TaylorWorkspace& work, Index block, const PlaneVector<Pack>& left,
     const PlaneVector<Pack>& here, const PlaneVector<Pack>& right) {
   constexpr double kShare = 1.0 / ((n + 1) * (n + 2));
-  const Pack left_inverse_mass = kShare * Pack::load(work.left_inverse_masses + block * kLanes);
+  const Pack left_inverse_mass =
+      kShare * Pack::loadUnaligned(work.chain.inverse_masses + block * kLanes - 1);
   const Pack inverse_mass = kShare * Pack::load(work.chain.inverse_masses + block * kLanes);
   const Pack both = left_inverse_mass + inverse_mass;
   PlaneVector<Pack> result{
       fused(inverse_mass, right.x, fused(left_inverse_mass, left.x, -(both * here.x))),
       fused(inverse_mass, right.y, fused(left_inverse_mass, left.y, -(both * here.y)))};
-  if (n == 0 && block == 0) result.y = result.y - only(Pack::all(kShare * work.chain.gravity), 1);
+  if (n == 0 && block == 0) result.y = result.y - only(kShare * work.chain.gravity, 1);
   return result;
 }
 
@@ -237,7 +238,7 @@ template <Index n>
   double* accelerations = work.accelerations + n * 2 * work.chain.pitch + first;
   const Pack inverse_mass = Pack::load(work.chain.inverse_masses + first);
   Pack y = (right.y - here.y) * inverse_mass;
-  if (n == 0) y = y - only(Pack::all(work.chain.gravity), work.chain.size - 1 - first);
+  if (n == 0) y = y - only(work.chain.gravity, work.chain.size - 1 - first);
   ((right.x - here.x) * inverse_mass).store(accelerations);
   y.store(accelerations + work.chain.pitch);
 }
@@ -270,7 +271,7 @@ template <typename OfBlock>
 
 [[gnu::noinline]] inline void addDrive(const TaylorWorkspace& work) {
   const double* drive = work.chain.drive;
-  const PlaneVector<Pack> anchor{Pack::all(work.chain.anchor[0]), Pack::all(work.chain.anchor[1])};
+  const PlaneVector<Pack> anchor{work.chain.anchor[0], work.chain.anchor[1]};
   addAccelerations(work, 0, anchor, [&](Index first) {
     return PlaneVector<Pack>{Pack::load(drive + first),
                              Pack::load(drive + work.chain.pitch + first)};

@@ -31,13 +31,13 @@ double longestStep(const StabilizedPolynomial& polynomial, double rate) {
   return kUsedStability * polynomial.real_stability_limit / rate;
 }
 
-/// Returns the weights of the plain series, with the term of degree j multiplied by factor(j).
-template <typename Factor>
-TaylorWeights weighted(int terms, double time, const Factor& factor) {
-  TaylorWeights weights = taylorWeights(terms, time);
-  for (int n = 0; n < terms; ++n) {
-    weights.velocity[static_cast<std::size_t>(n)] *= factor(n + 1);
-    weights.position[static_cast<std::size_t>(n)] *= factor(n + 2);
+/// Returns the weights of the plain series, with the term of degree j multiplied by kFactor(j).
+template <auto kFactor>
+TaylorWeights weighted(const StabilizedPolynomial& polynomial, double time) {
+  TaylorWeights weights = taylorWeights(polynomial.terms, time);
+  for (int n = 0; n < polynomial.terms; ++n) {
+    weights.velocity[static_cast<std::size_t>(n)] *= (polynomial.*kFactor)(n + 1);
+    weights.position[static_cast<std::size_t>(n)] *= (polynomial.*kFactor)(n + 2);
   }
   return weights;
 }
@@ -45,13 +45,7 @@ TaylorWeights weighted(int terms, double time, const Factor& factor) {
 TaylorWeights sumOf(const StabilizedPolynomial& polynomial, double time) {
   // Near a collision, which takes shortest steps, higher coefficients are mostly rounding errors.
   if (time <= kShortestStep) return taylorWeights(1, time);
-  return weighted(polynomial.terms, time,
-                  [&polynomial](int term) { return polynomial.weight(term); });
-}
-
-TaylorWeights errorOf(const StabilizedPolynomial& polynomial, double time) {
-  return weighted(polynomial.terms, time,
-                  [&polynomial](int term) { return polynomial.errorWeight(term); });
+  return weighted<&StabilizedPolynomial::weight>(polynomial, time);
 }
 
 }  // namespace
@@ -96,13 +90,14 @@ double StabilizedTaylorStepper::attempt(double h) {
     statistics_.force_evaluations += known_terms_;
   }
   kernels_.taylorState(work, begin_.data(), carry_.data(), sumOf(*polynomial_, h), change_.data());
-  setEnd(change_, {});
+  setEnd(change_, kNoSlopes);
   // The series is invalid once the ends of a spring meet; see TaylorStepper::step.
   const auto middle = [&]() -> const StateBuffer& { return sumAt(0.5 * h); };
   if (h > kShortestStep && springsChangeMuch(kernels_, work, h, begin_, end_, middle)) {
     return std::numeric_limits<double>::infinity();
   }
-  const LargestChange error = kernels_.taylorLargestSum(work, errorOf(*polynomial_, h));
+  const LargestChange error = kernels_.taylorLargestSum(
+      work, weighted<&StabilizedPolynomial::errorWeight>(*polynomial_, h));
   return std::max(time_of_velocity_error_ * error.velocity, error.position) *
          std::max(1.0, least_time_per_error_ / std::max(h, kLeastVibration));
 }

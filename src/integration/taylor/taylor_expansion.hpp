@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/state_buffer.hpp"
+#include "integration/kernels/kernel_data.hpp"
 
 #include <array>
 #include <cstddef>
@@ -24,16 +24,11 @@ struct TaylorExpansion {
   /// \param chain points to numbers that must outlive the expansion
   /// \param order K in 2..14, the largest number of coefficients
   TaylorExpansion(const KernelChain& chain, int order)
-      : left_inverse_masses(chain.pitch),
-        springs(TaylorWorkspace::springNumbers(chain.pitch)),
-        accelerations(TaylorWorkspace::accelerationNumbers(chain.pitch, order)),
-        work{chain, left_inverse_masses.data(), order, springs.data(), accelerations.data()} {
-    for (std::ptrdiff_t i = 1; i + 1 < chain.size; ++i) {
-      left_inverse_masses[i] = chain.inverse_masses[i - 1];
-    }
-  }
+      : springs(chain.pitch * 4 * TaylorWorkspace::kSpringRows),
+        accelerations(chain.pitch * 2 * order),
+        work{chain, order, springs.data(), accelerations.data()} {}
 
-  AlignedNumbers left_inverse_masses, springs, accelerations;
+  AlignedNumbers springs, accelerations;
   TaylorWorkspace work;
 };
 

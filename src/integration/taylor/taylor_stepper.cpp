@@ -99,46 +99,46 @@ TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
       kernels_(kernels),
       constants_(chain),
       expansion_(constants_.chain(), order),
-      work_(expansion_.work),
       begin_(chain.size()),
       end_(chain.size()),
       inside_(chain.size()) {}
 
 void TaylorStepper::start(const State& state) {
   end_.values() = state.values();
-  work_.chain.size = chain_.size();
+  expansion_.work.chain.size = chain_.size();
 }
 
 // The springs beyond the computed part fell freely in the last step and still do.
 void TaylorStepper::skipFreeEnd() {
   if (!chain_.isPlain()) return;
   const Eigen::Index first =
-      beginOfFreeFall(begin_, work_.chain.size, work_.chain.spring.rest_length);
-  const Eigen::Index moving = StateBuffer::paddedSize(first + work_.order + 1);
+      beginOfFreeFall(begin_, expansion_.work.chain.size, expansion_.work.chain.spring.rest_length);
+  const Eigen::Index moving = StateBuffer::paddedSize(first + expansion_.work.order + 1);
   const Eigen::Index size = std::min<Eigen::Index>(chain_.size(), 1 + moving);
   // A store would delay the kernel, which loads the whole workspace at once.
-  if (size != work_.chain.size) work_.chain.size = size;
+  if (size != expansion_.work.chain.size) expansion_.work.chain.size = size;
 }
 
 double TaylorStepper::step() {
   std::swap(begin_, end_);
   skipFreeEnd();
-  kernels_.taylorSeries(work_, begin_.data());
-  statistics_.force_evaluations += work_.order;
-  double h = longestAccurateStep(kernels_.lastCoefficients(work_), work_.order, allowed_rate_);
+  kernels_.taylorSeries(expansion_.work, begin_.data());
+  statistics_.force_evaluations += expansion_.work.order;
+  double h = longestAccurateStep(kernels_.lastCoefficients(expansion_.work), expansion_.work.order,
+                                 allowed_rate_);
   if (h == 0.0) return 0.0;
   // When the ends of a spring meet, the series continues to negative lengths, but the motion does
   // not. So step close to that moment, then past it with the shortest step. Near it, the higher
   // coefficients are mostly rounding errors, so the shortest step uses only one.
   for (;; h = std::max(0.5 * h, kShortestStep)) {
     const bool shortest = h <= kShortestStep;
-    terms_ = shortest ? 1 : work_.order;
+    terms_ = shortest ? 1 : expansion_.work.order;
     sumAt(h, end_);
     const auto middle = [&]() -> const StateBuffer& {
       sumAt(0.5 * h, inside_);
       return inside_;
     };
-    if (shortest || !springsChangeMuch(kernels_, work_, h, begin_, end_, middle)) break;
+    if (shortest || !springsChangeMuch(kernels_, expansion_.work, h, begin_, end_, middle)) break;
   }
   ++statistics_.accepted;
   statistics_.last_step = h;
@@ -146,9 +146,9 @@ double TaylorStepper::step() {
 }
 
 void TaylorStepper::sumAt(double time, StateBuffer& out) const {
-  kernels_.taylorState(work_, begin_.data(), begin_.data(), taylorWeights(terms_, time),
+  kernels_.taylorState(expansion_.work, begin_.data(), begin_.data(), taylorWeights(terms_, time),
                        out.data());
-  const Eigen::Index falling = chain_.size() - work_.chain.size;
+  const Eigen::Index falling = chain_.size() - expansion_.work.chain.size;
   if (falling == 0) return;
   // The arithmetic of the kernel for a free fall, where only the first coefficient is not zero. All
   // these particles fall at the same speed.

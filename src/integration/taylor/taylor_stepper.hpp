@@ -33,8 +33,7 @@
 
 #include "integration/error_control/dense_output_stepper.hpp"
 #include "integration/kernels/chain_kernels.hpp"
-#include "integration/kernels/kernel_constants.hpp"
-#include "integration/kernels/state_buffer.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include "integration/taylor/taylor_expansion.hpp"
 #include <spring_pendulum/model/chain.hpp>
 
@@ -72,9 +71,8 @@ class TaylorStepper final : public DenseOutputStepper {
   double allowed_rate_;  ///< allowed growth rate of the velocity error, m/s²
   const ChainKernels& kernels_;
   KernelConstants constants_;
-  TaylorExpansion expansion_;
-  TaylorWorkspace& work_;     ///< its size excludes the end that falls freely
-  std::ptrdiff_t terms_ = 0;  ///< number of terms summed in the last step
+  TaylorExpansion expansion_;  ///< its size excludes the end that falls freely
+  std::ptrdiff_t terms_ = 0;   ///< number of terms summed in the last step
   StateBuffer begin_;
   StateBuffer end_;
   mutable StateBuffer inside_;

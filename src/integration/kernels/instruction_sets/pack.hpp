@@ -40,6 +40,12 @@ struct Pack {
   using Native [[gnu::vector_size(kLanes * sizeof(double))]] = double;
   using Bits [[gnu::vector_size(kLanes * sizeof(double))]] = std::int64_t;
 
+  Pack() = default;
+  // NOLINTBEGIN(google-explicit-constructor): doubles and vectors mix as in a formula
+  [[gnu::always_inline]] Pack(Native native) : lanes(native) {}
+  [[gnu::always_inline]] Pack(double in_every_lane) : lanes(in_every_lane - Native{}) {}
+  // NOLINTEND(google-explicit-constructor)
+
   [[gnu::always_inline]] static Pack load(const double* aligned) {
     return {*reinterpret_cast<const Native*>(aligned)};
   }
@@ -47,7 +53,6 @@ struct Pack {
     using Unaligned [[gnu::vector_size(kLanes * sizeof(double)), gnu::aligned(8)]] = double;
     return {*reinterpret_cast<const Unaligned*>(from)};
   }
-  [[gnu::always_inline]] static Pack all(double value) { return {value - Native{}}; }
   [[gnu::always_inline]] void store(double* aligned) const {
     *reinterpret_cast<Native*>(aligned) = lanes;
   }
@@ -64,16 +69,6 @@ struct Pack {
 [[gnu::always_inline]] inline Pack operator*(Pack a, Pack b) {
   return {a.lanes * b.lanes};
 }
-[[gnu::always_inline]] inline Pack operator+(double a, Pack b) {
-  return {a + b.lanes};
-}
-[[gnu::always_inline]] inline Pack operator-(Pack a, double b) {
-  return {a.lanes - b};
-}
-[[gnu::always_inline]] inline Pack operator*(double a, Pack b) {
-  return {a * b.lanes};
-}
-
 [[gnu::always_inline]] inline Pack operator-(Pack a) {
   return {-a.lanes};
 }
@@ -89,16 +84,6 @@ struct Pack {
 #else
   return {emulatedFused(a.lanes, b.lanes, c.lanes)};
 #endif
-}
-[[gnu::always_inline]] inline Pack fused(double a, Pack b, Pack c) {
-  return fused(Pack::all(a), b, c);
-}
-[[gnu::always_inline]] inline Pack fused(Pack a, Pack b, double c) {
-  return fused(a, b, Pack::all(c));
-}
-
-[[gnu::always_inline]] inline Pack fused(Pack a, double b, double c) {
-  return fused(a, Pack::all(b), Pack::all(c));
 }
 
 [[gnu::always_inline]] inline Pack squareRoot(Pack square) {

@@ -1,9 +1,10 @@
-// States and slopes in the layout of the vector kernels.
+// States, slopes and chains in the layout of the vector kernels.
 #pragma once
 
 #include "integration/kernels/chain_kernels.hpp"
 #include <spring_pendulum/base/aligned_numbers.hpp>
 #include <spring_pendulum/integration/butcher_tableau.hpp>
+#include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
 
 #include <Eigen/Core>
@@ -53,23 +54,32 @@ class StateBuffer {
   AlignedNumbers numbers_;
 };
 
-/// The sum of h * weight * slope over the slopes of all stages. Terms with weight 0 are left out.
-class StageSum {
+/// Returns the sum of h * weight * slope over the slopes of all stages, without terms of weight 0.
+inline SlopeSum stageSum(double h, const std::array<double, ButcherTableau::kMaxStages>& weights,
+                         const std::vector<StateBuffer>& slopes) {
+  SlopeSum sum;
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    if (weights[i] != 0.0) sum.terms[sum.count++] = {h * weights[i], slopes[i].data()};
+  }
+  return sum;
+}
+
+/// Owns the memory to which a `KernelChain` points.
+class KernelConstants {
  public:
-  /// \param slopes at most `ButcherTableau::kMaxStages`; must outlive the sum
-  StageSum(double h, const std::array<double, ButcherTableau::kMaxStages>& weights,
-           const std::vector<StateBuffer>& slopes) {
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-      if (weights[i] != 0.0) terms_[count_++] = {h * weights[i], slopes[i].data()};
-    }
-  }
-  operator SlopeSum() const {  // NOLINT(google-explicit-constructor)
-    return {terms_.data(), static_cast<std::ptrdiff_t>(count_)};
-  }
+  explicit KernelConstants(const Chain& chain);
+
+  /// Returns the particles begin <= i < end as a chain of its own, with columns `pitch` apart.
+  /// \param begin a multiple of 8
+  KernelChain piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const;
+
+  const KernelChain& chain() const { return chain_; }
 
  private:
-  std::array<WeightedSlope, ButcherTableau::kMaxStages> terms_{};
-  std::size_t count_ = 0;
+  AlignedNumbers inverse_masses_;
+  AlignedNumbers drive_;
+  AlignedNumbers drag_rates_;
+  KernelChain chain_;
 };
 
 }  // namespace spring_pendulum
