@@ -50,11 +50,7 @@ TEST(Allocation, DoesNotHappenWhileAnyMethodSteps) {
 
 TEST(Allocation, DoesNotHappenWhileThreadsStepALongChain) {
   const Chain chain(Eigen::VectorXd::Ones(5000), SpringLaw{}, 9.81);
-  EngineOptions options;
-  options.threads = 3;
-  options.block_size = 1024;
-  options.least_work_per_thread = 1e-9;
-  ExplicitRungeKutta engine(chain, kClassicalRungeKuttaTableau, options);
+  ExplicitRungeKutta engine(chain, kClassicalRungeKuttaTableau, {1e-6, false, 3}, {1024, 1e-9});
   State state = hangingChain(5000);
   const long before = allocations;
   engine.advance(state, 0.01, 3);

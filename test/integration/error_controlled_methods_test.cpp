@@ -80,22 +80,17 @@ TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
       {"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
       {"horizontal_11", {1, 2, 5, 10, 20, 50}},
       {"light_100", {1, 5}},
-      {"horizontal_1000", {1, 2}}};
+      {"horizontal_1000", {1, 2}},
+      {"lighter_100",
+       {1}},  // stability limits the steps of explicit methods; measured: at most 0.01
+      {"alternating_50", {1}}};
   for (const auto& [name, times] : cases) {
     const Scene scene = referenceScene(name);
     for (const double tolerance : kTolerances) {
+      if (times.size() == 1 && tolerance != 1e-4) continue;
       EXPECT_LT(worstError(*make(scene, tolerance), scene, name, times, tolerance), 10.0)
           << name << " at " << tolerance;
     }
-  }
-}
-
-// Here stability limits the steps of explicit methods. Measured: at most 0.01.
-TEST_P(ErrorControlledMethod, KeepsItsToleranceOnStiffChains) {
-  const double tolerance = 1e-4;
-  for (const char* name : {"lighter_100", "alternating_50"}) {
-    const Scene scene = referenceScene(name);
-    EXPECT_LT(worstError(*make(scene, tolerance), scene, name, {1}, tolerance), 10.0) << name;
   }
 }
 

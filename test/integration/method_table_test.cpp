@@ -22,16 +22,6 @@ TEST(MethodTable, EveryNameFindsItsOwnRowAndMakesAnIntegrator) {
   }
 }
 
-TEST(MethodTable, UnknownNameListsTheKnownOnes) {
-  try {
-    findMethod("Simpson");
-    FAIL() << "no error";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 ("unknown method 'Simpson'; known methods: " + knownMethodNames()).c_str());
-  }
-}
-
 /// |R(z)| of an embedded pair or a Taylor series.
 double amplification(const Method& method, std::complex<double> z) {
   if (method.tableau != nullptr) return std::abs(1.0 + stabilityIncrement(*method.tableau, z));

@@ -168,11 +168,5 @@ TEST(Auto, TakesTheImplicitMethodAloneForExtremeDampingRates) {
   EXPECT_EQ(methodAfter({"", damped, test::straightLine(4, 1.0, 0.0)}, 1e-6, 0.1), "Radau-9");
 }
 
-TEST(Auto, OtherMethodsHaveNothingToReport) {
-  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
-  EXPECT_EQ(makeIntegrator("Radau-9", chain)->report(), "");
-  EXPECT_EQ(makeIntegrator("Runge-Kutta-4", chain)->report(), "");
-}
-
 }  // namespace
 }  // namespace spring_pendulum

@@ -16,7 +16,7 @@ constexpr int kDenseOrder = 4;
 ButcherTableau allSlopes(const EmbeddedPair& pair) {
   ButcherTableau tableau = pair.tableau;
   tableau.a[pair.tableau.stages] = pair.tableau.b;
-  tableau.stages = pair.dense_slopes;
+  ++tableau.stages;
   return tableau;
 }
 
@@ -64,7 +64,7 @@ TEST(EmbeddedPair, OneAlteredCoefficientIsFound) {
                                    kEmbeddedOrder),
             1e-7);
   altered = kDormandPrince5;
-  altered.dense[altered.dense_slopes - 1][1] += 1e-6;
+  altered.dense[altered.tableau.stages][1] += 1e-6;
   EXPECT_GT(denseResidual(altered, 0.5, kDenseOrder), 1e-8);
 }
 

@@ -63,18 +63,6 @@ TEST(DenseOutputIntegrator, GoesOnFromTheLastOutputTimeWithAnotherTimeStep) {
   EXPECT_NEAR(state.x()[1], 0.95, 1e-14);
 }
 
-TEST(DenseOutputIntegrator, RestartsFromANewState) {
-  DenseOutputIntegrator integrator(dampedChain(), std::make_unique<UniformMotion>(), true);
-  State state(2);
-  integrator.advance(state, 0.25, 3);
-  integrator.restart();
-  EXPECT_EQ(integrator.dissipatedEnergy(), 0.0);
-  state.x()[1] = -1.0;
-  integrator.advance(state, 0.25, 3);
-  EXPECT_NEAR(state.x()[1], -0.25, 1e-14);
-  EXPECT_NEAR(integrator.dissipatedEnergy(), 1.5, 1e-14);
-}
-
 TEST(DenseOutputIntegrator, ShowsADivergedMotionInTheStateFromThenOn) {
   DenseOutputIntegrator integrator(dampedChain(), std::make_unique<UniformMotion>(2));
   State state(2);

@@ -105,8 +105,8 @@ void expectSameBits(const Method& method, const Kind& kind, const State& start, 
   const State expected = stateAfter(plain, start, steps, steps);
   for (const ChainKernels* kernels : supportedChainKernels()) {
     for (const auto& [threads, block_size] : ways.threads_and_block_sizes) {
-      const EngineOptions options{threads, block_size, 1e-9, kernels, track_dissipation};
-      ExplicitRungeKutta engine(chain, *method.tableau, options);
+      ExplicitRungeKutta engine(chain, *method.tableau, {1e-6, track_dissipation, threads},
+                                {block_size, 1e-9, kernels});
       for (const int at_once : ways.steps_a_call) {
         engine.restart();
         EXPECT_TRUE(sameBits(stateAfter(engine, start, steps, at_once), expected))
@@ -145,23 +145,6 @@ TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeForEveryNumberOfBlocks) {
       }
     }
   }
-}
-
-// Heun's method, which has no kernel: the factory of the table runs it with the plain code.
-TEST(ExplicitRungeKutta, LeavesATableauWithoutAKernelToThePlainCode) {
-  const ButcherTableau heun{2, {{{}, {1.0}}}, {0.5, 0.5}};
-  Method method = findMethod("Runge-Kutta-2");
-  method.tableau = &heun;
-  const Chain chain = chainOf(11, kKinds[0]);
-  const auto integrator = makeIntegrator(method, chain, {1e-6, true, 1});
-  PlainRungeKutta plain(chain, heun, true);
-  EXPECT_TRUE(sameBits(stateAfter(*integrator, bentChain(11), kSteps, 5),
-                       stateAfter(plain, bentChain(11), kSteps, kSteps)));
-  EXPECT_EQ(integrator->forceEvaluations(), 2 * kSteps);
-  EXPECT_GT(integrator->dissipatedEnergy(), 0.0);
-  EXPECT_EQ(integrator->dissipatedEnergy(), plain.dissipatedEnergy());
-  integrator->restart();
-  EXPECT_EQ(integrator->dissipatedEnergy(), 0.0);
 }
 
 TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeOnALongChain) {
@@ -204,7 +187,8 @@ TEST(ExplicitRungeKutta, LeavesTheFixedParticleWhereItIsThoughItsNeighbourIsLost
 TEST(ExplicitRungeKutta, StartsItsThreadsAnewInAForkedProcess) {
   const State start = bentChain(9000);
   auto engine = std::make_unique<ExplicitRungeKutta>(
-      chainOf(9000, kKinds[0]), kClassicalRungeKuttaTableau, EngineOptions{2, 1024, 1e-9});
+      chainOf(9000, kKinds[0]), kClassicalRungeKuttaTableau, IntegratorOptions{1e-6, false, 2},
+      EngineOptions{1024, 1e-9});
   const State expected = stateAfter(*engine, start, kSteps, kSteps);
   const pid_t child = fork();
   if (child == 0) {

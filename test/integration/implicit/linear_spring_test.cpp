@@ -42,12 +42,5 @@ TEST(LinearSpring, AgreesWithFiniteDifferences) {
   EXPECT_LT(errorOfForce(SpringLaw{50.0, 10.0, 0.0}), 1e-9);  // no rest length
 }
 
-TEST(LinearSpring, WithoutLengthHasNoDirection) {
-  const LinearSpring spring = linearSpring(SpringLaw{}, {0.0, 0.0}, kApproach, 3.0);
-  EXPECT_EQ(spring.r.x, 0.0);
-  EXPECT_EQ(spring.e, 0.0);
-  EXPECT_EQ(spring.stiffnessTimes({1.0, 1.0}).x, 0.0);
-}
-
 }  // namespace
 }  // namespace spring_pendulum

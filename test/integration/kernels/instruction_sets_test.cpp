@@ -20,19 +20,17 @@ struct Maker {
   std::unique_ptr<DenseOutputStepper> (*make)(const Chain&, const ChainKernels&);
 };
 
-/// \tparam kArguments a pointer to an embedded pair, or an order
-template <typename Stepper, auto... kArguments>
+template <typename Stepper, int... kOrder>
 std::unique_ptr<DenseOutputStepper> make(const Chain& chain, const ChainKernels& kernels) {
-  return std::make_unique<Stepper>(chain, kArguments..., 1e-5, kernels);
+  return std::make_unique<Stepper>(chain, kOrder..., 1e-5, kernels);
 }
 
-constexpr Maker kMakers[] = {
-    {"Taylor_7", make<TaylorStepper, 7>},
-    {"Taylor_12", make<TaylorStepper, 12>},
-    {"Stabilized_Taylor_4", make<StabilizedTaylorStepper, 4>},
-    {"Stabilized_Taylor_8", make<StabilizedTaylorStepper, 8>},
-    {"Dormand_Prince_5", make<EmbeddedRungeKuttaStepper, &kDormandPrince5>},
-    {"Radau_9", make<RadauStepper>}};
+constexpr Maker kMakers[] = {{"Taylor_7", make<TaylorStepper, 7>},
+                             {"Taylor_12", make<TaylorStepper, 12>},
+                             {"Stabilized_Taylor_4", make<StabilizedTaylorStepper, 4>},
+                             {"Stabilized_Taylor_8", make<StabilizedTaylorStepper, 8>},
+                             {"Dormand_Prince_5", make<EmbeddedRungeKuttaStepper>},
+                             {"Radau_9", make<RadauStepper>}};
 
 State stateAfterSteps(const test::Scene& scene, const Maker& maker, const ChainKernels& kernels) {
   const auto stepper = maker.make(scene.chain, kernels);

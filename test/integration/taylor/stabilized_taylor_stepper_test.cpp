@@ -58,17 +58,6 @@ TEST(StabilizedPolynomials, AreStableAsFarAsTheTableSaysAndNotMuchFurther) {
   }
 }
 
-TEST(StabilizedPolynomials, AgreeWithTheExponentialToTheirOrderOnly) {
-  for (const int order : {4, 8}) {
-    for (const StabilizedPolynomial& p : stabilizedPolynomials(order)) {
-      EXPECT_EQ(p.order, order);
-      for (int j = 0; j <= order; ++j) EXPECT_EQ(p.weight(j), 1.0) << p.terms;
-      EXPECT_LT(p.weight(order + 1), 0.96) << p.terms;
-      EXPECT_EQ(p.weight(p.terms + 1), 0.0) << p.terms;
-    }
-  }
-}
-
 // The estimate is of order p - 1, the same for all of an order, and no fast mode of amplitude 1
 // shows in it as more than that.
 TEST(StabilizedPolynomials, ErrorEstimatesKeepClearOfFastModes) {

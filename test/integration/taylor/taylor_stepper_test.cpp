@@ -1,6 +1,6 @@
 #include "integration/taylor/taylor_stepper.hpp"
 
-#include "integration/kernels/state_buffer.hpp"
+#include "integration/kernels/kernel_data.hpp"
 #include <spring_pendulum/model/energy.hpp>
 
 #include <gtest/gtest.h>
