@@ -30,8 +30,8 @@ struct ButcherTableau {
 ///     --+---
 ///       | 1
 ///
-/// L. Euler, Institutionum calculi integralis I, 1768, §650. For lessons only: undamped swinging
-/// grows at every step size.
+/// Stable for real hλ >= -2 and for no imaginary hλ: for lessons only, as undamped swinging grows at
+/// every step size. L. Euler, Institutionum calculi integralis I, 1768, §650.
 inline constexpr ButcherTableau kEulerTableau{1, {}, {1.0}};
 
 /// Explicit midpoint rule, order 2:
@@ -41,7 +41,8 @@ inline constexpr ButcherTableau kEulerTableau{1, {}, {1.0}};
 ///     ----+--------
 ///         | 0    1
 ///
-/// C. Runge, Math. Ann. 46 (1895) 167-178, doi:10.1007/BF01446807.
+/// Stable for real hλ >= -2 and for no imaginary hλ. C. Runge, Ueber die numerische Auflösung von
+/// Differentialgleichungen, Math. Ann. 46 (1895) 167-178, doi:10.1007/BF01446807.
 inline constexpr ButcherTableau kMidpointTableau{2, {{{}, {0.5}}}, {0.0, 1.0}};
 
 /// The classical Runge-Kutta method, order 4:
@@ -53,7 +54,8 @@ inline constexpr ButcherTableau kMidpointTableau{2, {{{}, {0.5}}}, {0.0, 1.0}};
 ///     ----+--------------------
 ///         | 1/6 1/3 1/3 1/6
 ///
-/// W. Kutta, Z. Math. Phys. 46 (1901) 435-453.
+/// Stable for real hλ >= -2.785 and imaginary |hλ| <= 2.828. W. Kutta, Beitrag zur näherungsweisen
+/// Integration totaler Differentialgleichungen, Z. Math. Phys. 46 (1901) 435-453.
 inline constexpr ButcherTableau kClassicalRungeKuttaTableau{
     4, {{{}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}}}, {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}};
 

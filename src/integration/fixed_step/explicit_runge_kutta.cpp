@@ -138,7 +138,10 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
   double* const in_block = share.dissipated.data();
   if (in_block != nullptr)
     std::copy_n(energy_flow_.ofSprings() + begin, end - begin, in_block + (begin - first));
-  const KernelChain piece = constants_.piece(first, last, share.block.pitch());
+  KernelChain piece = chain();
+  piece.inverse_masses += first;
+  piece.size = last - first;
+  piece.pitch = share.block.pitch();
   kernel_(piece, weights_, pass_.steps, share.block.data(), in_block, share.workspace.data());
   if (in_block != nullptr)
     std::copy_n(in_block + (begin - first), end - begin, energy_flow_.ofSprings() + begin);

@@ -1,5 +1,5 @@
-// Radau IIA of order 9 (five stages) for chains with very light particles. The tension T of every
-// spring is an unknown in addition to positions and velocities:
+// Radau IIA of order 9 (five stages, L-stable) for chains with very light particles. The tension T of
+// every spring is an unknown in addition to positions and velocities:
 //
 //     q' = v      m v' = sum of T r + m g      0 = k_s (L - L_0) + k_d L' - T
 //

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cstdlib>
 #include <string>
 
@@ -90,15 +89,6 @@ KernelConstants::KernelConstants(const Chain& chain) {
   chain_.drag_rates = drag_rates_.data();
   drag_rates_.view().head(chain.size() - 1) =
       chain.airDrag() * chain.inverseMasses().tail(chain.size() - 1);
-}
-
-KernelChain KernelConstants::piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const {
-  assert(begin % 8 == 0 && 0 <= begin && begin < end && end <= chain_.size);
-  KernelChain piece = chain_;
-  piece.inverse_masses += begin;
-  piece.size = end - begin;
-  piece.pitch = pitch;
-  return piece;
 }
 
 }  // namespace spring_pendulum

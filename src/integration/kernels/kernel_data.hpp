@@ -69,10 +69,6 @@ class KernelConstants {
  public:
   explicit KernelConstants(const Chain& chain);
 
-  /// Returns the particles begin <= i < end as a chain of its own, with columns `pitch` apart.
-  /// \param begin a multiple of 8
-  KernelChain piece(Eigen::Index begin, Eigen::Index end, Eigen::Index pitch) const;
-
   const KernelChain& chain() const { return chain_; }
 
  private:
