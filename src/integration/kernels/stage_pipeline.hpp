@@ -210,6 +210,7 @@ class StagePipeline {
   }
 
   /// First phase of a stage.
+  /// \param here columns x and y of the block; becomes those of the block to the left
   template <std::ptrdiff_t kStage>
   [[gnu::always_inline]] void begin(double* workspace, std::ptrdiff_t block,
                                     PlaneVector<Pack>& here) {
