@@ -57,7 +57,8 @@ std::optional<ExactMotion> exactMotion(const Scene& scene, double interval, int 
   std::mt19937 random(1);
   for (Eigen::Index i = 1; i < near.start.size(); ++i) {
     for (const int column : {0, 1}) {
-      near.start.values()(i, column) += kPerturbation * (random() / 2147483648.0 - 1.0);
+      const double uniform = static_cast<double>(random()) / 2147483648.0 - 1.0;
+      near.start.values()(i, column) += kPerturbation * uniform;
     }
   }
   using Motion = ExtrapolatedMotion<long double, 10>;

@@ -190,11 +190,12 @@ double accurateStep(Trials& trials, const Chain& chain, const Plan& plan, const 
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, trials.start());
   const double error = trial.position_error.largest;
   const double factor = std::pow(allowed / error, 1.0 / std::max(method.order, 1));
+  double failed = kInfinity;
+  if (isBad(trial.verdict.kind)) failed = plan.time_step;
   bool is_judged = true;
   const double found = largestPassingStep(
       std::isfinite(error) ? plan.time_step * factor : plan.time_step,
-      std::min(stable, trials.duration()), isBad(trial.verdict.kind) ? plan.time_step : kInfinity,
-      [&](double step) -> std::optional<bool> {
+      std::min(stable, trials.duration()), failed, [&](double step) -> std::optional<bool> {
         const auto tried = trials.runWithStep(step, ReferenceUse::kAuto, VerdictKind::kInaccurate);
         if (!tried) return std::nullopt;
         is_judged = is_judged && (tried->judged || !tried->isStable());
