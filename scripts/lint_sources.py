@@ -153,9 +153,9 @@ def folder_errors(files):
 # Lines of code that a newcomer has to hold in the head: rooms with their public headers, and a program with its room.
 # A change that does not fit takes something else out; a budget only falls.
 BUDGETS = {
-    'base, model': (1500, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
+    'base, model': (1390, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
     'integration': (5992, 'src/integration', 'include/spring_pendulum/integration'),
-    'simulation': (2867, 'src/simulation', 'include/spring_pendulum/simulation'),
+    'simulation': (2657, 'src/simulation', 'include/spring_pendulum/simulation'),
     'io': (2720, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),
     'ros': (4295, 'src/ros', 'src/pendulum_node.cpp', 'src/record_bag.cpp'),
     'check': (1790, 'src/check', 'src/check_frames.cpp'),
