@@ -44,8 +44,8 @@ double powerOfTwo(double f) {
 
 double root(double x, int k) {
   if (!(x > 0.0)) return 0.0;
-  const std::int64_t bits = withBitsOf<std::int64_t>(std::max(x, kSmallest));
-  const double mantissa = withBitsOf<double>((bits & kMantissa) | kOneBits);
+  const auto bits = withBitsOf<std::int64_t>(std::max(x, kSmallest));
+  const auto mantissa = withBitsOf<double>((bits & kMantissa) | kOneBits);
   const double logarithm = static_cast<double>((bits >> kMantissaBits) - kExponentBias) +
                            binaryLogarithm(mantissa - 1.0);
   const double biased = logarithm * (1.0 / k) + kExponentBias;
