@@ -12,9 +12,9 @@ from fault_injection import CLEANS_UP, NO_MASTER, disturbed_runs, files_in, fill
 from pendulum_process import Folder, program, wait_until
 
 
-def record(folder, *arguments, env=None):
+def record(folder, *arguments, env=None, bag='run.bag'):
     return subprocess.run(
-        [program('record_bag'), 'Runge-Kutta-4', '--particles', 'particle.txt', '--bag', 'run.bag',
+        [program('record_bag'), 'Runge-Kutta-4', '--particles', 'particle.txt', '--bag', bag,
          '--frames', '2', '--display-rate', '0', *arguments], cwd=folder, capture_output=True,
         text=True, env=dict(os.environ, **NO_MASTER, **(env or {})))
 
@@ -95,7 +95,7 @@ class RecordBag(unittest.TestCase):
             checked = record(folder, '--check')
             self.assertEqual((checked.returncode, checked.stderr), (0, ''))
             self.assertIn('Runge-Kutta-4', checked.stdout)
-            refused = record(folder, '--bag', 'particle.txt')
+            refused = record(folder, bag='particle.txt')
             self.assertEqual(refused.returncode, 2)
             self.assertIn('particle.txt: is an input of this run', refused.stderr)
             self.assertEqual(files_in(folder), before)
