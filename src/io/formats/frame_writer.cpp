@@ -23,10 +23,6 @@ FrameWriter::FrameWriter(const std::string& folder, std::int64_t first)
   earlier_frames_ = removeFrames(folder_, first);
 }
 
-FrameWriter::~FrameWriter() {
-  stop();
-}
-
 void FrameWriter::write(std::int64_t index, const State& state) {
   const bool gains = state.size() >= kLargeFrame && std::thread::hardware_concurrency() > 1;
   if (gains && !thread_.joinable()) {

@@ -30,7 +30,7 @@ class FrameWriter {
   /// \throws FileError naming the folder or file
   explicit FrameWriter(const std::string& folder, std::int64_t first = 0);
   /// Waits until the last frame is written.
-  ~FrameWriter();
+  ~FrameWriter() { stop(); }
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
