@@ -101,12 +101,6 @@ TEST_F(Exercise3Output, AnUnstableTimeStepIsAWarningAtTheStart) {
                    "Auto\ndiverged at t = .*; largest stable step .*\n"));
 }
 
-TEST_F(Exercise3Output, AFrameIsTenStepsFromTheNext) {
-  ASSERT_EQ(runWith("Euler --frames 3").status, 0);
-  ASSERT_EQ(runWith("Euler --frames 21 --steps-per-frame 1 --output every/step").status, 0);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(read(frame(i)), read("every/step/" + frame(10 * i)));
-}
-
 TEST_F(Exercise3Output, EnergiesHaveARowPerFrameUnderAHeaderWithUnits) {
   folder_.write("particle.txt", "0 0 1 0 0\n0 -2 1 3 0\n");
   ASSERT_EQ(runWith("Auto --no-frames --frames 2 --gravity 10 --energy e.csv").errors, "");
