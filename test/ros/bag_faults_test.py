@@ -8,7 +8,7 @@ import unittest
 import rosbag
 import rostest
 
-from fault_injection import CLEANS_UP, NO_MASTER, disturbed_runs, files_in, fill
+from fault_injection import NO_MASTER, check_faults, files_in, fill
 from pendulum_process import Folder, program, wait_until
 
 
@@ -21,49 +21,23 @@ def record(folder, *arguments, env=None, bag='run.bag'):
 
 class RecordBag(unittest.TestCase):
 
-    def check(self, kind, arguments=(), bag=b'earlier bag'):
+    def run_bag(self, *arguments):
         def run(folder, environment=None):
-            return record(folder, *arguments, env=environment)
-        with Folder() as folder:
-            fill(folder, run_bag=bag)
-            self.assertEqual(run(folder).returncode, 0)
-            finished = files_in(folder)
-        self.assertEqual(sorted(finished), ['particle.txt', 'run.bag'])
-        for name, result, folder in disturbed_runs(self, kind, run, {'run_bag': bag}):
-            files = files_in(folder)
-            self.assertIn(files['run.bag'], (bag, finished['run.bag']))
-            self.assertEqual(files['particle.txt'], finished['particle.txt'])
-            if kind == 'kill':
-                self.assertEqual(result.returncode, -signal.SIGKILL)
-                again = run(folder)
-                if not arguments:  # what was appended before the kill is appended again
-                    self.assertEqual(files_in(folder), finished, again.stderr)
-                self.assertEqual(again.returncode, 0, again.stderr)
-            elif result.returncode == 0:
-                self.assertEqual(result.stderr, '')
-                self.assertEqual(files['run.bag'], finished['run.bag'])
-            else:
-                self.assertEqual(result.returncode, 1)
-                self.assertRegex(result.stderr, r'\A/.*: .*\n\Z')
-                if kind == 'fail' and name not in CLEANS_UP:
-                    self.assertEqual(len(files), 2, files.keys())
+            done = record(folder, *arguments, env=environment)
+            return done.returncode, done.stderr
+        return run
 
     def test_every_call_fails(self):
-        self.check('fail')
-
-    def test_the_disk_breaks_at_every_call(self):
-        self.check('broken')
-
-    def test_killed_at_every_call(self):
-        self.check('kill')
+        check_faults(self, ('fail', 'broken', 'kill'), self.run_bag(), r'\A/.*: .*\n\Z', {'run_bag': b'earlier bag'})
 
     def test_appending_fails_at_every_call(self):
         with Folder() as folder:
             fill(folder)
             self.assertEqual(record(folder, '--namespace', 'a').returncode, 0)
             bag = files_in(folder)['run.bag']
-        for kind in ('fail', 'kill'):
-            self.check(kind, ('--append', '--namespace', 'b'), bag)
+        # What was appended before a kill is appended again.
+        check_faults(self, ('fail', 'kill'), self.run_bag('--append', '--namespace', 'b'), r'\A/.*: .*\n\Z',
+                     {'run_bag': bag}, repeats=False)
 
     def test_a_second_run_into_the_same_bag_is_refused(self):
         with Folder() as folder:

@@ -1,5 +1,6 @@
 """Programs with failing system calls; see ../support/fault_injection.cpp."""
 import os
+import signal
 
 from pendulum_process import Folder, project
 
@@ -53,3 +54,34 @@ def disturbed_runs(test, kind, run, files):
             with test.subTest(kind=kind, call=call, name=name, result=result):
                 if name:
                     yield name, result, folder
+
+
+def check_faults(test, kinds, run, message, files, repeats=True):
+    """Whatever fails, files are those of before or of a complete run, and the program says so in one line.
+    :param run: run(folder, environment) returns the exit status and the output
+    :param message: pattern of the output of a failed run
+    :param files: those in the folder before, apart from the particle file
+    :param repeats: whether a run after a kill gives the same files"""
+    with Folder() as folder:
+        fill(folder, **files)
+        test.assertEqual(run(folder)[0], 0)
+        finished = files_in(folder)
+    earlier = {name.replace('_', '.'): text for name, text in files.items()}
+    for kind in kinds:
+        for name, (status, output), folder in disturbed_runs(test, kind, run, files):
+            found = files_in(folder)
+            for file in finished:
+                if file in earlier or file in found:
+                    test.assertIn(found[file], (earlier.get(file), finished[file]), file)
+            if kind == 'kill':
+                test.assertEqual(status, -signal.SIGKILL)
+                test.assertEqual(run(folder)[0], 0)  # as if nothing had happened
+                if repeats:
+                    test.assertEqual(files_in(folder), finished)
+            elif status == 0:
+                test.assertEqual({**finished, **found}, found)
+            else:
+                test.assertEqual(status, 1)
+                test.assertRegex(output, message)
+                if kind == 'fail' and name not in CLEANS_UP:
+                    test.assertLessEqual(set(found), set(finished), 'unfinished files')
