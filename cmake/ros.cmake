@@ -1,7 +1,7 @@
 # What only a build with ROS has: the messages, and how other packages find this one. The ROS
 # library and its executables follow in src/ros/CMakeLists.txt.
 find_package(catkin REQUIRED COMPONENTS geometry_msgs interactive_markers message_generation
-  nav_msgs rosbag_storage roscpp rosgraph_msgs std_msgs std_srvs tf2 tf2_msgs tf2_ros visualization_msgs)
+  nav_msgs rosbag_storage roscpp rosgraph_msgs std_msgs std_srvs tf2 tf2_msgs visualization_msgs)
 
 # The module and the messages are one Python package. catkin would install it with setup.py into the prefix of
 # the configuration; python/CMakeLists.txt installs it instead.

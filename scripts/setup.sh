@@ -27,7 +27,7 @@ packages_of() {
     mpi) echo libopenmpi-dev openmpi-bin ;;
     ros)
       echo catkin libroscpp-dev librosbag-dev libconsole-bridge-dev libroslib-dev libvisualization-msgs-dev \
-           libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev libtf2-ros-dev \
+           libgeometry-msgs-dev libstd-srvs-dev libros-rosgraph-msgs-dev libtf2-msgs-dev \
            libinteractive-markers-dev libnav-msgs-dev ros-visualization-msgs ros-nav-msgs \
            ros-geometry-msgs ros-std-msgs ros-std-srvs ros-message-generation ros-message-runtime \
            python3-roslaunch python3-rosbag python3-rostopic python3-rosnode python3-rosservice \

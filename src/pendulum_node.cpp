@@ -2,14 +2,13 @@
 #include "io/program/command_line.hpp"
 #include "io/program/program.hpp"
 #include "ros/node/node.hpp"
-#include "ros/parameters/parameters.hpp"
+#include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 
 #include <boost/filesystem.hpp>  // before Boost 1.72, exception.hpp lacks filesystem_error
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <ros/network.h>
 #include <ros/ros.h>
@@ -21,21 +20,27 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace spring_pendulum {
 namespace {
 
-/// roscpp aborts at an address of the ROS master that it cannot parse.
-void checkMasterUri(int argc, char** argv) {
+/// Refuses what ROS would misunderstand: an address of the master that it cannot parse, at which it
+/// aborts, and `method:=Auto` without the underscore, which renames a topic.
+void checkArguments(const std::vector<std::string>& arguments, const OptionSet& options) {
   const char* const variable = std::getenv("ROS_MASTER_URI");
   std::string source = "ROS_MASTER_URI";
   std::string uri = variable != nullptr ? variable : "http://localhost:11311";
-  const std::string argument = "__master:=";
-  for (int i = 1; i < argc; ++i) {
-    const std::string text = argv[i];
-    if (text.compare(0, argument.size(), argument) != 0) continue;
-    source = "__master";
-    uri = text.substr(argument.size());
+  for (const std::string& text : arguments) {
+    const std::string name = text.substr(0, text.find(":="));
+    if (name == text) continue;
+    for (const Option& option : options.options()) {
+      if (option.key != name) continue;
+      throw InputError(fmt::format("'{}' sets no parameter: write _{}", text, text));
+    }
+    if (name != "__master") continue;
+    source = name;
+    uri = text.substr(name.size() + 2);
   }
   std::string host;
   std::uint32_t port = 0;
@@ -43,30 +48,22 @@ void checkMasterUri(int argc, char** argv) {
   throw InputError(fmt::format("{}: must be http://HOST:PORT, got '{}'", source, uri));
 }
 
-/// To ROS, `method:=Auto` without the underscore renames a topic, which has no effect.
-void refuseForgottenUnderscore(int argc, char** argv, const OptionSet& options) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string text = argv[i];
-    for (const Option& option : options.options()) {
-      if (text.rfind(std::string(option.key) + ":=", 0) != 0) continue;
-      throw InputError(fmt::format("'{}' sets no parameter: write _{}", text, text));
-    }
-  }
+/// Whether the master knows a node of this name, which it ends when this one registers.
+bool replacesNode() {
+  XmlRpc::XmlRpcValue request, response, address;
+  request[0] = request[1] = ros::this_node::getName();
+  return ros::master::execute("lookupNode", request, response, address, false);
 }
 
 std::string helpText(const OptionSet& options) {
   std::string text =
-      "Simulates a chain of springs, writes its frames and publishes them for rviz.\n\n"
-      "Usage: rosrun spring_pendulum pendulum_node [_PARAMETER:=VALUE ...]\n"
-      "Example: rosrun spring_pendulum pendulum_node _method:=Auto _particles:=particle.txt\n\n"
+      "Simulates a chain of springs and publishes it for rviz.\n\n"
+      "Usage: rosrun spring_pendulum pendulum_node [_PARAMETER:=VALUE ...]\n\n"
       "Parameters, with their defaults in brackets:\n";
   for (const Option& option : options.options()) {
-    const std::string value = option.isFlag() ? "true|false" : option.placeholder();
-    text += fmt::format("  _{}:={}\n      {}\n", option.key, value, optionHelp(option));
+    text += fmt::format("  _{}\n      {}\n", option.key, optionHelp(option));
   }
-  return text +
-         "\nExit status: 0 done or interrupted, 1 could not read or write, 2 bad input,\n"
-         "3 the motion diverged.\n";
+  return text;
 }
 
 /// Checks the arguments and initialises ROS, which takes the arguments with ":=" away. From then on
@@ -80,14 +77,13 @@ std::string startRos(int argc, char** argv) {
   if (argc > 1 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
     return helpText(options);
   }
-  checkMasterUri(argc, argv);
-  refuseForgottenUnderscore(argc, argv, options);
+  checkArguments({argv + 1, argv + argc}, options);
   std::signal(SIGINT, [](int /*signal*/) { std::_Exit(kDone); });  // ROS may wait for its master
   std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx prints '?' for what the locale lacks
   try {
     // The handler of roscpp would end ROS before the files are closed and the closing line is logged.
     ros::init(argc, argv, "pendulum_node", ros::init_options::NoSigintHandler);
-  } catch (const ros::InvalidNameException& error) {
+  } catch (const ros::Exception& error) {
     throw InputError(error.what());
   } catch (const boost::filesystem::filesystem_error& error) {
     throw FileError(fmt::format(
@@ -111,25 +107,29 @@ Scene readNodeScene(const NodeConfiguration& configuration) {
   Scene scene = readScene(scenario, "_particles:=FILE");
   if (!hangs) return scene;
   Drive drive;
-  for (const std::ptrdiff_t i : parseParticleList(held, scene.masses.size(), "held")) {
-    drive.held.push_back({i, {}});
-  }
+  for (const auto& [i, frame] : parseHeld(held, scene.masses.size())) drive.held.push_back({i, {}});
   scene.state = equilibrium(scene.chain().drivenBy(drive), scene.state);
   return scene;
 }
 
-int runNode() {
+/// \param replaces whether a node of the same name is being ended
+int runNode(bool replaces) {
   const NodeConfiguration configuration = readPrivateParameters();
   const Scene scene = readNodeScene(configuration);
   if (!configuration.unused.empty()) {
-    ROS_INFO_STREAM(configuration.scenario.method.get().name
-                    << " does not use "
-                    << fmt::format("{}", fmt::join(configuration.unused, ", ")));
+    ROS_INFO_STREAM(configuration.scenario.method.get().name << " does not use "
+                                                             << configuration.unused);
   }
-  ros::NodeHandle node, private_node("~");
-  Node pendulum(node, private_node, configuration, scene);
-  pendulum.spin();
-  return pendulum.run().verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
+  std::optional<Node> node;
+  try {
+    node.emplace(configuration.scenario, configuration.options, scene);
+  } catch (const FileError& error) {
+    throw FileError(
+        error.what() +
+        std::string(replaces ? "; the node that had this name until now is ending" : ""));
+  }
+  node->spin();
+  return node->run().verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 
 }  // namespace
@@ -145,8 +145,9 @@ int main(int argc, char** argv) {
     if (!answer.empty()) return static_cast<int>(kDone);
     // Without a master, ROS waits until it is shut down.
     catchInterruptions(ros::requestShutdown);
+    const bool replaces = replacesNode();
     keeps_ros_started.emplace();
-    return interruption() == 0 ? runNode() : kDone;
+    return interruption() == 0 ? runNode(replaces) : kDone;
   };
   return runProgram(run, [&](const std::string& message) {
     keeps_ros_started ? logFatal(message) : printError(message + "\n");

@@ -54,41 +54,33 @@ boost::shared_ptr<ros::M_string> latched(const std::string& topic) {
   return header;
 }
 
-/// Sends the messages of a run to a bag.
-class BagRecorder : public Outlet {
+/// Writes the messages about the states of a run to a bag.
+class BagRecorder {
  public:
   BagRecorder(rosbag::Bag& bag, const Run& run, const NodeOptions& options, std::string prefix)
       : bag_(bag),
         messages_(run, options, true),
         pacer_(1.0, options.display_rate),
-        prefix_(std::move(prefix)),
-        status_header_(latched<PendulumStatus>(prefix_ + "status")),
-        camera_header_(latched<tf2_msgs::TFMessage>("/tf_static")) {}
+        prefix_(std::move(prefix)) {}
 
   /// Writes a state if it is that of a frame, or one that the display rate asks for.
   void write(const Run& run) {
-    if (pacer_.isShown(run.time(), run.isAtFrame())) messages_.send(run, {}, *this);
+    if (!pacer_.isShown(run.time(), run.isAtFrame())) return;
+    const std::optional<StateMessages> messages = messages_.build(run, {});
+    stamp_ = messages->header.stamp;
+    if (messages->camera) put("/tf_static", *messages->camera, true);
+    put(prefix_ + "markers", *messages->markers);
+    put(prefix_ + "state", *messages->state);
+    if (messages->status) put(prefix_ + "status", *messages->status, true);
   }
 
   std::int64_t count() const { return count_; }
 
-  void start(const std_msgs::Header& header) override { stamp_ = header.stamp; }
-  void put(const tf2_msgs::TFMessage& camera) override {
-    write("/tf_static", camera, camera_header_);
-  }
-  void put(const visualization_msgs::MarkerArray& markers) override {
-    write(prefix_ + "markers", markers);
-  }
-  void put(const PendulumState& state) override { write(prefix_ + "state", state); }
-  void put(const PendulumStatus& status) override {
-    write(prefix_ + "status", status, status_header_);
-  }
-
  private:
   template <typename Message>
-  void write(const std::string& topic, const Message& message,
-             const boost::shared_ptr<ros::M_string>& connection = {}) {
-    bag_.write(topic, stamp_, message, connection);
+  void put(const std::string& topic, const Message& message, bool is_latched = false) {
+    bag_.write(topic, stamp_, message,
+               is_latched ? latched<Message>(topic) : boost::shared_ptr<ros::M_string>());
     ++count_;
   }
 
@@ -96,8 +88,6 @@ class BagRecorder : public Outlet {
   RunMessages messages_;
   Pacer pacer_;
   std::string prefix_;
-  boost::shared_ptr<ros::M_string> status_header_;
-  boost::shared_ptr<ros::M_string> camera_header_;
   ros::Time stamp_;
   std::int64_t count_ = 0;
 };
@@ -202,6 +192,7 @@ int record(int argc, const char* const* argv) {
     return kDone;
   }
   if (!options.isGiven("output")) scenario.no_frames = true;
+  checkNodeOptions(display);
   bag.config = switches.config;
   console_bridge::noOutputHandler();  // rosbag also throws what it prints of a damaged bag
   std::optional<Replay> replay;

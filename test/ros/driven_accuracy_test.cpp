@@ -1,7 +1,6 @@
 // A cable whose ends follow odometry at 50 Hz: the node's way from inputs to accelerations, and the
 // motion against a solution with 113 bits under the same accelerations.
 #include "ros/inputs/driver.hpp"
-#include "ros/inputs/follower.hpp"
 #include "ros/inputs/robots.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +41,7 @@ class Robot {
         from_{start.x()[particle], start.y()[particle]},
         phase_(phase),
         random_(seed),
-        follower_("odom", 1.0) {}
+        follower_("odom", 1.0, [](const std::string&) {}) {}
 
   /// Sends the odometry until the present time, and holds the particle.
   void follow(const Run& run, Driver& driver) {
@@ -51,7 +50,7 @@ class Robot {
       Target seen = handAt(stamp, from_, phase_);
       seen.position = {seen.position.x + noise(1e-3), seen.position.y + noise(1e-3)};
       seen.velocity = {seen.velocity.x + noise(5e-3), seen.velocity.y + noise(5e-3)};
-      EXPECT_TRUE(follower_.take(seen, true, stamp, stamp)) << follower_.takeMessage();
+      EXPECT_TRUE(follower_.take(seen, true, stamp, stamp));
     }
     const PlaneVector<double> here{run.state().x()[particle_], run.state().y()[particle_]};
     const auto target = follower_.targetAt(run.nextTime(), here, run.nextTime() - run.time());

@@ -1,15 +1,14 @@
 // Held particles reach their targets and stay there, and bad inputs are told from good ones.
 #include "ros/inputs/driver.hpp"
 
-#include "ros/inputs/follower.hpp"
 #include "ros/inputs/robots.hpp"
-#include "ros/markers/markers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "support/scenes.hpp"
 
@@ -122,8 +121,11 @@ TEST(Driver, SwitchBetweenStepControlsAtAFrame) {
   EXPECT_EQ(live.run.state().values(), live.run.start().values());
 }
 
+void ignore(const std::string& /*warning*/) {}
+
 TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
-  Follower follower("odom", 1.0);
+  std::string said;
+  Follower follower("odom", 1.0, [&said](const std::string& text) { said = text; });
   const auto takes = [&](double x, double stamp, double now) {
     return follower.take({{x, 0.0}, {}, {}}, true, stamp, now);
   };
@@ -131,22 +133,22 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
   EXPECT_FALSE(follower.targetAt(0.0, {}, 0.03).has_value());
   EXPECT_TRUE(takes(0.0, 1.0, 1.0));
   EXPECT_TRUE(takes(0.5, 1.1, 1.1));
-  EXPECT_EQ(follower.takeMessage(), "");
+  EXPECT_EQ(std::exchange(said, ""), "");
   EXPECT_FALSE(takes(5.0, 1.2, 1.2));
-  EXPECT_EQ(follower.takeMessage(),
+  EXPECT_EQ(std::exchange(said, ""),
             "odom jumps by more than 1 m (check its frame and unit)" + held);
   EXPECT_FALSE(takes(std::nan(""), 1.3, 1.3));
-  EXPECT_EQ(follower.takeMessage(), "");  // said once
+  EXPECT_EQ(std::exchange(said, ""), "");  // said once
   EXPECT_TRUE(takes(0.6, 1.4, 1.4));
-  EXPECT_EQ(follower.takeMessage(), "odom is followed again");
+  EXPECT_EQ(std::exchange(said, ""), "odom is followed again");
   EXPECT_FALSE(takes(0.6, 1.0, 1.5));
-  EXPECT_EQ(follower.takeMessage(), "odom runs backwards in time" + held);
+  EXPECT_EQ(std::exchange(said, ""), "odom runs backwards in time" + held);
   EXPECT_TRUE(takes(0.6, 1.5, 1.6));
-  follower.takeMessage();
+  said.clear();
   EXPECT_FALSE(follower.isSilent(1.7));
   EXPECT_TRUE(follower.isSilent(3.0));
   EXPECT_EQ(follower.targetAt(3.0, {}, 0.03)->velocity.x, 0.0);
-  EXPECT_EQ(follower.takeMessage(), "odom has stopped: the particle is held where it is");
+  EXPECT_EQ(std::exchange(said, ""), "odom has stopped: the particle is held where it is");
 }
 
 // After any inputs, a steady one is followed within a second.
@@ -156,7 +158,7 @@ TEST(Follower, FollowsASteadyInputAgain) {
     return size * (static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5);
   };
   for (int round = 0; round < 200; ++round) {
-    Follower follower("odom", 1.0);
+    Follower follower("odom", 1.0, ignore);
     double now = 1.0;
     for (int i = 0; i < 20; ++i, now += 0.03) {
       const Target wild{{draw(20.0), draw(20.0)}, {draw(30.0), 0.0}, {}};
@@ -182,7 +184,7 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
   };
   Live live;
   live.run.advance();
-  Follower follower("odom", 3.0);
+  Follower follower("odom", 3.0, ignore);
   double largest = 0.0, next_input = 0.0;
   while (live.run.time() < 8.0) {
     const double now = live.run.nextTime();  // the state that is computed is shown now
@@ -211,31 +213,23 @@ TEST(Follower, IsWithItsHolderOnACircle) {
 }
 
 TEST(Follower, ComesBackSlowlyAfterASilence) {
-  Follower follower("odom", 10.0);
+  std::string said;
+  Follower follower("odom", 10.0, [&said](const std::string& text) { said = text; });
   for (double t = 0.0; t < 1.0; t += 0.03) follower.take({{0.0, 0.0}, {}, {}}, true, t, t);
   EXPECT_LT(std::hypot(follower.targetAt(1.0, {0.0, 0.0}, 0.03)->position.x, 0.0), 1e-12);
   follower.take({{4.0, 0.0}, {}, {}}, true, 3.0, 3.0);
   EXPECT_NEAR(follower.targetAt(3.0, {0.0, 0.0}, 0.03)->position.x, 0.06, 1e-12);
-  EXPECT_EQ(follower.takeMessage(), "odom: the particle comes to it from 4 m away");
+  EXPECT_EQ(said, "odom: the particle comes to it from 4 m away");
 }
 
-TEST(Robots, ParseListsOfParticles) {
-  using List = std::vector<std::ptrdiff_t>;
-  EXPECT_EQ(parseParticleList("", 5, "held"), List{});
-  EXPECT_EQ(parseParticleList("1, last", 5, "held"), (List{0, 4}));
-  EXPECT_EQ(parseParticleList("3 2", 5, "held"), (List{2, 1}));
-  for (const char* wrong : {"0", "6", "1.5", "x", "1,1", "last 5"}) {
-    EXPECT_THROW(parseParticleList(wrong, 5, "held"), InputError) << wrong;
+TEST(Robots, ParseHeldParticles) {
+  using List = std::vector<HolderFrame>;
+  EXPECT_EQ(parseHeld("", 5), List{});
+  EXPECT_EQ(parseHeld("1, last=gripper", 5), (List{{0, ""}, {4, "gripper"}}));
+  EXPECT_EQ(parseHeld("3 2", 5), (List{{1, ""}, {2, ""}}));
+  for (const char* wrong : {"0", "6", "1.5", "x", "1,1", "last 5", "=a", "x=a"}) {
+    EXPECT_THROW(parseHeld(wrong, 5), InputError) << wrong;
   }
-}
-
-TEST(Markers, AreEvenlyChosen) {
-  EXPECT_EQ(evenlyChosen(1, 20), (std::vector<std::ptrdiff_t>{0}));
-  EXPECT_EQ(evenlyChosen(3, 20), (std::vector<std::ptrdiff_t>{0, 1, 2}));
-  const auto many = evenlyChosen(1000, 20);
-  EXPECT_EQ(many.size(), 20U);
-  EXPECT_EQ(many.front(), 0);
-  EXPECT_EQ(many.back(), 999);
 }
 
 }  // namespace

@@ -74,51 +74,39 @@ class Ends(NodeTest):
                 self.assertIn('verdict: diverged', node.lines('INFO')[-2])
                 self.assertIn('until Ctrl-C (at_end: hold)', node.lines('INFO')[-1])
                 self.assertIn('because the motion diverged', self.call('pause', True, success=False))
+                self.assertEqual(len(node.lines('ERROR')), 1, node.output())
+                self.call('reset')
+                wait_until(lambda: len(node.lines('ERROR')) == 2, 'the same again')
                 node.interrupt()
                 self.assertEqual(node.wait(), 3, node.output())
-                self.assertEqual(len(node.lines('ERROR')), 1, node.output())
             self.assertEqual(read_frames(folder), expected)
             with PendulumNode(method='Euler', particles=HORIZONTAL) as node:
                 self.assertEqual(node.wait(), 3, node.output())
 
-    def test_a_second_divergence_is_logged_too(self):
-        with PendulumNode(method='Euler', particles=HORIZONTAL, at_end='hold') as node:
-            for count in (1, 2):
-                wait_until(lambda: len(node.lines('ERROR')) == count, 'the divergence')
-                self.call('reset')
-            node.interrupt()
-            node.wait()
-
     def test_divergence_changes_the_colour_and_keeps_the_last_good_chain(self):
         markers = self.listen('markers', MarkerArray)
-        with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=1) as node:
+        with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=2) as node:
             self.assertEqual(node.wait(), 3, node.output())
-        last = wait_until(lambda: markers.messages and 'diverged' in markers.messages[-1].markers[4].text
+        last = wait_until(lambda: markers.messages and 'diverged' in markers.messages[-1].markers[3].text
                           and markers.messages[-1], 'the verdict')
         springs, good = last.markers[0], markers.messages[-2].markers[0]
         self.assertEqual(springs.points, good.points)
         self.assertEqual(len({(c.r, c.g, c.b) for c in springs.colors}), 1)
         self.assertNotEqual(springs.colors, good.colors)
 
-    def test_a_bad_verdict_is_a_warning_when_it_happens(self):
+    def test_warns_of_a_bad_verdict_and_of_an_unstable_step(self):
         with PendulumNode(method='Euler', particles=HORIZONTAL, frames=30) as node:
             self.assertEqual(node.wait(), 0, node.output())
-            self.assertTrue(any('gained energy' in line for line in node.lines('WARN')), node.output())
-
-    def test_a_time_step_above_the_stability_limit_is_a_warning_at_the_start(self):
-        with PendulumNode(method='Euler', particles=HORIZONTAL, time_step=0.5, wait_for_subscribers=2) as node:
-            warning = wait_until(lambda: node.lines('WARN'), 'the warning')[0]
-            self.assertRegex(warning, r'Euler may be unstable with a time step of 0\.5 s; largest stable '
-                                      r'step for Euler: [\d.e-]+ s; or use Auto')
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
-        with PendulumNode(method='Runge-Kutta-4', particles=HORIZONTAL, frames=30) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-            self.assertEqual(node.lines('WARN'), [])
+            self.assertTrue(any('Euler: gained energy' in line for line in node.lines('WARN')), node.output())
+        with PendulumNode(method='Euler', particles=HORIZONTAL, time_step=0.5) as node:
+            self.assertEqual(node.wait(), 3, node.output())
+            self.assertRegex(node.lines('WARN')[0], r'Euler may be unstable with a time step of 0\.5 s; largest stable '
+                                                    r'step for Euler: [\d.e-]+ s; or use Auto')
 
     def test_the_closing_line_says_what_was_done(self):
         with PendulumNode(frames=11, particles=HORIZONTAL) as node:
             self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(node.lines('WARN'), [])
             for part in ('Runge-Kutta-4: 11 particles, 11 frames, 100 steps, 400 force evaluations',
                          's integrating, 0 marker', 'energy error ', 'verdict: ok'):
                 self.assertIn(part, node.lines('INFO')[-1])
@@ -143,9 +131,6 @@ class Signals(unittest.TestCase):
                 self.assertLess(total_computing_time() - ended_before - before, 1.0, node.output())
                 ended[number] = node.output()
         return ended[signal.SIGINT]
-
-    def first_frame(self, node, folder):
-        return os.path.exists(folder + '/frame_0000.txt')
 
     def test_record_bag(self):
         for options in (('--steps-per-frame', '2000000000', '--time-step', '1e-4'),
@@ -179,35 +164,25 @@ class Signals(unittest.TestCase):
                 node.kill()
                 node.communicate()
 
-    def test_waiting_for_subscribers(self):
-        output = self.end(lambda node, _: 'waiting for 9 subscribers' in node.output(),
-                          wait_for_subscribers=9, wait_timeout=0)
-        self.assertIn('verdict: ', output)
+    def test_in_every_phase(self):
+        def has(text):
+            return lambda node, _: text in node.output()
 
-    def test_running(self):
-        self.end(lambda _, folder: os.path.exists(folder + '/frame_0003.txt'), frames=1000000,
-                 real_time_factor=1.0)
-
-    def test_inside_a_long_frame(self):
-        self.end(self.first_frame, steps_per_frame=2000000000)
-        self.end(self.first_frame, method='Taylor-8', frame_interval=1e6)
-
-    def test_in_the_reference_run(self):
-        # One step takes no time, but the reference run has 1e7 s of motion to compute.
-        self.end(self.first_frame, time_step=1e7, steps_per_frame=1, reference='always')
-
-    def test_after_a_divergence_with_many_frames(self):
-        self.end(lambda node, _: 'diverged' in node.output(), method='Euler', damping=0, time_step=0.05,
-                 frames=1000000000, at_end='hold')
-
-    def test_paused(self):
-        self.end(lambda node, _: service('pause')(True).success, frames=1000000, real_time_factor=1.0)
-
-    def test_at_the_end(self):
-        self.end(lambda node, _: 'until Ctrl-C' in node.output(), frames=3, at_end='hold')
-
-    def test_following_a_topic_without_messages(self):
-        self.end(self.first_frame, follow='/nobody/state')
+        def wrote(frame):
+            return lambda _, folder: os.path.exists(folder + '/frame_%04d.txt' % frame)
+        for phase, parameters in (
+                (has('waiting for 9 subscribers'), dict(wait_for_subscribers=9, wait_timeout=0)),
+                (wrote(3), dict(frames=1000000, real_time_factor=1.0)),
+                # Inside a long frame.
+                (wrote(0), dict(steps_per_frame=2000000000)),
+                (wrote(0), dict(method='Taylor-8', frame_interval=1e6)),
+                # One step takes no time, but the reference run has 1e7 s of motion to compute.
+                (wrote(0), dict(time_step=1e7, steps_per_frame=1, reference='always')),
+                # After a divergence with many frames.
+                (has('diverged'), dict(method='Euler', damping=0, time_step=0.05, frames=1000000000, at_end='hold')),
+                (lambda *_: service('pause')(True).success, dict(frames=1000000, real_time_factor=1.0)),
+                (has('until Ctrl-C'), dict(frames=3, at_end='hold'))):
+            self.assertIn('verdict: ', self.end(phase, **parameters), parameters)
 
 
 if __name__ == '__main__':

@@ -17,9 +17,9 @@ from pendulum_process import (Folder, NodeTest, PendulumNode, connected, feedbac
 
 CONSTANTS = (('stiffness', 80), ('damping', 0.5), ('gravity', 5.25), ('air_drag', 0.3), ('rest_length', 0.9),
              ('tolerance', 1e-7))
-CONSTANTS_OF_RUN = ['method=Runge-Kutta-4', 'frames=20', 'steps_per_frame=10', 'time_step=0.01', 'tolerance=1e-6',
-                    'frame_interval=0.1', 'stiffness=50', 'damping=1', 'rest_length=1', 'gravity=9.81', 'air_drag=0',
-                    'threads=1', 'sleep=0', 'on_divergence=stop']
+CONSTANTS_OF_RUN = ['method=Runge-Kutta-4', 'on_divergence=stop', 'frames=20', 'steps_per_frame=10', 'time_step=0.01',
+                    'tolerance=1e-6', 'frame_interval=0.1', 'stiffness=50', 'damping=1', 'rest_length=1', 'gravity=9.81',
+                    'air_drag=0', 'threads=1', 'sleep=0']
 
 
 def start(**values):
@@ -177,7 +177,9 @@ class Repeated(NodeTest):
                                   ('input 0: frames: must be', start(frame=-1)),
                                   ('input 0: is not complete', start(placed=[1, 1, 3])),
                                   ('input 1: particle 9', start(), change(1, 0.5, held=[9], accelerations=[0.0, 0.0])),
-                                  ('input 2: comes after the end', start(), change(1, 0.5, end=True), change(2, 0.5))):
+                                  ('input 2: comes after the end', start(), change(1, 0.5, end=True), change(2, 0.5)),
+                                  ('input 2: comes after the end', start(), change(1, 0.5, end=True),
+                                   change(2, 0.5, end=True))):
                 write_inputs(path, *inputs)
                 self.check_refused(folder, path, says, 2)
 

@@ -36,14 +36,6 @@ TEST(Pacer, CatchesUpWithALittleDelayButNotWithALongOne) {
   EXPECT_NEAR((pacer.dueTime(3.0) - kStart).toSec(), 11.0, 1e-6);
 }
 
-TEST(Pacer, MeasuresItsSpeed) {
-  Pacer pacer(3.0, 0.0);
-  pacer.start(0.0, kStart);
-  EXPECT_EQ(pacer.speed(), 0.0);
-  pacer.reached(1.5, after(0.5));
-  EXPECT_NEAR(pacer.speed(), 3.0, 1e-5);
-}
-
 TEST(Pacer, AWaitThatNoDurationHoldsIsCutShort) {
   Pacer pacer(1e-300, 0.0);
   pacer.start(0.0, kStart);

@@ -14,6 +14,22 @@ from visualization_msgs.msg import MarkerArray
 from pendulum_process import (Folder, Listener, PendulumNode, program, project, read_frames,
                               run_exercise, wait_until)
 
+SCENE = project('data/horizontal_11.txt')
+# Values with a visible effect, and what they need; other options get twice their default.
+VALUES = {'method': 'Runge-Kutta-2', 'particles': project('data/two_masses.txt'), 'output': 'elsewhere', 'resume': True,
+          'no_frames': True, 'energy': 'energy.csv', 'save_state': 'state.txt', 'start': 'at_rest',
+          'on_divergence': 'continue', 'reference': 'never', 'sleep': 1e3}
+EXTRA = {'on_divergence': {'time_step': 0.5}}
+
+
+def files_below(folder):
+    found = {}
+    for path, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(path, name), 'rb') as file:
+                found[os.path.relpath(os.path.join(path, name), folder)] = file.read()
+    return found
+
 
 class Parameters(unittest.TestCase):
 
@@ -27,15 +43,16 @@ class Parameters(unittest.TestCase):
                 self.assertEqual(len(node.output().strip().splitlines()), 1, node.output())
                 self.assertIn(case['says'], node.lines('FATAL')[0])
                 if case.get('status', 2) == 2:
-                    self.assertIn('/pendulum: ', node.lines('FATAL')[0])
+                    # It may come from an earlier run. The chain has yet to be read when `held` is.
+                    cure = '' if 'held' in case['parameters'] else 'rosparam delete /pendulum'
+                    self.assertIn(cure, node.lines('FATAL')[0])
 
     def test_extremes_work_or_are_refused_in_one_line(self):
         numbers = [5e-324, 1e300]
         counts = ['2147483648', '9223372036854775807']
         extremes = {
-            **{name: numbers for name in ('display_rate', 'trail', 'real_time_factor', 'wait_timeout')},
+            **{name: numbers for name in ('display_rate', 'real_time_factor', 'wait_timeout')},
             **{name: counts for name in ('display_limit', 'text_row', 'wait_for_subscribers')},
-            'follow': ['no topic', '/', 'a' * 10000],
             'frame_id': ['a' * 10000, '\u00e4'],
             'camera_frame': ['a' * 10000],
         }
@@ -46,8 +63,7 @@ class Parameters(unittest.TestCase):
                 if name == 'wait_timeout':
                     parameters['wait_for_subscribers'] = 5
                 with PendulumNode(**parameters) as node:
-                    waits_for_ever = name in ('follow', 'real_time_factor', 'wait_timeout',
-                                              'wait_for_subscribers')
+                    waits_for_ever = name in ('real_time_factor', 'wait_timeout', 'wait_for_subscribers')
                     wait_until(lambda: node.process.poll() is not None or
                                waits_for_ever and 'no frame files' in node.output(), 'an answer')
                     node.interrupt()
@@ -69,17 +85,6 @@ class Parameters(unittest.TestCase):
             with open(folder + '/frame_0000.txt') as earlier:
                 self.assertEqual(earlier.read(), '1 2\n')
 
-    def test_the_unknown_one_is_told_all_known_ones(self):
-        with PendulumNode(bogus=1) as node:
-            self.assertEqual(node.wait(), 2)
-            for key in ('method', 'time_step', 'gravity', 'frame_id', 'at_end', 'follow'):
-                self.assertIn(key, node.output())
-
-    def test_a_refused_one_may_come_from_an_earlier_run(self):
-        with PendulumNode(bogus=1) as node:
-            self.assertEqual(node.wait(), 2)
-            self.assertIn('rosparam delete /pendulum', node.output())
-
     def test_what_is_meant_is_accepted_in_every_type(self):
         spellings = [
             dict(frames=3, time_step='1e-3', stiffness=60, damping='2', steps_per_frame='5'),
@@ -97,29 +102,37 @@ class Parameters(unittest.TestCase):
                     self.assertEqual(node.wait(), 0, node.output())
                 self.assertEqual(read_frames(folder), expected)
 
-    def test_every_key_of_pendulum_yaml_is_a_parameter(self):
+    def test_every_option_of_a_run_acts_as_in_exercise3(self):
         with open(project('config/pendulum.yaml')) as config:
-            keys = yaml.safe_load(config)
-        self.assertGreater(len(keys), 10)
-        keys.update(particles=project('data/particle.txt'), frames=2)
-        with Folder() as folder:
-            with PendulumNode(**dict(keys, output=folder)) as node:
-                self.assertEqual(node.wait(), 0, node.output())
-            self.assertEqual(len(read_frames(folder)), 2)
+            defaults = yaml.safe_load(config)
+        self.assertGreater(len(defaults), 18)
+        for key, default in defaults.items():
+            value = VALUES.get(key, 2 * default if default else 0.25)
+            options = {'method': 'Auto' if key in ('tolerance', 'frame_interval') else 'Euler', 'frames': 40,
+                       'damping': 0.1, 'output': '.', 'particles': SCENE, **EXTRA.get(key, {}), key: value}
+            words = ['--%s%s' % (name.replace('_', '-'), '' if text is True else '=%s' % text)
+                     for name, text in options.items() if name != 'method']
+            with Folder() as expected, Folder() as folder:
+                done = subprocess.run([program('Exercise3'), options['method'], *words], cwd=expected,
+                                      capture_output=True, text=True)
+                with PendulumNode(cwd=folder, **options) as node:
+                    self.assertEqual(node.wait(), done.returncode, (key, node.output(), done.stderr))
+                self.assertEqual(files_below(folder), files_below(expected), key)
 
-    def test_command_line_parameters_and_relative_output(self):
-        with Folder() as folder:
-            with PendulumNode(arguments=['_method:=Euler', '_frames:=2', '_output:=sub/frames'],
-                              output=None, cwd=folder) as node:
-                self.assertEqual(node.wait(), 0, node.output())
-                self.assertIn(folder + '/sub/frames', node.output())
-            self.assertEqual(len(read_frames(folder + '/sub/frames')), 2)
+    def test_relative_output_and_frames_only_on_request(self):
+        for output, frames in ((None, 0), ('sub/frames', 2)):
+            with Folder() as folder:
+                with PendulumNode(arguments=['_method:=Euler', '_frames:=2'], output=output, cwd=folder) as node:
+                    self.assertEqual(node.wait(), 0, node.output())
+                    self.assertIn(folder + '/sub/frames' if frames else 'no frame files', node.output())
+                self.assertEqual(len(files_below(folder)), frames)
 
     def test_other_arguments_and_invalid_names_are_refused_in_one_line(self):
         for arguments, message in (
                 (['--frames', '3'], "unexpected argument '--frames': the node takes parameters, for example "
                                     '_frames:=100\n'),
                 (['__name:=7th'], 'Character [7] is not valid as the first character in Graph Resource Name'),
+                (['__name:=a/b'], 'Invalid node name [a/b]: node names cannot contain /'),
                 (['__name:='], 'the name of the node must not be empty\n')):
             done = subprocess.run([program('pendulum_node'), *arguments], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr[:len(message)]), (2, message))
@@ -153,9 +166,8 @@ class Parameters(unittest.TestCase):
         done = subprocess.run([program('pendulum_node'), '--help'], capture_output=True, text=True,
                               env=dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:1'))
         self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertEqual(re.findall(r'^  _(\w+):=', done.stdout, re.M), known)
-        self.assertRegex(done.stdout, r'_time_step:=SECONDS\n .*fixed-step methods \[0\.01 s\]')
-        self.assertRegex(done.stdout, r'_no_frames:=true\|false\n +write ')
+        self.assertEqual(re.findall(r'^  _(\w+)$', done.stdout, re.M), known)
+        self.assertRegex(done.stdout, r'_time_step\n .*fixed-step methods \[0\.01 s\]')
 
     def test_a_missing_default_file_names_the_parameter(self):
         with Folder() as folder, PendulumNode(particles=None, cwd=folder) as node:
@@ -170,26 +182,6 @@ class Parameters(unittest.TestCase):
                                   env={'LC_ALL': language, 'LANG': language}) as node:
                     self.assertEqual(node.wait(), 0, node.output())
                     self.assertIn('/jörgen', node.output())
-
-    def test_the_logged_parameters_give_the_same_run(self):
-        with Folder() as folder, Folder() as again:
-            with PendulumNode(output=folder, frames=4, method='Euler', damping=0.25) as node:
-                self.assertEqual(node.wait(), 0, node.output())
-                line = re.search('parameters: (.*)', node.output()).group(1)
-            self.assertIn(' _time_step:=0.01 ', line)
-            self.assertIn(' _trail:=2 ', line)
-            self.assertNotIn('tolerance', line)
-            with PendulumNode(arguments=line.replace(folder, again).split(), particles=None, output=None,
-                              at_end=None, real_time_factor=None) as node:
-                self.assertEqual(node.wait(), 0, node.output())
-            self.assertEqual(read_frames(again), read_frames(folder))
-
-    def test_frames_are_written_only_on_request(self):
-        with Folder() as folder:
-            for output, frames in ((None, 0), ('.', 2)):
-                with PendulumNode(output=output, frames=2, cwd=folder) as node:
-                    self.assertEqual(node.wait(), 0, node.output())
-                self.assertEqual(len(read_frames(folder)), frames)
 
     def test_a_node_below_is_no_parameter_of_this_one_only_if_it_has_none(self):
         master = rosgraph.Master('/test')

@@ -168,10 +168,10 @@ def connected(topic, kind):
     return publisher
 
 
-def feedback(particle, event, x=0.0, z=0.0, frame='world', menu=0):
+def feedback(particle, event, x=0.0, z=0.0, frame='world'):
     """What rviz says about the mouse."""
     message = InteractiveMarkerFeedback(client_id='test', marker_name='particle_%d' % particle,
-                                        event_type=event, menu_entry_id=menu)
+                                        event_type=event)
     message.header.frame_id = frame
     message.pose.position.x, message.pose.position.z = x, z
     message.pose.orientation.w = 1.0

@@ -19,7 +19,7 @@ Scene horizontal(Eigen::Index particles, double spacing) {
 }
 
 bool shows(const SceneView& view, const State& state) {
-  const auto low = view.box().min(), high = view.box().max();
+  const auto low = view.box.min(), high = view.box.max();
   return state.x().minCoeff() >= low.x() && state.x().maxCoeff() <= high.x() &&
          state.y().minCoeff() >= low.y() && state.y().maxCoeff() <= high.y();
 }
@@ -45,7 +45,7 @@ TEST(SceneView, ShowsTheWholeMotionOfEveryShippedScene) {
 TEST(SceneView, IsFilledByACableBetweenTwoHolders) {
   const test::ProgramRun run(Scenario{}, horizontal(11, 1.0));
   const SceneView view(run, false);
-  EXPECT_GT(10.0 / view.box().sizes().x(), 0.85);  // 0.91
+  EXPECT_GT(10.0 / view.box.sizes().x(), 0.85);  // 0.91
 }
 
 TEST(SceneView, ScalesWithTheScene) {

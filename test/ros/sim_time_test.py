@@ -33,8 +33,7 @@ class SimTime(NodeTest):
             if state == 'stopped':
                 clock.publish(Clock(rospy.Time(100)))
             del inputs.messages[:]
-            with self.node(publish_clock=state == 'own', held='5, last',
-                           held_5_frame='nope') as node:
+            with self.node(publish_clock=state == 'own', held='5=nope, last') as node:
                 self.interact(node, state != 'none')
                 self.assert_increasing(list({m.number: m for m in inputs.wait_for(3)}.values()))  # some come twice
                 node.interrupt()
@@ -47,7 +46,7 @@ class SimTime(NodeTest):
         def is_warned(text, publish):
             publish()
             return any(text in line for line in node.lines('WARN'))
-        wait_until(lambda: is_warned('held_5_frame: no transform', lambda: None), 'the warning of the frame')
+        wait_until(lambda: is_warned('held_5: no transform', lambda: None), 'the warning of the frame')
         if has_clock:  # at ROS time 0, the server of interactive_markers rejects all feedback
             pull = feedback(3, Feedback.POSE_UPDATE, frame='nowhere')
             wait_until(lambda: is_warned('handle particle_3: no transform', lambda: hand.publish(pull)), 'the warning')

@@ -58,13 +58,13 @@ class Topics(NodeTest):
         markers = self.listen('markers', MarkerArray)
         with PendulumNode(frames=5, wait_for_subscribers=1) as node:
             self.assertEqual(node.wait(), 0, node.output())
-        self.assertEqual(len(markers.wait_for(5)[-1].markers), 7)
-        names = ['springs', 'particles', 'anchor', 'trail', 'text', 'grid', 'reference']
+        markers.wait_for(5)
+        names = ['springs', 'particles', 'anchor', 'text', 'grid']
         for message in markers.messages:
             self.assertEqual([m.ns for m in message.markers], names)
             for marker in message.markers:
                 self.check_marker(marker)
-        text = markers.messages[-1].markers[4].text
+        text = markers.messages[-1].markers[3].text
         for part in ('finished', 'Runge-Kutta-4', '0.01 s', 't = 0.40 s', 'energy error', 'ok'):
             self.assertIn(part, text)
 
@@ -72,7 +72,7 @@ class Topics(NodeTest):
         for at_end in ('exit', 'hold'):
             markers = self.listen('markers', MarkerArray)
             with PendulumNode(frames=3, wait_for_subscribers=1, at_end=at_end) as node:
-                markers.wait_for_any(lambda m: 'finished' in m.markers[4].text)
+                markers.wait_for_any(lambda m: 'finished' in m.markers[3].text)
                 if at_end == 'hold':
                     node.interrupt()
                 self.assertEqual(node.wait(), 0, node.output())
@@ -85,7 +85,7 @@ class Topics(NodeTest):
         self.assertGreater(min(marker.scale.x, marker.scale.y, marker.scale.z), 0)
         self.assertGreater(min([marker.color.a] + [c.a for c in marker.colors]), 0)
         self.assertFalse(marker.header.frame_id.startswith('/'))
-        if marker.type in (Marker.LINE_LIST, Marker.SPHERE_LIST, Marker.LINE_STRIP):
+        if marker.type in (Marker.LINE_LIST, Marker.SPHERE_LIST):
             if marker.ns != 'grid':
                 self.assertEqual(len(marker.points), len(marker.colors))
             self.assertEqual(marker.action, Marker.ADD if len(marker.points) > 1 else Marker.DELETE)
@@ -185,7 +185,7 @@ class Topics(NodeTest):
         with PendulumNode(frames=41, time_step=0.04, steps_per_frame=1, real_time_factor=0.5,
                           display_rate=30.0, wait_for_subscribers=1) as node:
             self.assertEqual(node.wait(), 0, node.output())
-        markers.wait_for_any(lambda m: 'finished' in m.markers[4].text)
+        markers.wait_for_any(lambda m: 'finished' in m.markers[3].text)
         shown = [m.markers[0].header.stamp.to_sec() for m in markers.messages]
         # Measured: 97 messages in 3.2 s
         self.assertLessEqual(len(shown), 1.1 * 30.0 * (shown[-1] - shown[0]) + 3)
@@ -197,19 +197,6 @@ class Topics(NodeTest):
             self.assertEqual((one.wait(), two.wait()), (0, 0))
         self.assertEqual({m.method for m in a.wait_for(4)}, {'Runge-Kutta-4'})
         self.assertEqual({m.method for m in b.wait_for(4)}, {'Euler'})
-
-    def test_a_follower_shows_the_same_instants(self):
-        leader, follower = (self.listen('/a/state', PendulumState), self.listen('/b/state', PendulumState))
-        with PendulumNode('/b/pendulum', follow='/a/state', real_time_factor=1.0, frames=11,
-                          method='Euler') as two, \
-                PendulumNode('/a/pendulum', real_time_factor=1.0, frames=11,
-                             wait_for_subscribers=2) as one:
-            self.assertEqual((one.wait(), two.wait()), (0, 0), two.output())
-        for listener in (leader, follower):
-            listener.wait_for_any(lambda m: m.frame == 10)
-        leader_times = sorted({m.time for m in leader.messages})
-        self.assertTrue({m.time for m in follower.messages} <= set(leader_times) | {0.0})
-        self.assertEqual(follower.messages[-1].frame, 10)
 
     def test_clock_on_request(self):
         clock, state = self.listen('/clock', Clock), self.listen('state', PendulumState)
@@ -243,7 +230,7 @@ class Topics(NodeTest):
                 self.assertEqual(node.wait(), 0, node.output())
         self.assertLessEqual(len(shown[1].points), 10000)
         self.assertGreater(len(shown[1].points), 5000)
-        self.assertIn('of 100000 particles drawn', shown[4].text)
+        self.assertIn('of 100000 particles drawn', shown[3].text)
         self.assertEqual(len(positions), 100000)
 
 

@@ -20,9 +20,9 @@ namespace {
 
 /// A held particle nearer to its target than this, m and m/s, is at rest.
 constexpr double kSettled = 1e-9;
-/// Constants that change while the chain moves. The node itself changes real_time_factor.
-const std::vector<std::string> kLive = {"tolerance", "stiffness", "damping",         "rest_length",
-                                        "gravity",   "air_drag",  "real_time_factor"};
+/// Constants that change while the chain moves.
+const std::vector<std::string> kLive = {"tolerance",   "stiffness", "damping",
+                                        "rest_length", "gravity",   "air_drag"};
 /// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
 /// the range of double, or takes hours per frame.
 constexpr double kLargest = 1e9;
@@ -35,12 +35,11 @@ constexpr double kLengthsPerSecond = 5.0;
 /// Returns all numbers of a drive.
 std::vector<double> numbersOf(const Drive& drive) {
   std::vector<double> numbers{static_cast<double>(drive.held.size())};
-  for (const auto& [particle, acceleration] : drive.held) {
-    numbers.insert(numbers.end(), {static_cast<double>(particle), acceleration.x, acceleration.y});
-  }
-  for (const auto& [particle, force] : drive.forces) {
-    numbers.insert(numbers.end(), {static_cast<double>(particle), force.x, force.y});
-  }
+  const auto add = [&](std::ptrdiff_t particle, const PlaneVector<double>& vector) {
+    numbers.insert(numbers.end(), {static_cast<double>(particle), vector.x, vector.y});
+  };
+  for (const auto& [particle, acceleration] : drive.held) add(particle, acceleration);
+  for (const auto& [particle, force] : drive.forces) add(particle, force);
   return numbers;
 }
 
@@ -85,13 +84,9 @@ std::string Driver::on(const SetConstant& request) {
 std::string Driver::on(const ApplyForceTo& request) {
   const auto& [particle, force, start_time, duration] = request;
   const Chain& chain = run_.chain();
-  if (particle < 0 || particle >= chain.size()) {
-    throw InputError(fmt::format("particle {} does not exist: the chain has particles 1 to {}",
-                                 particle + 1, chain.size()));
-  }
-  if (particle == 0 || isHeld(particle)) {
-    throw InputError(fmt::format("particle {} is held: a force would not move it", particle + 1));
-  }
+  Drive drive{{}, {{particle, force}}};
+  for (const auto& [i, target] : targets_) drive.held.push_back({i, {}});
+  static_cast<void>(chain.drivenBy(drive));  // refuses a force that the chain cannot have
   if (!std::isfinite(start_time) || !std::isfinite(duration)) {
     throw InputError("start_time and duration must be finite");
   }

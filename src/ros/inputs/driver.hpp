@@ -41,8 +41,6 @@ class Driver {
   std::string on(const Release& request);
 
   bool isHeld(std::ptrdiff_t particle) const { return targets_.count(particle) > 0; }
-  /// The scenario whose method and constants hold from the next state on.
-  const Scenario& wanted() const { return wanted_; }
 
   /// Changes the run for the interval until `next_time` s, if anything has changed.
   /// \param paused places held particles at their targets instead, at rest

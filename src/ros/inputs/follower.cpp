@@ -1,4 +1,4 @@
-#include "ros/inputs/follower.hpp"
+#include "ros/inputs/robots.hpp"
 
 #include <fmt/format.h>
 
@@ -19,8 +19,8 @@ constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in larges
 }  // namespace
 
 bool Follower::refuse(const std::string& why) {
-  if (!std::exchange(said_, true)) {
-    say(" " + why + ": the particle is held where it is until the input is steady");
+  if (!std::exchange(warned_, true)) {
+    warn_(name_ + " " + why + ": the particle is held where it is until the input is steady");
   }
   return false;
 }
@@ -55,7 +55,7 @@ bool Follower::isBelievable(const Sample& input) {
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
   Sample sample{input, stamp, now};
   if (!isBelievable(sample)) return false;
-  if (std::exchange(said_, false)) say(" is followed again");
+  if (std::exchange(warned_, false)) warn_(name_ + " is followed again");
   refused_.reset();
   if (samples_.empty() || isSilent(now)) {
     samples_.clear();
@@ -109,7 +109,8 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
   if (samples_.empty()) return std::nullopt;
   Target target = samples_.back().holder;
   if (isSilent(now)) {
-    if (!std::exchange(said_, true)) say(" has stopped: the particle is held where it is");
+    if (!std::exchange(warned_, true))
+      warn_(name_ + " has stopped: the particle is held where it is");
     return Target{target.position, {}, {}};
   }
   const double age = now - samples_.back().time - interval;
@@ -131,11 +132,11 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
   if (left_ == 0.0) {
     left_ = now;
     expected_ = now + 2.0 * distance / kApproachSpeed + 1.0;
-    say(fmt::format(": the particle comes to it from {:.3g} m away", distance));
+    warn_(name_ + fmt::format(": the particle comes to it from {:.3g} m away", distance));
   } else if (now > expected_) {
     expected_ = std::numeric_limits<double>::infinity();
-    say(fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away", now - left_,
-                    distance));
+    warn_(name_ + fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away",
+                              now - left_, distance));
   }
   const double step = 2.0 * kApproachSpeed * std::max(interval, 1e-3);
   if (distance <= step) return;
@@ -146,10 +147,6 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
 
 bool Follower::isSilent(double now) const {
   return samples_.empty() || now - samples_.back().time >= kSilence;
-}
-
-void Follower::restart() {
-  *this = Follower(name_, longest_);
 }
 
 }  // namespace spring_pendulum

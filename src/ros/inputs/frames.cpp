@@ -5,9 +5,17 @@
 
 #include <fmt/format.h>
 
-#include <tf2/exceptions.h>
+#include <ros/ros.h>
+
+#include <exception>
 
 namespace spring_pendulum {
+namespace {
+
+constexpr double kFirstWait = 0.5;  // s, for the first transforms
+constexpr std::uint32_t kLongestQueue = 1000;
+
+}  // namespace
 
 tf2::Matrix3x3 rotation(const geometry_msgs::Quaternion& quaternion) {
   tf2::Quaternion q(quaternion.x, quaternion.y, quaternion.z, quaternion.w);
@@ -15,35 +23,53 @@ tf2::Matrix3x3 rotation(const geometry_msgs::Quaternion& quaternion) {
 }
 
 void Frames::listen() {
-  if (listener_) return;
-  transforms_ = std::make_unique<tf2_ros::Buffer>();
-  // With a thread of its own, so that `from` can wait.
-  listener_ = std::make_unique<tf2_ros::TransformListener>(*transforms_);
+  if (moving_) return;
+  ros::NodeHandle node;
+  node.setCallbackQueue(&queue_);
+  const auto subscribe = [&](const char* topic, bool is_static) {
+    return node.subscribe<tf2_msgs::TFMessage>(
+        topic, kLongestQueue,
+        [this, is_static](const tf2_msgs::TFMessage::ConstPtr& m) { take(*m, is_static); });
+  };
+  moving_ = subscribe("/tf", false);
+  fixed_ = subscribe("/tf_static", true);
+}
+
+void Frames::take(const tf2_msgs::TFMessage& message, bool is_static) {
+  const ros::Time now = ros::Time::now();
+  if (now < last_) forget();  // the clock has jumped back
+  last_ = now;
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    try {
+      transforms_.setTransform(transform, "tf", is_static);
+    } catch (const std::exception& error) {  // of tf2, for example at the ends of ROS time
+      if (!warnings_.isDue()) continue;
+      ROS_WARN_STREAM("tf: frame " << inQuotes(transform.child_frame_id) << ": " << error.what());
+    }
+  }
 }
 
 StampedTransform Frames::from(const std::string& name) {
   const std::string frame = name.empty() || name.front() != '/' ? name : name.substr(1);
   if (frame.empty() || frame == frame_id_) return {};
-  // The first time, wait for half a second of the wall clock: ROS time may stand still.
-  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(listener_ ? 0.0 : 0.5);
+  // The first time, wait on the wall clock: ROS time may stand still.
+  const ros::SteadyTime end =
+      ros::SteadyTime::now() + ros::WallDuration(moving_ ? 0.0 : kFirstWait);
   listen();
-  for (;; ros::WallDuration(0.01).sleep()) {
+  for (ros::WallDuration wait(0.0);; wait = ros::WallDuration(0.01)) {
+    queue_.callAvailable(wait);
     try {
-      const auto found = transforms_->lookupTransform(frame_id_, frame, ros::Time(0));
+      const auto found = transforms_.lookupTransform(frame_id_, frame, ros::Time(0));
       const geometry_msgs::Vector3& shift = found.transform.translation;
       return {tf2::Transform(rotation(found.transform.rotation),
                              tf2::Vector3(shift.x, shift.y, shift.z)),
               found.header.stamp.toSec()};
-    } catch (const tf2::TransformException& error) {
+    } catch (const std::exception& error) {
       if (ros::SteadyTime::now() < end && ros::ok()) continue;
       throw InputError(
           fmt::format("no transform from frame {}: {}", inQuotes(frame), error.what()));
     }
   }
-}
-
-void Frames::forget() {
-  if (transforms_) transforms_->clear();
 }
 
 }  // namespace spring_pendulum

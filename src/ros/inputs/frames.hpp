@@ -1,11 +1,16 @@
 // Inputs in other tf frames: brings them into the frame of the chain.
 #pragma once
 
-#include <memory>
+#include "ros/messages/stamps.hpp"
+
+#include <ros/callback_queue.h>
+#include <ros/subscriber.h>
+
 #include <string>
 #include <tf2/LinearMath/Transform.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+#include <utility>
 
 namespace spring_pendulum {
 
@@ -18,7 +23,8 @@ struct StampedTransform {
   double stamp = 0.0;  ///< s; 0: it does not change
 };
 
-/// Listens to tf from the first frame on that is not the frame of the chain.
+/// Listens to tf from the first frame on that is not the frame of the chain. Unlike
+/// tf2_ros::TransformListener, it needs no thread, where an exception of tf2 would end the program.
 class Frames {
  public:
   /// \param frame_id frame of the chain
@@ -31,12 +37,17 @@ class Frames {
   StampedTransform from(const std::string& name);
   /// Forgets moving frames. tf refuses new transforms that are older than 10 s, as when a bag is played
   /// again.
-  void forget();
+  void forget() { transforms_.clear(); }
 
  private:
+  void take(const tf2_msgs::TFMessage& message, bool is_static);
+
   std::string frame_id_;
-  std::unique_ptr<tf2_ros::Buffer> transforms_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  tf2::BufferCore transforms_;
+  ros::CallbackQueue queue_;  ///< served by `from`
+  ros::Subscriber moving_, fixed_;
+  ros::Time last_;  ///< when the last transforms came
+  Throttle warnings_;
 };
 
 }  // namespace spring_pendulum

@@ -1,7 +1,6 @@
 #include "ros/inputs/handles.hpp"
 
-#include "base/numbers.hpp"
-#include "ros/markers/markers.hpp"
+#include "ros/markers/picture.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 
@@ -10,15 +9,11 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
 namespace spring_pendulum {
 namespace {
-
-using interactive_markers::MenuHandler;
-using visualization_msgs::InteractiveMarkerFeedback;
 
 constexpr double kLongestSilence = 1.0;  // s
 constexpr Eigen::Index kMostHandles = 20;
@@ -62,7 +57,6 @@ Handles::Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& optio
       updates_(node.advertise<visualization_msgs::InteractiveMarkerUpdate>("handles/update", 100)) {
   const double length = std::max(chainLength(run.chain(), run.start()), 0.1);
   const auto count = static_cast<double>(particles_.size());
-  makeMenu();
   for (const std::ptrdiff_t particle : particles_) {
     insert(particle, std::min(kSize * length, kShareOfSpring * length / count));
   }
@@ -79,54 +73,14 @@ void Handles::insert(std::ptrdiff_t particle, double size) {
   auto& scale = marker.controls.back().markers.back().scale;
   scale.x = scale.y = scale.z = size;
   server_.insert(marker, [this, particle](const Feedback& f) { onFeedback(particle, f); });
-  menu_.apply(server_, marker.name);
 }
 
 void Handles::ask(const Request& request) {
   try {
     take_(request);
   } catch (const InputError& error) {
-    ROS_WARN_STREAM(error.what());
+    if (warnings_.isDue()) ROS_WARN_STREAM(error.what());
   }
-}
-
-MenuHandler::FeedbackCallback Handles::asks(std::function<Request(std::ptrdiff_t)> request) {
-  return [this, request = std::move(request)](const Feedback& feedback) {
-    for (const std::ptrdiff_t particle : particles_) {
-      if (feedback->marker_name == nameOf(particle)) ask(request(particle));
-    }
-  };
-}
-
-void Handles::makeMenu() {
-  menu_.insert("Pause or go on", asks([](std::ptrdiff_t) { return Pause{}; }));
-  menu_.insert("Step", asks([this](std::ptrdiff_t) {
-                 ask(Pause{true});
-                 return Step{};
-               }));
-  menu_.insert("Reset", asks([](std::ptrdiff_t) { return Reset{}; }));
-  menu_.insert("Save state", asks([](std::ptrdiff_t) { return SaveState{}; }));
-  menu_.insert("Hold here", asks([](std::ptrdiff_t i) { return Hold{i, {}}; }));
-  menu_.insert("Release", asks([](std::ptrdiff_t i) { return Release{i}; }));
-  addSwitch("damping", [](const Constants& c) { return c.spring.damping; });
-  addSwitch("gravity", [](const Constants& c) { return c.gravity; });
-  const MenuHandler::EntryHandle methods = menu_.insert("Method");
-  for (const Method& method : methodTable()) {
-    menu_.insert(methods, method.name, asks([&method](std::ptrdiff_t) {
-                   return SetConstant{"method", method.name};
-                 }));
-  }
-}
-
-void Handles::addSwitch(const std::string& name, double (*constant)(const Constants&)) {
-  const double launched = constant(run_.chain().constants());
-  const double on = launched != 0.0 ? launched : constant(Constants{});
-  std::string title = name + " on or off";
-  title.front() = static_cast<char>(std::toupper(title.front()));
-  menu_.insert(title, asks([this, name, constant, on](std::ptrdiff_t) {
-                 const bool is_off = constant(driver_.wanted().constants) == 0.0;
-                 return SetConstant{name, numberText(is_off ? on : 0.0)};
-               }));
 }
 
 std::optional<Target> Handles::targetOf(std::ptrdiff_t particle, const Feedback& feedback) {
@@ -146,51 +100,36 @@ std::optional<Target> Handles::targetOf(std::ptrdiff_t particle, const Feedback&
 }
 
 void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
+  using Event = visualization_msgs::InteractiveMarkerFeedback;
   // The server has taken over the pose of the mouse, which may not be a number.
   if (run_.isFinite()) server_.setPose(nameOf(particle), poseOf(particle));
+  const auto event = feedback->event_type;
+  if (event == Event::MOUSE_UP) return release(particle);
+  const bool pulls = event == Event::POSE_UPDATE, grabs = pulls || event == Event::MOUSE_DOWN;
+  const std::optional<Target> target = pulls ? targetOf(particle, feedback) : std::nullopt;
+  if ((pulls && !target) || (!grabs && event != Event::KEEP_ALIVE)) return;
+  const bool was_held = driver_.isHeld(particle) || particle == 0;
+  const bool is_new = grabs && drags_.try_emplace(particle, Drag{{}, was_held}).second;
   const auto drag = drags_.find(particle);
-  std::optional<Target> target;
-  switch (feedback->event_type) {
-    case InteractiveMarkerFeedback::MOUSE_UP:
-      if (drag != drags_.end()) release(drag);
-      return;
-    case InteractiveMarkerFeedback::POSE_UPDATE:
-      target = targetOf(particle, feedback);
-      if (!target) return;
-      break;
-    case InteractiveMarkerFeedback::MOUSE_DOWN:
-      break;
-    case InteractiveMarkerFeedback::KEEP_ALIVE:
-      if (drag != drags_.end()) break;
-      return;
-    default:
-      return;
-  }
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  if (drag == drags_.end()) {
-    drags_[particle] = {now, driver_.isHeld(particle) || particle == 0};
-  } else {
-    drag->second.heard = now;
-    if (!target) return;
-  }
-  ask(Hold{particle, target});
+  if (drag == drags_.end()) return;
+  drag->second.heard = ros::SteadyTime::now();
+  if (is_new || target) ask(Hold{particle, target});
 }
 
-Handles::Drags::iterator Handles::release(Drags::iterator drag) {
-  if (!drag->second.was_held) ask(Release{drag->first});
-  return drags_.erase(drag);
+void Handles::release(std::ptrdiff_t particle) {
+  const auto drag = drags_.find(particle);
+  if (drag == drags_.end()) return;
+  if (!drag->second.was_held) ask(Release{particle});
+  drags_.erase(drag);
 }
 
 void Handles::releaseSilent() {
   const ros::SteadyTime now = ros::SteadyTime::now();
-  for (auto drag = drags_.begin(); drag != drags_.end();) {
-    if ((now - drag->second.heard).toSec() < kLongestSilence) {
-      ++drag;
-      continue;
-    }
-    ROS_WARN_STREAM("particle " << drag->first + 1
-                                << ": no input from the mouse for 1 s: released");
-    drag = release(drag);
+  const std::map<std::ptrdiff_t, Drag> drags = drags_;
+  for (const auto& [particle, drag] : drags) {
+    if ((now - drag.heard).toSec() < kLongestSilence) continue;
+    ROS_WARN_STREAM("particle " << particle + 1 << ": no input from the mouse for 1 s: released");
+    release(particle);
   }
 }
 

@@ -42,14 +42,14 @@ PlaneVector<double> vectorAt(const std::vector<double>& numbers, std::size_t k) 
 
 void setScenario(Scenario& scenario, const PendulumInput& input) {
   OptionSet options(scenarioOptions(scenario));
+  auto text = input.scenario.begin();
   for (const Option& option : options.options()) {
     if (!isRecorded(option)) continue;
     const std::string start = fmt::format("{}=", option.key);
-    const auto text =
-        std::find_if(input.scenario.begin(), input.scenario.end(),
-                     [&](const std::string& each) { return each.rfind(start, 0) == 0; });
-    if (text == input.scenario.end()) throw InputError(fmt::format("has no {}", option.key));
-    options.set(option, text->substr(start.size()), std::string(option.key));
+    if (text == input.scenario.end() || text->rfind(start, 0) != 0) {
+      throw InputError(fmt::format("has no {}", option.key));
+    }
+    options.set(option, (text++)->substr(start.size()), std::string(option.key));
   }
   checkScenario(scenario);
 }
@@ -112,11 +112,10 @@ void InputLog::started(const Run& run, double time) {
 void InputLog::changed(const Run& run, const State& before, double time) {
   PendulumInput message = messageOf(run, time);
   for (Eigen::Index i = 0; i < before.size(); ++i) {
-    for (Eigen::Index c = 0; c < 4; ++c) {  // also another sign of 0 is another state
-      const double old = before.values()(i, c), now = run.state().values()(i, c);
-      if (std::memcmp(&old, &now, sizeof(now)) == 0) continue;
+    const Eigen::RowVector4d old = before.values().row(i), now = run.state().values().row(i);
+    // Also another sign of 0 is another state.
+    if (std::memcmp(old.data(), now.data(), 4 * sizeof(double)) != 0) {
       addState(message, run.state(), i);
-      break;
     }
   }
   sink_(message);
@@ -176,7 +175,7 @@ void Replay::find() {
     began = input->began;
     check(*input);
     places_.emplace(input->number, message);
-    if (input->end != 0) end_ = input->number;
+    if (input->end != 0) end_ = std::min(end_.value_or(input->number), input->number);
   }
 }
 

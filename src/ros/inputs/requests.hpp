@@ -1,4 +1,4 @@
-// What is asked of a node from outside: by services, the mouse and the menu in rviz.
+// What is asked of a node from outside: by services, the mouse in rviz and robots.
 //
 // The callback queue of ROS is the queue of requests. It is served between two states only; every
 // callback turns its message into a request and hands it to the node, which acts on it and answers.
@@ -22,7 +22,7 @@ struct Target {
 };
 
 struct Pause {
-  std::optional<bool> paused;  ///< nothing: the other way round
+  bool paused = true;
 };
 struct Step {};
 struct Reset {};

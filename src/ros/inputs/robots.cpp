@@ -13,9 +13,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nav_msgs/Odometry.h>
+#include <regex>
 #include <sstream>
-#include <tf2_msgs/TFMessage.h>
 
 namespace spring_pendulum {
 namespace {
@@ -46,47 +47,34 @@ PlaneVector<double> forceOnHolder(const Run& run, std::ptrdiff_t particle) {
 
 }  // namespace
 
-std::vector<std::ptrdiff_t> parseParticleList(const std::string& text, std::ptrdiff_t particles,
-                                              const std::string& key) {
-  std::vector<std::ptrdiff_t> result;
-  std::string words = text;
-  std::replace(words.begin(), words.end(), ',', ' ');
-  std::istringstream stream(words);
-  for (std::string word; stream >> word;) {
-    const std::optional<double> number =
-        word == "last" ? std::optional<double>(static_cast<double>(particles)) : parseNumber(word);
-    if (!number || *number != std::floor(*number) || *number < 1.0 ||
-        *number > static_cast<double>(particles)) {
-      throw InputError(fmt::format("{}: {} is not a particle of the chain: use 1 to {}, or last",
-                                   key, inQuotes(word), particles));
+std::vector<HolderFrame> parseHeld(const std::string& text, std::ptrdiff_t particles) {
+  std::map<std::ptrdiff_t, std::string> held;
+  std::istringstream words(std::regex_replace(text, std::regex(","), " "));
+  for (std::string word; words >> word;) {
+    const std::string name = word.substr(0, word.find('='));
+    const auto number = name == "last" ? particles : parseInteger(name).value_or(0);
+    if (number < 1 || number > particles) {
+      throw InputError(fmt::format("held: {} is not a particle of the chain: use 1 to {}, or last",
+                                   inQuotes(name), particles));
     }
-    result.push_back(static_cast<std::ptrdiff_t>(*number) - 1);
-    if (std::count(result.begin(), result.end(), result.back()) > 1) {
-      throw InputError(fmt::format("{}: particle {} is given twice", key, result.back() + 1));
+    const std::string frame = name == word ? "" : word.substr(name.size() + 1);
+    if (!held.emplace(number - 1, frame).second) {
+      throw InputError(fmt::format("held: particle {} is given twice", number));
     }
   }
-  return result;
+  return {held.begin(), held.end()};
 }
 
 Robots::Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Driver& driver,
                Frames& frames)
     : run_(run), driver_(driver), frames_(frames) {
   const double longest = std::max(1.0, 0.5 * chainLength(run.chain(), run.start()));
-  auto held_frames = options.held_frames;
-  for (const std::ptrdiff_t particle :
-       parseParticleList(options.held, run.chain().size(), "held")) {
+  const auto warn = [](const std::string& text) { ROS_WARN_STREAM(text); };
+  for (const auto& [particle, frame] : parseHeld(options.held, run.chain().size())) {
     const std::string name = fmt::format("held_{}", particle + 1);
-    const std::string frame = held_frames[particle + 1];
-    held_frames.erase(particle + 1);
-    const Follower follower(frame.empty() ? name : "frame " + frame, longest);
+    const Follower follower(frame.empty() ? name : name + " (frame " + frame + ")", longest, warn);
     connect(node, robots_.emplace_back(Robot{particle, name, frame, follower}));
   }
-  if (!held_frames.empty()) {
-    throw InputError(
-        fmt::format("held_{0}_frame: particle {0} is not in held", held_frames.begin()->first));
-  }
-  tf_particles_ = parseParticleList(options.tf_particles, run.chain().size(), "tf_particles");
-  if (!tf_particles_.empty()) tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", 100);
   if (!robots_.empty()) frames_.listen();
   reset();
 }
@@ -138,7 +126,7 @@ void Robots::lookUp(Robot& robot, double now) {
     take(robot, found, {}, std::nullopt, age > 0.0 && age < kStaleFrame ? now - age : now);
   } catch (const InputError& error) {
     if (robot.follower.isSilent(now) && robot.warnings.isDue()) {
-      ROS_WARN_STREAM(robot.name << "_frame: " << error.what());
+      ROS_WARN_STREAM(robot.name << ": " << error.what());
     }
   }
 }
@@ -151,8 +139,6 @@ void Robots::take(Robot& robot, const StampedTransform& transform,
       transform.transform.getBasis() * velocity.value_or(tf2::Vector3(0.0, 0.0, 0.0));
   const bool accepted = robot.follower.take({{at.x(), at.z()}, {speed.x(), speed.z()}, {}},
                                             velocity.has_value(), transform.stamp, now);
-  const std::string message = robot.follower.takeMessage();
-  if (!message.empty()) ROS_WARN_STREAM(message);
   if (accepted && !robot.warned && !(std::abs(at.y()) <= kOutOfPlane)) {
     robot.warned = true;
     ROS_WARN_STREAM(robot.name << ": the input is " << std::abs(at.y())
@@ -168,8 +154,6 @@ void Robots::follow(double real_time_factor) {
     const PlaneVector<double> here{run_.state().x()[robot.particle],
                                    run_.state().y()[robot.particle]};
     auto target = robot.follower.targetAt(now, here, share * (run_.nextTime() - run_.time()));
-    const std::string message = robot.follower.takeMessage();
-    if (!message.empty()) ROS_WARN_STREAM(message);
     if (!target) continue;
     // From seconds to simulated seconds.
     target->velocity = {share * target->velocity.x, share * target->velocity.y};
@@ -189,18 +173,6 @@ void Robots::show(const std_msgs::Header& header) {
     message.wrench.force.z = force.y;
     robot.wrench.publish(message);
   }
-  if (tf_particles_.empty()) return;
-  tf2_msgs::TFMessage message;
-  for (const std::ptrdiff_t i : tf_particles_) {
-    auto& transform = message.transforms.emplace_back();
-    transform.header = header;
-    transform.child_frame_id =
-        fmt::format("{}/particle_{}", ros::this_node::getName().substr(1), i + 1);
-    transform.transform.translation.x = run_.state().x()[i];
-    transform.transform.translation.z = run_.state().y()[i];
-    transform.transform.rotation.w = 1.0;
-  }
-  tf_.publish(message);
 }
 
 }  // namespace spring_pendulum

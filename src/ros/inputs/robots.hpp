@@ -1,10 +1,9 @@
-// Scene that robots hold: input from topics or tf, output of the force on each holder.
+// Particles that robots hold: input from topics or tf, output of the force on each holder.
 #pragma once
 
 #include "ros/inputs/driver.hpp"
-#include "ros/inputs/follower.hpp"
 #include "ros/inputs/frames.hpp"
-#include "ros/messages/throttle.hpp"
+#include "ros/messages/stamps.hpp"
 #include "ros/parameters/node_options.hpp"
 
 #include <geometry_msgs/Point.h>
@@ -12,18 +11,77 @@
 #include <std_msgs/Header.h>
 
 #include <cstddef>
+#include <deque>
+#include <functional>
 #include <list>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace spring_pendulum {
 
-/// Parses a list of particles "1, 5, last".
-/// \returns their numbers, counted from 0
+/// A particle, counted from 0, and the tf frame that it follows; empty: topics.
+using HolderFrame = std::pair<std::ptrdiff_t, std::string>;
+
+/// Parses the option `held`, "1, 5, last=gripper".
 /// \throws InputError for a word that is no particle of the chain, or one given twice
-std::vector<std::ptrdiff_t> parseParticleList(const std::string& text, std::ptrdiff_t particles,
-                                              const std::string& key);
+std::vector<HolderFrame> parseHeld(const std::string& text, std::ptrdiff_t particles);
+
+/// Turns the inputs of one holder into targets of its particle, and says each problem once. The particle
+/// follows an input that is believable. At the start, after a silence of half a second and after a
+/// jump it first comes to its holder. A lasting jump, or a clock that starts again, is believed once the
+/// input has been steady for half a second.
+class Follower {
+ public:
+  /// \param name    of the input, for warnings
+  /// \param longest largest believable jump, m
+  /// \param warn    gets what is new about the input
+  Follower(std::string name, double longest, std::function<void(const std::string&)> warn)
+      : name_(std::move(name)), longest_(longest), warn_(std::move(warn)) {}
+
+  /// Takes an input that is believable.
+  /// \param has_velocity otherwise, the velocity follows from earlier inputs
+  /// \param stamp        of the input, s; not compared with a clock
+  /// \param now          present time of a steady clock, s
+  /// \returns whether it is
+  bool take(const Target& input, bool has_velocity, double stamp, double now);
+  /// Returns where the particle shall be at the present state, so that it is with its holder in the next
+  /// one, which is shown now; nothing before the first input.
+  /// \param here     position of the particle, m
+  /// \param interval until the next state, s
+  std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
+  /// Whether no input came for half a second.
+  bool isSilent(double now) const;
+  /// Forgets the inputs, after a reset.
+  void restart() { *this = Follower(name_, longest_, warn_); }
+
+ private:
+  struct Sample {
+    Target holder;
+    double stamp;  ///< s
+    double time;   ///< s, steady clock
+  };
+  bool isNext(const Sample& before, const Sample& input) const;
+  bool isBelievable(const Sample& input);
+  bool refuse(const std::string& why);
+  /// The last input that is at least this much older than the newest one; null: none.
+  const Sample* before(double seconds) const;
+  void estimateMotion(bool has_velocity);
+  void approach(Target& target, const PlaneVector<double>& here, double distance, double now,
+                double interval);
+
+  std::string name_;
+  double longest_;
+  std::function<void(const std::string&)> warn_;
+  std::deque<Sample> samples_;     ///< since the particle began to come to its holder, newest last
+  std::optional<Sample> refused_;  ///< the last one, since the last accepted one
+  double steady_since_ = 0.0;      ///< s, of the refused ones
+  bool warned_ = false;            ///< that the input is refused, or silent
+  bool met_ = false;               ///< whether the particle has reached its holder
+  double left_ = 0.0;              ///< s, when it began to come to its holder; 0: not yet
+  double expected_ = 0.0;          ///< s, when it should have met it
+};
 
 /// All particles held by robots (`~held`).
 class Robots {
@@ -35,7 +93,7 @@ class Robots {
   /// Reads tf and stops particles whose input is silent. Must be called before every state.
   /// \param real_time_factor simulated seconds per second; 0: unknown
   void follow(double real_time_factor);
-  /// Publishes the forces on the holders and the transforms of `~tf_particles`.
+  /// Publishes the forces on the holders.
   void show(const std_msgs::Header& header);
   /// Holds the particles where they are, after a reset.
   void reset();
@@ -64,8 +122,6 @@ class Robots {
   Driver& driver_;
   Frames& frames_;
   std::list<Robot> robots_;  ///< at addresses that stay
-  std::vector<std::ptrdiff_t> tf_particles_;
-  ros::Publisher tf_;
 };
 
 }  // namespace spring_pendulum

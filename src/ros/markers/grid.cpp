@@ -1,5 +1,4 @@
 #include "ros/markers/picture.hpp"
-#include "ros/parameters/color.hpp"
 
 #include <cmath>
 
@@ -21,9 +20,9 @@ void drawGrid(const Picture& picture, Marker& grid) {
   grid.points.clear();
   if (picture.chainsInFront() > 0.0) return;
   const Eigen::Vector2d reach(kReach * size, 0.5 * size);
-  const Eigen::Vector2d end = picture.view.box().max() + reach;
+  const Eigen::Vector2d end = picture.view.box.max() + reach;
   const Eigen::Vector2d begin =
-      distance * ((picture.view.box().min() - reach) / distance).array().floor();
+      distance * ((picture.view.box.min() - reach) / distance).array().floor();
   // Counted in integers: far from the origin, x + distance rounds to x.
   const auto count = [distance](double length) {
     return length / distance < kMostLines ? static_cast<int>(length / distance) : 0;

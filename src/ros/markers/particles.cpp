@@ -1,7 +1,17 @@
 #include "ros/markers/picture.hpp"
-#include "ros/parameters/color.hpp"
+
+#include <cmath>
 
 namespace spring_pendulum {
+namespace {
+
+std_msgs::ColorRGBA massColor(double mass, double lightest, double heaviest) {
+  const double span = std::log(heaviest / lightest);
+  return mix(colorOf(0xffe28a), colorOf(0xb04bff),
+             span > 0.0 ? std::log(mass / lightest) / span : 0.0);
+}
+
+}  // namespace
 
 void drawParticles(const Picture& picture, Marker& particles) {
   const Chain& chain = picture.run.chain();
@@ -17,7 +27,7 @@ void drawParticles(const Picture& picture, Marker& particles) {
       const double mass = i > 0 ? chain.masses()[i] : lightest;
       particles.colors.push_back(i > 0 && chain.isHeld(i) ? colorOf(kHeldColor)
                                  : !picture.options.color.empty()
-                                     ? lighter(*parseColor(picture.options.color))
+                                     ? mix(colorOf(picture.options.color), colorOf(0xffffff), 0.5)
                                      : massColor(mass, lightest, heaviest));
     }
   }

@@ -6,10 +6,11 @@
 #include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
+#include <std_msgs/ColorRGBA.h>
 #include <visualization_msgs/Marker.h>
 
 #include <algorithm>
-#include <deque>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Picture {
   const NodeOptions& options;
   const SceneView& view;
   const std::vector<Eigen::Index>& drawn;  ///< indices of the drawn particles
-  const std::string& pace;                 ///< speed of the run: "1.00 x real time"
+  const std::string& activity;             ///< "paused", "finished"
 
   /// Whether the state can be drawn; if not, the chain keeps its last shape.
   bool isDrawable() const { return run.isFinite() && run.isShown() && drawn.size() > 1; }
@@ -36,7 +37,7 @@ struct Picture {
   }
   /// Width of a spring, m.
   double width() const { return std::max(0.35 * diameter(), 0.0035 * view.size()); }
-  /// y of springs and trail behind the particles, and of the anchor in front of them, m: rviz draws a
+  /// y of springs behind the particles, and of the anchor in front of them, m: rviz draws a
   /// particle as a disc that faces the camera, so it is tilted by up to 28 degrees.
   double depth() const { return 0.3 * diameter(); }
   /// Number of chains in front of this one.
@@ -53,6 +54,9 @@ inline geometry_msgs::Point pointAt(double x, double y, double z) {
   return point;
 }
 
+/// Returns the indices of at most `most` particles, with the first and the last one.
+std::vector<Eigen::Index> evenlyChosen(Eigen::Index particles, Eigen::Index most);
+
 /// Returns the position of particle i, counted from 0.
 inline geometry_msgs::Point pointOf(const State& state, Eigen::Index i, double y = 0.0) {
   return pointAt(state.x()[i], y, state.y()[i]);
@@ -67,32 +71,29 @@ inline void setScale(Marker& marker, double size) {
   marker.scale.x = marker.scale.y = marker.scale.z = size;
 }
 
-/// Blue for short springs, white for springs without force, red for stretched ones; amber if the
-/// verdict is bad, magenta if the motion has diverged.
+/// \param rgb 0xrrggbb
+std_msgs::ColorRGBA colorOf(std::uint32_t rgb, float opacity = 1.0F);
+/// \param text "#rrggbb"
+std_msgs::ColorRGBA colorOf(const std::string& text);
+/// Returns the first color for a share of 0 and below, the second one for 1 and above.
+std_msgs::ColorRGBA mix(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to,
+                        double share);
+
+constexpr std::uint32_t kTextColor = 0xe6e9ee;
+constexpr std::uint32_t kGridColor = 0x788291;
+constexpr std::uint32_t kHeldColor = 0x9aa4b2;      ///< of held particles
+constexpr std::uint32_t kDoubtColor = 0xffb000;     ///< of springs if the verdict is bad
+constexpr std::uint32_t kDivergedColor = 0xff2fd0;  ///< of the whole chain
+
+/// From blue for shortened springs over white for springs without force to red for stretched and dark
+/// red for overstretched ones; amber if the verdict is bad, magenta if the motion has diverged.
 void drawSprings(const Picture& picture, Marker& springs);
-/// From light ones in yellow to heavy ones in violet; held ones are grey.
+/// From light ones in pale yellow to heavy ones in violet, on a logarithmic scale; held ones are grey.
 void drawParticles(const Picture& picture, Marker& particles);
 /// A square in front of P_1.
 void drawAnchor(const Picture& picture, Marker& anchor);
 /// Method, time, errors and verdict above the scene.
 void drawText(const Picture& picture, Marker& text);
 void drawGrid(const Picture& picture, Marker& grid);
-/// The state of the reference run, on request.
-void drawReference(const Picture& picture, Marker& reference);
-
-/// The last positions of the tip.
-class Trail {
- public:
-  /// Adds the tip; a time before the last one starts a new trail.
-  void track(const Run& run, double duration);
-  void draw(const Picture& picture, Marker& marker) const;
-
- private:
-  struct TrailPoint {
-    double time;
-    geometry_msgs::Point point;
-  };
-  std::deque<TrailPoint> points_;
-};
 
 }  // namespace spring_pendulum

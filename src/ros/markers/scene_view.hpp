@@ -9,8 +9,7 @@ namespace spring_pendulum {
 
 /// A frame around the start and, for a chain that hangs from P_1, its length at rest. When the chain
 /// leaves the frame, the frame widens in steps.
-class SceneView {
- public:
+struct SceneView {
   /// \param hangs whether only P_1 is held
   SceneView(const Run& run, bool hangs);
 
@@ -18,26 +17,21 @@ class SceneView {
   /// \returns whether the frame changed
   bool widenFor(const State& state);
 
-  /// The visible rectangle of the plane, m, without the text above it.
-  const Eigen::AlignedBox2d& box() const { return box_; }
   /// Size of the picture in m: the unit of line widths and text heights.
   double size() const;
-  double textHeight() const;
-  /// Distance of the lines of text, m.
-  double lineDistance() const;
+  double textHeight() const { return 0.04 * size(); }
+  double lineDistance() const { return 1.35 * textHeight(); }
   /// Distance of the grid lines, m: 1, 2 or 5 times a power of ten.
   double gridDistance() const;
-
   /// Height of the axis of the camera, m.
-  double cameraHeight() const;
+  double cameraHeight() const { return box.center().y() + 0.5 * kTextLines * lineDistance(); }
   /// Distance of the camera from the plane, m, for the field of view of rviz, 45 degrees.
   double cameraDistance() const;
 
   static constexpr int kTextLines = 3;  ///< above the scene
 
- private:
-  Eigen::AlignedBox2d largest_;  ///< limit of the frame, which a diverging motion leaves
-  Eigen::AlignedBox2d box_;
+  Eigen::AlignedBox2d box;  ///< the visible rectangle of the plane, m, without the text above it
+  Eigen::AlignedBox2d largest;  ///< limit of the box, which a diverging motion leaves
 };
 
 }  // namespace spring_pendulum

@@ -1,5 +1,4 @@
 #include "ros/markers/picture.hpp"
-#include "ros/parameters/color.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
 
 #include <cmath>
@@ -18,6 +17,13 @@ double fullColorStrain(const Chain& chain) {
   return std::clamp(2.0 * strain, 0.05, 5.0);
 }
 
+/// \param strain -1 and below: full blue; 0: white; 1: full red; 8 and above: dark red
+std_msgs::ColorRGBA strainColor(double strain) {
+  const std_msgs::ColorRGBA stretched = colorOf(0xff3b20);
+  if (strain > 1.0) return mix(stretched, colorOf(0x8c0a32), std::log2(strain) / 3.0);
+  return mix(colorOf(0xf2f2f2), strain < 0.0 ? colorOf(0x2f7bff) : stretched, std::abs(strain));
+}
+
 }  // namespace
 
 void drawSprings(const Picture& picture, Marker& springs) {
@@ -32,7 +38,7 @@ void drawSprings(const Picture& picture, Marker& springs) {
       const Eigen::Index from = picture.drawn[n - 1], to = picture.drawn[n];
       const double length = springLengths(run.state(), from, to) / static_cast<double>(to - from);
       const auto color =
-          !picture.options.color.empty() ? *parseColor(picture.options.color)
+          !picture.options.color.empty() ? colorOf(picture.options.color)
           : isBad(run.verdict().kind)
               ? colorOf(kDoubtColor)
               : strainColor(strainOf(length, run.chain().spring().rest_length) / full);

@@ -1,5 +1,4 @@
 #include "ros/markers/picture.hpp"
-#include "ros/parameters/color.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +42,7 @@ std::string label(const Picture& picture) {
   const auto drawn = static_cast<Eigen::Index>(picture.drawn.size()), all = run.chain().size();
   return joined({plan.method.get().name, control, clock}) + "\n" +
          joined({position, energy, judged}) + "\n" +
-         joined({picture.pace, fmt::format("grid {:g} m", picture.view.gridDistance()),
+         joined({picture.activity, fmt::format("grid {:g} m", picture.view.gridDistance()),
                  drawn < all ? fmt::format("{} of {} particles drawn", drawn, all) : ""});
 }
 
@@ -54,10 +53,10 @@ void drawText(const Picture& picture, Marker& text) {
   const std::int64_t row = picture.options.text_row;
   text.text = label(picture);
   setScale(text, view.textHeight() * (row > 0 ? kRowHeight : 1.0));
-  if (!picture.options.color.empty()) text.color = *parseColor(picture.options.color);
+  if (!picture.options.color.empty()) text.color = colorOf(picture.options.color);
   const double line = row > 0 ? static_cast<double>(row) - 0.5 : 0.5 * SceneView::kTextLines;
-  const double z = view.box().max().y() + line * view.lineDistance();
-  text.pose.position = pointAt(view.box().center().x(), 0.0, z);
+  const double z = view.box.max().y() + line * view.lineDistance();
+  text.pose.position = pointAt(view.box.center().x(), 0.0, z);
   // Rows of several nodes keep their distance, also when the camera of one of them moves.
   if (row == 0 || picture.options.camera_frame.empty()) return;
   text.header.frame_id = picture.options.camera_frame;

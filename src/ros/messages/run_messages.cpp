@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -73,6 +74,18 @@ PendulumStatus statusOf(const Run& run, bool paused) {
   return status;
 }
 
+enum Index : std::size_t { kSprings, kParticles, kAnchor, kText, kGrid };
+
+Marker emptyMarker(std::string name, int type) {
+  Marker marker;
+  marker.ns = std::move(name);
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.color = colorOf(kTextColor);
+  return marker;
+}
+
 }  // namespace
 
 void setState(PendulumState& message, const Run& run, const std_msgs::Header& header) {
@@ -99,44 +112,81 @@ void setState(PendulumState& message, const Run& run, const std_msgs::Header& he
 }
 
 RunMessages::RunMessages(const Run& run, const NodeOptions& options, bool simulated)
-    : frame_id_(options.frame_id), stamps_(simulated), markers_(run, options) {
+    : options_(options),
+      stamps_(simulated),
+      drawn_(evenlyChosen(run.chain().size(), options.display_limit)),
+      view_(run, options.held.empty()),
+      camera_moved_(!options.camera_frame.empty() && options.text_row <= 1) {
   const Plan& plan = run.plan();
   if (simulated) Stamps(true).next(plan.timeOfFrame(plan.frames - 1));
+  markers_.markers = {
+      emptyMarker("springs", Marker::LINE_LIST), emptyMarker("particles", Marker::SPHERE_LIST),
+      emptyMarker("anchor", Marker::CUBE), emptyMarker("text", Marker::TEXT_VIEW_FACING),
+      emptyMarker("grid", Marker::LINE_LIST)};
 }
 
 std_msgs::Header RunMessages::header(double simulated_time) {
   std_msgs::Header header;
-  header.frame_id = frame_id_;
+  header.frame_id = options_.frame_id;
   header.stamp = stamps_.next(simulated_time);
   return header;
 }
 
-std::optional<std_msgs::Header> RunMessages::send(const Run& run, const Showing& showing,
-                                                  Outlet& outlet) {
+void RunMessages::draw(const Run& run, const std_msgs::Header& header,
+                       const std::string& activity) {
+  const Picture picture{run, options_, view_, drawn_, activity};
+  // The other chains keep to the view of the first one.
+  if (run.isFinite() && run.isShown() && options_.text_row <= 1 && !camera_frozen_ &&
+      view_.widenFor(run.state())) {
+    camera_moved_ = !options_.camera_frame.empty();
+  }
+  auto& markers = markers_.markers;
+  for (Marker& marker : markers) marker.header = header;
+  drawSprings(picture, markers[kSprings]);
+  drawParticles(picture, markers[kParticles]);
+  drawAnchor(picture, markers[kAnchor]);
+  drawText(picture, markers[kText]);
+  drawGrid(picture, markers[kGrid]);
+  for (Marker& marker : markers) {  // rviz reports an error for a list without points
+    const bool is_list = marker.type == Marker::LINE_LIST || marker.type == Marker::SPHERE_LIST;
+    marker.action = is_list && marker.points.size() < 2 ? Marker::DELETE : Marker::ADD;
+  }
+}
+
+tf2_msgs::TFMessage RunMessages::camera(const std_msgs::Header& header) const {
+  tf2_msgs::TFMessage message;
+  auto& camera = message.transforms.emplace_back();
+  camera.header = header;
+  camera.child_frame_id = options_.camera_frame;
+  camera.transform.translation.x = view_.box.center().x();
+  camera.transform.translation.y = -view_.cameraDistance();
+  camera.transform.translation.z = view_.cameraHeight();
+  // Rotation by 90 degrees about z: the x axis of the camera, its viewing direction, is the y axis.
+  camera.transform.rotation.z = camera.transform.rotation.w = std::sqrt(0.5);
+  return message;
+}
+
+std::optional<StateMessages> RunMessages::build(const Run& run, const Showing& showing) {
   PendulumStatus status = statusOf(run, showing.paused);
   const bool has_changed = status.text != last_status_;
   if (!showing.due && !has_changed) return std::nullopt;
-  const std_msgs::Header now = header(run.time());
-  outlet.start(now);
-  markers_.trackTip(run);
-  if (outlet.wantsMarkers()) {
-    const visualization_msgs::MarkerArray& markers = markers_.draw(run, now, showing.pace);
-    if (const auto camera = markers_.newCamera(now)) {
-      tf2_msgs::TFMessage message;
-      message.transforms = {*camera};
-      outlet.put(message);
-    }
-    outlet.put(markers);
+  StateMessages messages;
+  messages.header = header(run.time());
+  if (showing.wants_markers) {
+    draw(run, messages.header, showing.activity);
+    messages.markers = &markers_;
+    if (std::exchange(camera_moved_, false)) messages.camera = camera(messages.header);
   }
-  if (outlet.wantsState()) {
-    setState(state_, run, now);
-    outlet.put(state_);
+  if (showing.wants_state) {
+    setState(state_, run, messages.header);
+    messages.state = &state_;
   }
-  if (!has_changed) return now;
-  last_status_ = status.text;
-  status.header = now;
-  outlet.put(status);
-  return now;
+  if (has_changed) {
+    last_status_ = status.text;
+    status.header = messages.header;
+    messages.status = std::move(status);
+  }
+  return messages;
 }
 
 }  // namespace spring_pendulum

@@ -1,44 +1,47 @@
 // The messages about a run, for the topics of a node and for bags.
 #pragma once
 
-#include "ros/markers/markers.hpp"
+#include "ros/markers/picture.hpp"
 #include "ros/messages/stamps.hpp"
 #include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/PendulumState.h>
 #include <spring_pendulum/PendulumStatus.h>
 #include <spring_pendulum/simulation/run.hpp>
 
+#include <visualization_msgs/MarkerArray.h>
+
 #include <optional>
 #include <string>
 #include <tf2_msgs/TFMessage.h>
+#include <vector>
 
 namespace spring_pendulum {
 
 /// Sets all fields of the message of a state.
 void setState(PendulumState& message, const Run& run, const std_msgs::Header& header);
 
-/// Where the messages of a run go: the topics of a node, or a bag.
-class Outlet {
- public:
-  virtual ~Outlet() = default;
-  /// Called before the messages of a state.
-  virtual void start(const std_msgs::Header& header) = 0;
-  /// Messages that nobody wants are not built.
-  virtual bool wantsMarkers() const { return true; }
-  virtual bool wantsState() const { return true; }
-  virtual void put(const tf2_msgs::TFMessage& camera) = 0;
-  virtual void put(const visualization_msgs::MarkerArray& markers) = 0;
-  virtual void put(const PendulumState& state) = 0;
-  virtual void put(const PendulumStatus& status) = 0;
-};
-
-/// How to show a state.
+/// How to show a state, and to whom.
 struct Showing {
-  bool paused = false;    ///< whether the user has paused the run
-  std::string pace = {};  ///< speed of the run, for the text
-  bool due = true;        ///< false: send nothing but a changed status
+  bool paused = false;        ///< whether the user has paused the run
+  std::string activity = {};  ///< for the text: "paused", "finished"
+  bool due = true;            ///< false: nothing but a changed status
+  bool wants_markers = true;  ///< messages that nobody wants are not built
+  bool wants_state = true;
 };
 
+/// The messages about one state, all with this header. Valid until the next ones are built.
+struct StateMessages {
+  std_msgs::Header header;
+  /// Pose of a camera that shows the whole scene, x forward, z up. Only the first of several chains has one.
+  std::optional<tf2_msgs::TFMessage> camera;                 ///< if it has moved
+  const visualization_msgs::MarkerArray* markers = nullptr;  ///< null: not wanted
+  const PendulumState* state = nullptr;                      ///< null: not wanted
+  std::optional<PendulumStatus> status;                      ///< if it has changed
+};
+
+/// Builds the messages about a run. Every marker has a fixed namespace and id, so each message replaces
+/// the previous one, also that of another run; what is not drawn is deleted. A long chain is thinned,
+/// which the text mentions.
 class RunMessages {
  public:
   /// \param simulated stamp with simulated time instead of ROS time
@@ -47,17 +50,23 @@ class RunMessages {
 
   /// Returns the header of the next messages, with a new stamp.
   std_msgs::Header header(double simulated_time);
-  void freezeCamera(bool freeze) { markers_.freezeCamera(freeze); }
+  /// Keeps the camera where it is, for example while the mouse drags a particle.
+  void freezeCamera(bool freeze) { camera_frozen_ = freeze; }
 
-  /// Sends the state in all messages that are wanted, with the same header, and the status and the
-  /// camera if they have changed.
-  /// \returns the header; nothing if nothing was sent
-  std::optional<std_msgs::Header> send(const Run& run, const Showing& showing, Outlet& outlet);
+  /// Returns the messages about the current state; nothing if it is not due and the status is the same.
+  std::optional<StateMessages> build(const Run& run, const Showing& showing);
 
  private:
-  std::string frame_id_;
+  void draw(const Run& run, const std_msgs::Header& header, const std::string& activity);
+  tf2_msgs::TFMessage camera(const std_msgs::Header& header) const;
+
+  NodeOptions options_;
   Stamps stamps_;
-  Markers markers_;
+  std::vector<Eigen::Index> drawn_;  ///< indices of the drawn particles
+  SceneView view_;
+  bool camera_moved_;
+  bool camera_frozen_ = false;
+  visualization_msgs::MarkerArray markers_;
   PendulumState state_;  ///< kept, so that its arrays are allocated once
   std::string last_status_;
 };

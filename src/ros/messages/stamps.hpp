@@ -1,4 +1,5 @@
-// The stamps of messages: strictly increasing and never 0, whatever the clock does.
+// The stamps of messages: strictly increasing and never 0, whatever the clock does. And log lines that
+// may repeat.
 #pragma once
 
 #include <ros/time.h>
@@ -23,6 +24,22 @@ class Stamps {
   double last_simulated_time_ = 0.0;
   ros::Time played_ = simulatedStart();  ///< simulated time without the jumps back
   ros::Time last_;
+};
+
+/// Limits repeated log lines by the wall clock. The throttled macros of ROS use ROS time, which may stand
+/// still.
+class Throttle {
+ public:
+  /// True at most every 5 s.
+  bool isDue() {
+    const ros::SteadyTime now = ros::SteadyTime::now();
+    if (now < next_) return false;
+    next_ = now + ros::WallDuration(5.0);
+    return true;
+  }
+
+ private:
+  ros::SteadyTime next_;
 };
 
 }  // namespace spring_pendulum

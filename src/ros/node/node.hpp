@@ -4,33 +4,40 @@
 #include "ros/inputs/driver.hpp"
 #include "ros/inputs/handles.hpp"
 #include "ros/inputs/robots.hpp"
-#include "ros/inputs/services.hpp"
 #include "ros/messages/stamps.hpp"
 #include "ros/node/pacer.hpp"
 #include "ros/node/publisher.hpp"
-#include "ros/node/run_log.hpp"
-#include "ros/parameters/parameters.hpp"
-#include <spring_pendulum/PendulumState.h>
+#include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/io/run_files.hpp>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace spring_pendulum {
 
+/// Logs one line. Once ROS has shut down, its log no longer prints: then on standard error.
+void logInfo(const std::string& text);
+void logFatal(const std::string& text);
+
 class Node {
  public:
   /// Removes the frames of earlier runs.
   /// \throws InputError, FileError before that for a run that is impossible
-  Node(ros::NodeHandle& node, ros::NodeHandle& private_node, const NodeConfiguration& configuration,
-       const Scene& scene);
+  Node(const Scenario& scenario, const NodeOptions& options, const Scene& scene);
 
   /// Runs until the end of the run, of ROS, or a signal.
   void spin();
   const Run& run() const { return run_; }
 
  private:
+  /// What was logged since the start or the last reset.
+  struct Logged {
+    VerdictKind verdict = VerdictKind::kOk;
+    std::int64_t frames = 0;  ///< number of frames at the closing line; 0: not logged yet
+    std::string tolerance_remark;
+  };
+
+  std::vector<ros::ServiceServer> advertiseServices();
   /// Acts on a request, see RequestHandler.
   std::string take(const Request& request);
   std::string on(const Pause& request);
@@ -38,14 +45,13 @@ class Node {
   std::string on(const Reset& request);
   std::string on(const SaveState& request);
   std::string on(const LoadState& request);
-  std::string on(const SetConstant& request);
   template <typename Other>
   std::string on(const Other& request) {
     return driver_.on(request);
   }
-  void onLeaderState(const PendulumState::ConstPtr& state);
   void record(PendulumInput input);
 
+  void waitForSubscribers();
   bool isDue() const;
   bool isLoopDue() const;
   bool isAtExit() const;
@@ -57,8 +63,13 @@ class Node {
   void show();
   void end();
   Showing showing();
-  std::string overMessage() const;
 
+  void logStart() const;
+  /// Logs once each: a bad verdict, a divergence with its remedy, the choices of Auto, the end of the run.
+  void logChanges();
+  std::string closingLine() const;
+
+  ros::NodeHandle node_;
   NodeOptions options_;
   Scenario scenario_;
   Run run_;
@@ -74,19 +85,16 @@ class Node {
   Handles handles_;
   Robots robots_;
   std::vector<ros::ServiceServer> services_;
-  ros::Subscriber leader_;
   RunFiles files_;
-  RunLog log_;
-  std::string values_;  ///< parameters in effect
 
+  Logged logged_;
   bool ended_ = false;
   bool paused_ = false;
   std::int64_t steps_wanted_ = 0;
-  double leader_time_ = -1.0;  ///< s, simulated time of the followed node
-  ros::SteadyTime show_at_;    ///< when a run that does not advance is shown again
+  ros::SteadyTime show_at_;  ///< when a run that does not advance is shown again
   ros::SteadyTime over_since_;
   Throttle refusals_;
-  State last_frame_;  ///< for SaveState
+  State last_frame_;  ///< for SaveState; empty before the run has started
   std::int64_t last_frame_number_ = 0;
 };
 

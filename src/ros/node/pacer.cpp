@@ -6,14 +6,13 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kLateness = 0.1;         // s, largest delay that the run makes up for
-constexpr double kMeasureOver = 0.5;      // s, duration of a measurement of the speed
 constexpr double kLongestDuration = 1e9;  // s; ros::Duration has 32 bits for seconds
 
 }  // namespace
 
 void Pacer::start(double simulated_time, ros::SteadyTime now) {
-  start_simulated_ = measured_simulated_ = simulated_time;
-  start_ = measured_ = now;
+  start_simulated_ = simulated_time;
+  start_ = now;
   next_shown_ = simulated_time;
 }
 
@@ -38,12 +37,6 @@ bool Pacer::isShown(double simulated_time, bool must) {
 }
 
 void Pacer::reached(double simulated_time, ros::SteadyTime now) {
-  const double seconds = (now - measured_).toSec();
-  if (seconds >= kMeasureOver) {
-    speed_ = (simulated_time - measured_simulated_) / seconds;
-    measured_simulated_ = simulated_time;
-    measured_ = now;
-  }
   if (factor_ > 0.0 && (now - dueTime(simulated_time)).toSec() > kLateness) {
     start_simulated_ = simulated_time;
     start_ = now;

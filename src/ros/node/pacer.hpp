@@ -27,18 +27,12 @@ class Pacer {
   /// per state.
   bool isShown(double simulated_time, bool must = false);
 
-  /// Measured simulated seconds per second; 0 before the first measurement.
-  double speed() const { return speed_; }
-
  private:
   double factor_;
   double shown_interval_;    ///< s, simulated time between two shown states; 0: all are shown
   double next_shown_ = 0.0;  ///< s, simulated time
   double start_simulated_ = 0.0;
   ros::SteadyTime start_;
-  double measured_simulated_ = 0.0;  ///< start of the current measurement
-  ros::SteadyTime measured_;
-  double speed_ = 0.0;
 };
 
 }  // namespace spring_pendulum

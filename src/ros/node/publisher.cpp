@@ -1,21 +1,13 @@
 #include "ros/node/publisher.hpp"
 
-#include "base/numbers.hpp"
-#include "io/program/program.hpp"
-
 #include <fmt/format.h>
 
-#include <ros/callback_queue.h>
-#include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 
 namespace spring_pendulum {
 namespace {
-
-constexpr double kPollInterval = 0.01;    // s between two checks for subscribers
-constexpr double kLongestDuration = 1e9;  // s; ros::Duration has 32 bits for seconds
 
 /// Limit of the queue of states, bytes. A slow subscriber loses messages instead of increasing the
 /// memory of the node.
@@ -43,47 +35,43 @@ Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& o
   if (publishes_clock_) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
 }
 
-void Publisher::waitForSubscribers(const NodeOptions& options) {
-  const ros::SteadyTime start = ros::SteadyTime::now();
-  const ros::WallDuration timeout(std::min(options.wait_timeout, kLongestDuration));
-  const auto subscribers = [this] {
-    return markers_.getNumSubscribers() + state_.getNumSubscribers() + status_.getNumSubscribers();
-  };
-  if (subscribers() >= options.wait_for_subscribers) return;
+std::int64_t Publisher::subscribers() const {
+  return markers_.getNumSubscribers() + state_.getNumSubscribers() + status_.getNumSubscribers();
+}
+
+std::optional<std_msgs::Header> Publisher::publish(const Run& run, Showing showing) {
+  showing.wants_markers = isSubscribed(markers_);
+  showing.wants_state = isSubscribed(state_);
+  const std::optional<StateMessages> messages = messages_.build(run, showing);
+  if (!messages) return std::nullopt;
+  if (publishes_clock_) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = messages->header.stamp;
+    clock_.publish(clock);
+  }
+  if (messages->camera) tf_static_.publish(*messages->camera);
+  if (messages->markers != nullptr) {
+    markers_.publish(*messages->markers);
+    ++markers_built_;
+  }
+  if (messages->state != nullptr) {
+    state_.publish(*messages->state);
+    ++states_built_;
+  }
+  if (messages->status) status_.publish(*messages->status);
+  return messages->header;
+}
+
+void Publisher::publishWaiting(const std::string& text) {
   PendulumStatus waiting;
   waiting.code = PendulumStatus::WAITING;
-  waiting.text = "waiting for " + counted(options.wait_for_subscribers, "subscriber");
-  ROS_INFO_STREAM(waiting.text << " of markers, state and status (wait_for_subscribers)");
+  waiting.text = text;
   waiting.header = messages_.header(0.0);
   status_.publish(waiting);
-  while (ros::ok() && interruption() == 0 && subscribers() < options.wait_for_subscribers) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPollInterval));
-    if (timeout.isZero() || ros::SteadyTime::now() - start < timeout) continue;
-    ROS_WARN("only %u of %ld subscribers after %.6g s (wait_timeout): starting anyway",
-             subscribers(), static_cast<long>(options.wait_for_subscribers), options.wait_timeout);
-    return;
-  }
-}
-
-void Publisher::start(const std_msgs::Header& header) {
-  if (!publishes_clock_) return;
-  rosgraph_msgs::Clock clock;
-  clock.clock = header.stamp;
-  clock_.publish(clock);
-}
-
-void Publisher::put(const visualization_msgs::MarkerArray& markers) {
-  markers_.publish(markers);
-  ++markers_built_;
-}
-
-void Publisher::put(const PendulumState& state) {
-  state_.publish(state);
-  ++states_built_;
 }
 
 void Publisher::clear() {
-  if (!wantsMarkers()) return;
+  if (!isSubscribed(markers_)) return;
   visualization_msgs::MarkerArray nothing;
   nothing.markers.resize(1);
   nothing.markers.front().header = messages_.header(0.0);

@@ -11,31 +11,29 @@
 
 namespace spring_pendulum {
 
-class Publisher : private Outlet {
+class Publisher {
  public:
   Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options);
 
+  /// Number of subscribers of markers, state and status.
+  std::int64_t subscribers() const;
   /// Whether a topic that shows states between the frames has subscribers.
-  bool isWatched() const { return publishes_clock_ || wantsMarkers() || wantsState(); }
-  /// Serves callbacks until `wait_for_subscribers` is reached, or `wait_timeout` has passed.
-  void waitForSubscribers(const NodeOptions& options);
-  void freezeCamera(bool freeze) { messages_.freezeCamera(freeze); }
-  std::optional<std_msgs::Header> publish(const Run& run, const Showing& showing) {
-    return messages_.send(run, showing, *this);
+  bool isWatched() const {
+    return publishes_clock_ || isSubscribed(markers_) || isSubscribed(state_);
   }
+  void freezeCamera(bool freeze) { messages_.freezeCamera(freeze); }
+  /// Publishes the messages about the current state.
+  /// \returns their header; nothing if the state is not due
+  std::optional<std_msgs::Header> publish(const Run& run, Showing showing);
+  /// Publishes the status of a node that waits for subscribers.
+  void publishWaiting(const std::string& text);
   /// Removes the markers from rviz, which keeps them when the node has ended.
   void clear();
   /// Returns for the closing line: "12 marker and 30 state messages built".
   std::string numbers() const;
 
  private:
-  bool wantsMarkers() const override { return markers_.getNumSubscribers() > 0; }
-  bool wantsState() const override { return state_.getNumSubscribers() > 0; }
-  void start(const std_msgs::Header& header) override;
-  void put(const tf2_msgs::TFMessage& camera) override { tf_static_.publish(camera); }
-  void put(const visualization_msgs::MarkerArray& markers) override;
-  void put(const PendulumState& state) override;
-  void put(const PendulumStatus& status) override { status_.publish(status); }
+  static bool isSubscribed(const ros::Publisher& topic) { return topic.getNumSubscribers() > 0; }
 
   bool publishes_clock_;
   RunMessages messages_;

@@ -1,16 +1,14 @@
-#include "ros/node/run_log.hpp"
-
+// The log messages of a node about its run.
 #include "base/numbers.hpp"
 #include "io/files/posix.hpp"
 #include "io/program/program.hpp"
+#include "ros/node/node.hpp"
 #include <spring_pendulum/simulation/outcome.hpp>
 
 #include <fmt/format.h>
 
 #include <ros/console.h>
 #include <ros/init.h>
-
-#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -23,49 +21,33 @@ bool rosLogs() {
 }  // namespace
 
 void logInfo(const std::string& text) {
-  if (rosLogs()) {
-    ROS_INFO_STREAM(text);
-  } else {
-    printError("[ INFO]: " + text + "\n");
-  }
+  if (!rosLogs()) return printError("[ INFO]: " + text + "\n");
+  ROS_INFO_STREAM(text);
 }
 
 void logFatal(const std::string& text) {
-  if (rosLogs()) {
-    ROS_FATAL_STREAM(text);
-  } else {
-    printError("[FATAL]: " + text + "\n");
-  }
+  if (!rosLogs()) return printError("[FATAL]: " + text + "\n");
+  ROS_FATAL_STREAM(text);
 }
 
-void logStart(const Run& run, const Scenario& scenario, const NodeOptions& options,
-              const RunFiles& files) {
-  ROS_INFO_STREAM(scenario.method.get().name << " on " << fullPath(scenario.particles) << ", "
-                                             << files.description());
-  const Remarks remarks = remarksOn(run);
+void Node::logStart() const {
+  const std::string& method = run_.plan().method.get().name;
+  ROS_INFO_STREAM(method << " on " << fullPath(scenario_.particles) << ", "
+                         << files_.description());
+  const Remarks remarks = remarksOn(run_);
   if (!remarks.warning.empty()) ROS_WARN_STREAM(remarks.warning);
   for (const std::string& note : remarks.notes) ROS_INFO_STREAM(note);
-  if (!options.follow.empty()) {
-    ROS_INFO_STREAM(scenario.method.get().name << ": waiting for states of another node on "
-                                               << options.follow << " (follow)");
-  }
 }
 
-std::string RunLog::closingLine() const {
+std::string Node::closingLine() const {
   return run_.closingLine(fmt::format("{}, {}", files_.closingText(), publisher_.numbers()));
 }
 
-void RunLog::update() {
-  if (continues_ && run_.frame() < last_frame_) {  // after a reset
-    said_verdict_ = VerdictKind::kOk;
-    said_frames_ = 0;
-    said_tolerance_.clear();
-  }
-  last_frame_ = run_.frame();
+void Node::logChanges() {
   const Verdict& verdict = run_.verdict();
   const std::string& method = run_.plan().method.get().name;
-  if (verdict.kind > said_verdict_) {
-    said_verdict_ = verdict.kind;
+  if (verdict.kind > logged_.verdict) {
+    logged_.verdict = verdict.kind;
     if (verdict.kind == VerdictKind::kDiverged) {
       ROS_ERROR_STREAM(method << ": " << outcomeOf(run_, interruption).lines.front()
                               << (run_.isChanged() ? "; call ~reset to start again" : ""));
@@ -73,21 +55,17 @@ void RunLog::update() {
       ROS_WARN_STREAM(method << ": " << verdict.text);
     }
   }
-  if (std::string remark = run_.toleranceRemark(); remark.size() > said_tolerance_.size()) {
+  if (std::string remark = run_.toleranceRemark();
+      remark.size() > logged_.tolerance_remark.size()) {
     ROS_WARN_STREAM(method << ": " << remark);
-    said_tolerance_ = std::move(remark);
+    logged_.tolerance_remark = std::move(remark);
   }
-  if (!run_.isOver() || said_frames_ != 0) return;
-  said_frames_ = run_.shownFrames();
+  if (!run_.isOver() || logged_.frames != 0) return;
+  logged_.frames = run_.shownFrames();
   ROS_INFO_STREAM(closingLine());
-  if (continues_) {
+  if (options_.at_end == AtEnd::kHold) {
     ROS_INFO_STREAM(method << ": the last frame stays shown until Ctrl-C (at_end: hold)");
   }
-}
-
-void RunLog::finish() const {
-  if (said_frames_ == run_.shownFrames()) return;
-  logInfo(closingLine());
 }
 
 }  // namespace spring_pendulum

@@ -1,22 +1,22 @@
 #include "ros/parameters/node_options.hpp"
 
-#include "ros/parameters/color.hpp"
+#include <spring_pendulum/base/errors.hpp>
+
+#include <fmt/format.h>
 
 #include <ros/names.h>
+
+#include <regex>
 
 namespace spring_pendulum {
 namespace {
 
-bool isFrameName(std::string_view text) {
-  return !text.empty() && text.front() != '/' && text.find(' ') == std::string_view::npos;
-}
-
-bool isCameraFrame(std::string_view text) {
-  return text.empty() || isFrameName(text);
+bool isFrame(std::string_view text) {
+  return text.empty() || (text.front() != '/' && text.find(' ') == std::string_view::npos);
 }
 
 bool isColor(std::string_view text) {
-  return text.empty() || parseColor(std::string(text)).has_value();
+  return std::regex_match(std::string(text), std::regex("|#[0-9a-fA-F]{6}"));
 }
 
 }  // namespace
@@ -29,28 +29,26 @@ bool isTopicName(std::string_view text) {
 
 std::vector<Option> displayOptions(NodeOptions& o) {
   return {
-      {"frame_id", Text{&o.frame_id, "NAME", "a name without a leading '/'", isFrameName}, "",
-       "tf frame of all messages; the chain moves in its x-z plane"},
+      {"frame_id",
+       Text{&o.frame_id, "NAME", "a name without a leading '/'",
+            [](std::string_view text) { return !text.empty() && isFrame(text); }},
+       "", "tf frame of all messages; the chain moves in its x-z plane"},
       {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
        "states published per second on average, also between frames; the frame files do not "
        "change; "
        "0: frames only"},
       {"track_dissipation", Flag{&o.track_dissipation}, "",
        "always integrate the dissipated energy; false: only where it is cheap, as in Exercise3"},
-      {"trail", Number{&o.trail, Range::atLeast(0)}, "s", "length of the tip's trail; 0: none"},
       {"color",
        Text{&o.color, "#rrggbb", "#rrggbb, or empty for colours by strain and mass", isColor}, "",
        "one colour for the whole chain instead of colours by strain and mass"},
       {"display_limit", Count{&o.display_limit, Range::atLeast(2)}, "",
        "largest number of particles drawn; a longer chain is thinned, in the markers only"},
-      {"show_reference", Flag{&o.show_reference}, "",
-       "draw the true motion, from the reference run, as a pale second chain"},
       {"text_row", Count{&o.text_row, Range::atLeast(0)}, "",
        "0: the only chain in the picture; else its line of text, counted upwards from 1: the first "
        "chain draws the grid and sets the camera, and the others are behind it and wider"},
       {"camera_frame",
-       Text{&o.camera_frame, "NAME", "a name without a leading '/', or empty for none",
-            isCameraFrame},
+       Text{&o.camera_frame, "NAME", "a name without a leading '/', or empty for none", isFrame},
        "", "tf frame of the camera that shows the whole scene"},
   };
 }
@@ -67,15 +65,15 @@ std::vector<Option> playOptions(NodeOptions& o) {
        "start without them after this time; 0: wait forever"},
       {"publish_clock", Flag{&o.publish_clock}, "",
        "publish simulated time on /clock and stamp with it"},
-      {"held", Text{&o.held, "LIST", "particles such as '1, last', or empty", anyText}, "",
-       "particles that follow held_<i>/odom, held_<i>/pose or the tf frame of the parameter "
-       "held_<i>_frame"},
-      {"tf_particles",
-       Text{&o.tf_particles, "LIST", "particles such as '1, last', or empty", anyText}, "",
-       "particles whose positions are published as tf frames NODE/particle_<i>"},
-      {"follow", Text{&o.follow, "TOPIC", "the name of a topic", isTopicName}, "",
-       "state topic of another node whose simulated time this one follows"},
+      {"held", Text{&o.held, "LIST", "particles such as '1, last=gripper', or empty", anyText}, "",
+       "particles that follow held_<i>/odom or held_<i>/pose, or a tf frame such as gripper"},
   };
+}
+
+void checkNodeOptions(const NodeOptions& options) {
+  if (options.camera_frame == options.frame_id) {
+    throw InputError(fmt::format("camera_frame: must not be frame_id, '{}'", options.frame_id));
+  }
 }
 
 }  // namespace spring_pendulum

@@ -1,10 +1,11 @@
-// The ROS options besides the scenario: display, pace and publishing.
+// The ROS options besides the scenario: display, timing and publishing; and the parameters of the node.
 #pragma once
 
-#include <spring_pendulum/simulation/option.hpp>
+#include "simulation/options/option_set.hpp"
+#include <spring_pendulum/simulation/scenario.hpp>
 
+#include <XmlRpcValue.h>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,17 +23,12 @@ struct NodeOptions {
   std::int64_t wait_for_subscribers = 0;
   double wait_timeout = 30.0;  ///< s; 0: unlimited
   bool publish_clock = false;
-  std::string follow;                  ///< topic of another node's state
   bool track_dissipation = true;       ///< integrate the dissipated power as well
-  double trail = 2.0;                  ///< s, length of the tip's trail; 0: none
   std::string color;                   ///< "#rrggbb"; empty: by strain and mass
   std::int64_t display_limit = 10000;  ///< largest number of drawn particles
-  bool show_reference = false;         ///< draw the reference run as a pale second chain
   std::int64_t text_row = 0;           ///< line of text, counted upwards; 0: the only chain
-  std::string held;                    ///< particles that robots hold: "1, last"
-  std::map<std::int64_t, std::string> held_frames;  ///< tf frames of their holders, by particle
-  std::string tf_particles;                         ///< particles with a tf frame
-  std::string camera_frame = "pendulum_camera";     ///< empty: none
+  std::string held;                    ///< particles that robots hold: "1, last=gripper"
+  std::string camera_frame = "pendulum_camera";  ///< empty: none
 
   /// Simulated time between two shown states, s; 0: only frames are shown.
   double displayInterval() const {
@@ -49,5 +45,33 @@ std::vector<Option> displayOptions(NodeOptions& options);
 
 /// Options of the node only. Bound to `options`.
 std::vector<Option> playOptions(NodeOptions& options);
+
+/// \throws InputError for options that contradict each other
+void checkNodeOptions(const NodeOptions& options);
+
+/// What the private parameters of the node say.
+struct NodeConfiguration {
+  NodeConfiguration() {
+    scenario.output.clear();
+  }  // a node that shows writes frames on request only
+
+  Scenario scenario;
+  NodeOptions options;
+  std::string unused;  ///< given keys that the method does not use: "tolerance, frame_interval"
+};
+
+/// All parameters of the node, bound to `configuration`.
+OptionSet nodeOptions(NodeConfiguration& configuration);
+
+/// Returns the raw value as text: 4, "4" and 4.0 are the same, and so are true and "true".
+/// \param place prefix of error messages: "/pendulum: frames"
+/// \throws InputError for a list, a map or anything else that is not a single value
+std::string parameterText(XmlRpc::XmlRpcValue& value, const std::string& place);
+
+/// Reads the private parameters of this node.
+/// \throws InputError for an unknown key, listing the known ones, or a wrong value; also for a number
+///   or truth value where text is needed, because ROS guesses types
+/// \throws FileError if the ROS master does not answer
+NodeConfiguration readPrivateParameters();
 
 }  // namespace spring_pendulum

@@ -1,0 +1,150 @@
+// What is asked of a node: its services, and what it does itself on a request.
+#include "base/numbers.hpp"
+#include "io/files/posix.hpp"
+#include "io/files/touched_files.hpp"
+#include "io/formats/state_file.hpp"
+#include "ros/node/node.hpp"
+#include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/ApplyForce.h>
+#include <spring_pendulum/Set.h>
+#include <spring_pendulum/SetMethod.h>
+#include <spring_pendulum/StatePath.h>
+#include <spring_pendulum/base/errors.hpp>
+
+#include <boost/function.hpp>
+#include <fmt/format.h>
+
+#include <ros/console.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <exception>
+
+namespace spring_pendulum {
+namespace {
+
+constexpr const char* kDefaultStateFile = "pendulum_state.txt";
+
+std::string overMessage(const Run& run) {
+  return fmt::format("the run ended at frame {}{}; call ~reset to start it again", run.frame(),
+                     run.isShown() ? "" : ", because the motion diverged");
+}
+
+/// Returns a service whose calls `make_request` turns into requests.
+template <typename Service, typename MakeRequest>
+ros::ServiceServer service(ros::NodeHandle& node, const char* name, const RequestHandler& take,
+                           MakeRequest make_request) {
+  using Call = typename Service::Request;
+  using Response = typename Service::Response;
+  const boost::function<bool(Call&, Response&)> serve = [take, make_request](Call& call,
+                                                                             Response& response) {
+    try {
+      response.message = take(make_request(call));
+      response.success = 1;
+    } catch (const std::exception& error) {
+      response.message = error.what();
+      response.success = 0;
+    }
+    return true;
+  };
+  return node.advertiseService(name, serve);
+}
+
+}  // namespace
+
+std::vector<ros::ServiceServer> Node::advertiseServices() {
+  using std_srvs::SetBool;
+  using std_srvs::Trigger;
+  ros::NodeHandle node("~");
+  const RequestHandler take = [this](const Request& request) { return this->take(request); };
+  const auto constant = [](Set::Request& call) {
+    if (call.name == "method") throw InputError("method: give its name to ~set_method");
+    return SetConstant{call.name, numberText(call.value)};
+  };
+  const auto force = [this](ApplyForce::Request& call) {
+    const tf2::Vector3 turned = frames_.from(call.frame_id).transform.getBasis() *
+                                tf2::Vector3(call.force.x, call.force.y, call.force.z);
+    return ApplyForceTo{
+        call.particle - 1, {turned.x(), turned.z()}, call.start_time, call.duration};
+  };
+  return {
+      service<SetBool>(node, "pause", take, [](auto& call) { return Pause{call.data != 0}; }),
+      service<Trigger>(node, "step", take, [](auto&) { return Step{}; }),
+      service<Trigger>(node, "reset", take, [](auto&) { return Reset{}; }),
+      service<Set>(node, "set", take, constant),
+      service<SetMethod>(node, "set_method", take,
+                         [](auto& call) {
+                           return SetConstant{"method", call.method};
+                         }),
+      service<ApplyForce>(node, "apply_force", take, force),
+      service<Trigger>(node, "clear_forces", take, [](auto&) { return ClearForces{}; }),
+      service<Trigger>(node, "at_rest", take, [](auto&) { return ComeToRest{}; }),
+      service<StatePath>(node, "save_state", take, [](auto& call) { return SaveState{call.file}; }),
+      service<StatePath>(node, "load_state", take, [](auto& call) { return LoadState{call.file}; }),
+  };
+}
+
+std::string Node::take(const Request& request) {
+  if (ended_) throw InputError("the node is ending");
+  if (last_frame_.size() == 0) throw InputError("the run has not started yet");
+  std::string sentence = std::visit([this](const auto& each) { return on(each); }, request);
+  show_at_ = ros::SteadyTime::now();
+  return sentence;
+}
+
+std::string Node::on(const Pause& request) {
+  if (run_.isOver() && options_.at_end != AtEnd::kLoop) throw InputError(overMessage(run_));
+  const bool paused = request.paused;
+  std::string sentence =
+      fmt::format("{}{} at frame {}, t = {:.6g} s", paused == paused_ ? "already " : "",
+                  paused ? "paused" : "running", run_.frame(), run_.time());
+  if (paused == paused_) return sentence;
+  paused_ = paused;
+  steps_wanted_ = 0;
+  pacer_.start(run_.time(), ros::SteadyTime::now());
+  return sentence;
+}
+
+std::string Node::on(const Step& /*request*/) {
+  if (run_.isOver()) throw InputError(overMessage(run_));
+  if (!paused_) throw InputError("the run is not paused; call ~pause first");
+  ++steps_wanted_;
+  return fmt::format("advancing to frame {}", run_.frame() + steps_wanted_);
+}
+
+std::string Node::on(const Reset& /*request*/) {
+  std::string sentence =
+      fmt::format("back to frame 0 from frame {}{}", run_.frame(), paused_ ? ", paused" : "");
+  goTo(nullptr);
+  return sentence;
+}
+
+std::string Node::on(const SaveState& request) {
+  const std::string path = request.file.empty() ? kDefaultStateFile : request.file;
+  TouchedFiles touched = touchedFiles(scenario_, "");
+  touched.outputs.push_back(path);
+  checkTouchedFiles(touched);
+  const double time = run_.plan().timeOfFrame(last_frame_number_);
+  writeStateFile(path, run_.chain(), last_frame_, last_frame_number_, time);
+  std::string sentence =
+      fmt::format("frame {}, t = {:.6g} s, is in {}", last_frame_number_, time, fullPath(path));
+  ROS_INFO_STREAM(sentence);
+  return sentence;
+}
+
+std::string Node::on(const LoadState& request) {
+  Scenario scenario = scenario_;
+  static_cast<Plan&>(scenario) = run_.plan();
+  scenario.particles = request.file.empty() ? kDefaultStateFile : request.file;
+  const Scene loaded = readStateFile(scenario);
+  if (loaded.masses.size() != run_.chain().size() ||
+      loaded.masses.view() != run_.chain().masses()) {
+    throw InputError(
+        fmt::format("{}: is the state of another chain: the masses differ", scenario.particles));
+  }
+  checkFirstFrame(scenario, loaded.frame);
+  goTo(&loaded);
+  return fmt::format("to frame {} of {}", loaded.frame, fullPath(scenario.particles));
+}
+
+}  // namespace spring_pendulum
