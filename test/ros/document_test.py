@@ -10,15 +10,14 @@ import unittest
 import rosgraph
 import rospy
 import rostest
-from geometry_msgs.msg import TransformStamped, Vector3, WrenchStamped
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import PoseStamped, TransformStamped, Vector3, WrenchStamped
 from spring_pendulum.msg import PendulumState
 from spring_pendulum.srv import ApplyForce, Set
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
-from pendulum_process import Folder, Listener, PendulumNode, project, wait_until
+from pendulum_process import Folder, Listener, PendulumNode, connected, feedback, pose, project, wait_until
 
 SCENE = project('data/horizontal_11.txt')
 OF_ROS = {'/rosout', '/pendulum/get_loggers', '/pendulum/set_logger_level'}
@@ -127,21 +126,12 @@ class Namespaces(unittest.TestCase):
                 listener.wait_for(3)
             rest = states['right'].messages[-1].positions
             supplied = states['right'].messages[-1].supplied_energy
-            hand = rospy.Publisher('/left/handles/feedback', InteractiveMarkerFeedback, queue_size=10)
-            robot = rospy.Publisher('/left/held_11/odom', Odometry, queue_size=10)
-            wait_until(lambda: hand.get_num_connections() == robot.get_num_connections() == 1, 'the left node')
-            feedback, odometry = InteractiveMarkerFeedback(), Odometry()
-            feedback.header.frame_id = odometry.header.frame_id = 'world'
-            feedback.marker_name, feedback.event_type = 'particle_6', InteractiveMarkerFeedback.POSE_UPDATE
-            feedback.pose.position.x = 3.0
-            odometry.pose.pose.position.x = 1.0
-            odometry.pose.pose.position.z = rest[10].z
-            odometry.pose.pose.orientation.w = 1.0
+            hand = connected('/left/handles/feedback', InteractiveMarkerFeedback)
+            robot = connected('/left/held_11/pose', PoseStamped)
 
             def moved():
-                hand.publish(feedback)
-                odometry.header.stamp = rospy.Time.now()
-                robot.publish(odometry)
+                hand.publish(feedback(6, InteractiveMarkerFeedback.POSE_UPDATE, 3.0))
+                robot.publish(pose(1.0, rest[10].z))
                 rospy.sleep(0.02)
                 p = states['left'].messages[-1].positions
                 return abs(p[5].x - 3.0) < 1e-3 and abs(p[10].x - 1.0) < 2e-3

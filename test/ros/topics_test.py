@@ -165,39 +165,6 @@ class Topics(NodeTest):
         elapsed = (state.messages[-1].header.stamp - state.messages[0].header.stamp).to_sec()
         self.assertGreater(elapsed, 1.45)
 
-    def test_the_display_rate_is_kept(self):
-        # States of simulated time: how many a busy machine sends in a second is another matter.
-        for method, factor, frames in (('Auto', 1.0, 41), ('Runge-Kutta-4', 1.0, 41),
-                                       ('Runge-Kutta-4', 100.0, 2001)):
-            state = self.listen('state', PendulumState)
-            with PendulumNode(method=method, frames=frames, real_time_factor=factor, display_rate=30.0,
-                              wait_for_subscribers=1) as node:
-                self.assertEqual(node.wait(), 0, node.output())
-            state.wait_for_any(lambda m: m.frame == frames - 1)
-            times = sorted({m.time for m in state.messages})
-            seconds = times[-1] / factor
-            self.assertLessEqual(len(times) - 1, 1.1 * 30.0 * seconds + 1, method)
-            self.assertGreater(len(times) - 1, 0.5 * 30.0 * seconds, method)
-            state.close()
-
-    def test_the_display_rate_is_kept_if_the_time_step_is_longer(self):
-        markers = self.listen('markers', MarkerArray)
-        with PendulumNode(frames=41, time_step=0.04, steps_per_frame=1, real_time_factor=0.5,
-                          display_rate=30.0, wait_for_subscribers=1) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-        markers.wait_for_any(lambda m: 'finished' in m.markers[3].text)
-        shown = [m.markers[0].header.stamp.to_sec() for m in markers.messages]
-        # Measured: 97 messages in 3.2 s
-        self.assertLessEqual(len(shown), 1.1 * 30.0 * (shown[-1] - shown[0]) + 3)
-
-    def test_two_nodes_in_two_namespaces(self):
-        a, b = self.listen('/a/state', PendulumState), self.listen('/b/state', PendulumState)
-        with PendulumNode('/a/pendulum', frames=4, wait_for_subscribers=1) as one, \
-                PendulumNode('/b/pendulum', frames=4, wait_for_subscribers=1, method='Euler') as two:
-            self.assertEqual((one.wait(), two.wait()), (0, 0))
-        self.assertEqual({m.method for m in a.wait_for(4)}, {'Runge-Kutta-4'})
-        self.assertEqual({m.method for m in b.wait_for(4)}, {'Euler'})
-
     def test_clock_on_request(self):
         clock, state = self.listen('/clock', Clock), self.listen('state', PendulumState)
         self.assertNotIn('/clock', dict(rosgraph.Master('/test').getPublishedTopics('/')))
@@ -237,20 +204,13 @@ class Topics(NodeTest):
 class Frames(unittest.TestCase):
     """The node's frame files are those of Exercise3, byte for byte."""
 
-    def test_all_methods_with_and_without_states_in_between(self):
+    def test_all_methods_with_states_in_between(self):
         self.assertGreaterEqual(len(methods()), 3)
         for method, error_controlled in methods():
             with self.subTest(method=method), Folder() as expected_folder:
                 expected = run_exercise(expected_folder, method, '--particles', HORIZONTAL, '--frames', '21')
                 self.assertEqual(len(expected), 21)
-                self.check_plain(method, expected)
                 self.check_displayed(method, error_controlled, expected)
-
-    def check_plain(self, method, expected):
-        with Folder() as folder:
-            with PendulumNode(method=method, particles=HORIZONTAL, frames=21, output=folder) as node:
-                self.assertEqual(node.wait(), 0, node.output())
-            self.assertEqual(read_frames(folder), expected)
 
     def check_displayed(self, method, error_controlled, expected):
         state = Listener('state', PendulumState)
