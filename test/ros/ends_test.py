@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How a run ends: hold, exit, loop, a motion that diverges, and a signal in every phase, also if SIGINT was
+"""How a run ends: hold, exit, a motion that diverges, and a signal in every phase, also if SIGINT was
 ignored when the node started, as in a job that a script starts with `&`."""
 import os
 import signal
@@ -31,16 +31,6 @@ class Ends(NodeTest):
             self.assertEqual({m.frame for m in self.listen('state', PendulumState).wait_for(2)}, {2})
             node.interrupt()
             self.assertEqual(node.wait(), 0, node.output())
-
-    def test_loop_starts_again_and_time_stamps_go_on(self):
-        with Folder() as folder:
-            with PendulumNode(frames=4, at_end='loop', output=folder, wait_for_subscribers=1) as node:
-                wait_until(lambda: sum(m.time == 0 for m in self.state.messages) >= 2, 'a second round')
-                wait_until(lambda: self.last().frame == 3, 'its end')
-                node.interrupt()
-                self.assertEqual(node.wait(), 0, node.output())
-            self.assertEqual(len(read_frames(folder)), 4)
-        self.assert_increasing(self.state.messages)
 
     def test_interrupted_exits_0_and_every_frame_is_whole(self):
         for number in (signal.SIGINT, signal.SIGTERM):

@@ -140,8 +140,8 @@ class Robots(LiveTest):
             rospy.sleep(1.0)
             del self.state.messages[:]
             for k, apart in enumerate(zip(*map(self.distances, list(self.state.wait_for(90))))):
-                # Half of the states: a busy computer delays messages. Measured: 1 mm, 2 mm at load 2.
-                self.assertLess(sorted(apart)[len(apart) // 2], 0.01, (k, node.output()))
+                # Of a quarter of the states: a busy computer delays messages. Measured: 1 mm.
+                self.assertLess(sorted(apart)[len(apart) // 4], 0.002, (k, node.output()))
             self.check_energy()
             self.assertGreater(abs(wrenches.wait_for(1)[-1].wrench.force.z), 1.0)
             timer.shutdown()

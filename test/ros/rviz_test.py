@@ -293,7 +293,7 @@ class Rviz(unittest.TestCase):
         colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61),
                   'Runge-Kutta-4': (63, 182, 255)}
         with Display() as display, \
-                Viewer(display, 'compare.launch', 'frames:=60', 'at_end:=loop') as viewer:
+                Viewer(display, 'compare.launch', 'frames:=600') as viewer:
             def all_shown(picture):
                 # The chain of Runge-Kutta-2 hides behind the one of Runge-Kutta-4; its text does not.
                 return (picture.count(is_like(colors['Runge-Kutta-4'])) > 150 and

@@ -7,9 +7,10 @@ import time
 import rosgraph
 import rospy
 import rostest
-from geometry_msgs.msg import PoseStamped, Vector3
+from geometry_msgs.msg import PoseStamped, TransformStamped, Vector3
 from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumInput
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback as Feedback
 
 from pendulum_process import NodeTest, connected, feedback, pose, wait_until
@@ -63,11 +64,14 @@ class SimTime(NodeTest):
         wait_until(is_moved, 'the last particle meets its holder')
 
     def test_a_clock_that_jumps(self):
-        clock = rospy.Publisher('/clock', Clock, queue_size=10)
-        with self.node() as node:
-            for second in (100, 101, 5, 1000, 3, 7):
-                wait_until(lambda: clock.get_num_connections() >= 1, 'a subscriber of /clock')
+        clock, tf = (rospy.Publisher(*topic, queue_size=10) for topic in (('/clock', Clock), ('/tf', TFMessage)))
+        transform = TransformStamped(child_frame_id='gripper')
+        transform.header.frame_id, transform.transform.rotation.w = 'world', 1.0
+        with self.node(held='last=gripper') as node:
+            wait_until(lambda: clock.get_num_connections() and tf.get_num_connections(), 'the subscribers')
+            for second in (100, 101, 5, 1000, 3, 4000000000, 7):  # the last jump is longer than a duration of ROS
                 clock.publish(Clock(rospy.Time(second)))
+                tf.publish(TFMessage([transform]))
                 self.state.wait_for(len(self.state.messages) + 5)
             node.interrupt()
             self.assertEqual(node.wait(), 0, node.output())

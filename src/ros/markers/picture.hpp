@@ -25,7 +25,6 @@ struct Picture {
   const NodeOptions& options;
   const SceneView& view;
   const std::vector<Eigen::Index>& drawn;  ///< indices of the drawn particles
-  const std::string& activity;             ///< "paused", "finished"
 
   /// Whether the state can be drawn; if not, the chain keeps its last shape.
   bool isDrawable() const { return run.isFinite() && run.isShown() && drawn.size() > 1; }

@@ -42,7 +42,10 @@ std::string label(const Picture& picture) {
   const auto drawn = static_cast<Eigen::Index>(picture.drawn.size()), all = run.chain().size();
   return joined({plan.method.get().name, control, clock}) + "\n" +
          joined({position, energy, judged}) + "\n" +
-         joined({picture.activity, fmt::format("grid {:g} m", picture.view.gridDistance()),
+         joined({!run.isOver()   ? ""
+                 : run.isShown() ? "finished"
+                                 : "stopped",
+                 fmt::format("grid {:g} m", picture.view.gridDistance()),
                  drawn < all ? fmt::format("{} of {} particles drawn", drawn, all) : ""});
 }
 

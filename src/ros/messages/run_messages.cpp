@@ -132,9 +132,8 @@ std_msgs::Header RunMessages::header(double simulated_time) {
   return header;
 }
 
-void RunMessages::draw(const Run& run, const std_msgs::Header& header,
-                       const std::string& activity) {
-  const Picture picture{run, options_, view_, drawn_, activity};
+void RunMessages::draw(const Run& run, const std_msgs::Header& header) {
+  const Picture picture{run, options_, view_, drawn_};
   // The other chains keep to the view of the first one.
   if (run.isFinite() && run.isShown() && options_.text_row <= 1 && !camera_frozen_ &&
       view_.widenFor(run.state())) {
@@ -173,7 +172,7 @@ std::optional<StateMessages> RunMessages::build(const Run& run, const Showing& s
   StateMessages messages;
   messages.header = header(run.time());
   if (showing.wants_markers) {
-    draw(run, messages.header, showing.activity);
+    draw(run, messages.header);
     messages.markers = &markers_;
     if (std::exchange(camera_moved_, false)) messages.camera = camera(messages.header);
   }

@@ -23,7 +23,6 @@ void setState(PendulumState& message, const Run& run, const std_msgs::Header& he
 /// How to show a state, and to whom.
 struct Showing {
   bool paused = false;        ///< whether the user has paused the run
-  std::string activity = {};  ///< for the text: "paused", "finished"
   bool due = true;            ///< false: nothing but a changed status
   bool wants_markers = true;  ///< messages that nobody wants are not built
   bool wants_state = true;
@@ -57,7 +56,7 @@ class RunMessages {
   std::optional<StateMessages> build(const Run& run, const Showing& showing);
 
  private:
-  void draw(const Run& run, const std_msgs::Header& header, const std::string& activity);
+  void draw(const Run& run, const std_msgs::Header& header);
   tf2_msgs::TFMessage camera(const std_msgs::Header& header) const;
 
   NodeOptions options_;

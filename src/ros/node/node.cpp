@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
-constexpr double kLoopPause = 1.0;          // s, pause at the last frame before a loop
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
 constexpr double kPollInterval = 0.01;      // s between two checks for subscribers
 constexpr double kLongestWait = 1e9;        // s; ros::Duration has 32 bits for seconds
@@ -80,8 +79,6 @@ void Node::spin() {
     if (!isWanted()) break;
     if (isDue()) {
       advance();
-    } else if (isLoopDue()) {
-      goTo(nullptr);
     } else if ((run_.isOver() || paused_) && ros::SteadyTime::now() >= show_at_) {
       if (paused_) change(run_.nextTime(), true);
       show();
@@ -124,11 +121,6 @@ void Node::end() {
 
 bool Node::isAtExit() const {
   return run_.isOver() && options_.at_end == AtEnd::kExit;
-}
-
-bool Node::isLoopDue() const {
-  return run_.isOver() && !paused_ && options_.at_end == AtEnd::kLoop &&
-         (ros::SteadyTime::now() - over_since_).toSec() >= kLoopPause;
 }
 
 bool Node::isDue() const {
@@ -196,10 +188,7 @@ void Node::finishState() {
     last_frame_number_ = run_.frame();
   }
   files_.write(run_);
-  if (run_.isOver()) {
-    files_.finish();
-    over_since_ = now;
-  }
+  if (run_.isOver()) files_.finish();
   show();
   show_at_ = now;
 }
@@ -207,20 +196,13 @@ void Node::finishState() {
 void Node::show() {
   show_at_ = ros::SteadyTime::now() + ros::WallDuration(kShowAgainInterval);
   publisher_.freezeCamera(handles_.isDragging());  // it must not move under the mouse
-  const auto header = publisher_.publish(run_, showing());
+  const bool is_due = paused_ || run_.isOver() || pacer_.isShown(run_.time());
+  const auto header = publisher_.publish(run_, {paused_, is_due});
   if (header && run_.isFinite()) {
     handles_.show();
     robots_.show(*header);
   }
   logChanges();
-}
-
-Showing Node::showing() {
-  const bool shown = paused_ || run_.isOver() || pacer_.isShown(run_.time());
-  const std::string activity = run_.isOver() ? run_.isShown() ? "finished" : "stopped"
-                               : paused_     ? "paused"
-                                             : "";
-  return {paused_, activity, shown};
 }
 
 }  // namespace spring_pendulum

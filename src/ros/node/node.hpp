@@ -53,7 +53,6 @@ class Node {
 
   void waitForSubscribers();
   bool isDue() const;
-  bool isLoopDue() const;
   bool isAtExit() const;
   void serve();
   void advance();
@@ -62,7 +61,6 @@ class Node {
   void finishState();
   void show();
   void end();
-  Showing showing();
 
   void logStart() const;
   /// Logs once each: a bad verdict, a divergence with its remedy, the choices of Auto, the end of the run.
@@ -92,7 +90,6 @@ class Node {
   bool paused_ = false;
   std::int64_t steps_wanted_ = 0;
   ros::SteadyTime show_at_;  ///< when a run that does not advance is shown again
-  ros::SteadyTime over_since_;
   Throttle refusals_;
   State last_frame_;  ///< for SaveState; empty before the run has started
   std::int64_t last_frame_number_ = 0;

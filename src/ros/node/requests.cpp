@@ -93,7 +93,7 @@ std::string Node::take(const Request& request) {
 }
 
 std::string Node::on(const Pause& request) {
-  if (run_.isOver() && options_.at_end != AtEnd::kLoop) throw InputError(overMessage(run_));
+  if (run_.isOver()) throw InputError(overMessage(run_));
   const bool paused = request.paused;
   std::string sentence =
       fmt::format("{}{} at frame {}, t = {:.6g} s", paused == paused_ ? "already " : "",

@@ -57,8 +57,7 @@ std::vector<Option> playOptions(NodeOptions& o) {
   return {
       {"real_time_factor", Number{&o.real_time_factor, Range::atLeast(0)}, "",
        "simulated seconds per second; 0: as fast as possible"},
-      {"at_end", Choice(&o.at_end, {"hold", "exit", "loop"}), "",
-       "what to do after the last frame"},
+      {"at_end", Choice(&o.at_end, {"hold", "exit"}), "", "what to do after the last frame"},
       {"wait_for_subscribers", Count{&o.wait_for_subscribers, Range::atLeast(0)}, "",
        "start when markers, state and status have this many subscribers in all"},
       {"wait_timeout", Number{&o.wait_timeout, Range::atLeast(0)}, "s",

@@ -12,7 +12,7 @@
 
 namespace spring_pendulum {
 
-enum class AtEnd { kHold, kExit, kLoop };
+enum class AtEnd { kHold, kExit };
 
 /// The initialisers are the defaults, and their only definition.
 struct NodeOptions {
