@@ -13,7 +13,7 @@ from spring_pendulum.msg import PendulumState, PendulumStatus
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import Folder, Listener, program, project, read_frames, run_exercise
+from pendulum_process import Folder, Listener, case, program, project, read_frames, run_exercise
 
 SCENE = project('data/particle.txt')
 
@@ -139,7 +139,7 @@ class Bag(unittest.TestCase):
 
     def test_energy_tracking_can_be_switched_off_where_it_costs(self):
         for steps, tracked in (('10', True), ('1000000', False)):
-            with self.subTest(steps=steps), Folder() as folder:
+            with case(steps=steps), Folder() as folder:
                 path, _ = record(folder, 'one.bag', '--frames', '2', '--time-step', '1e-6',
                                  '--steps-per-frame', steps, '--track-dissipation', 'false')
                 error = contents(path, '/state')[-1][0].energy_error
@@ -152,7 +152,7 @@ class Bag(unittest.TestCase):
                  (('--bag', 'x.bag'), 2, '--bag: is given twice'), ((), 1, 'particle.txt'),
                  (('--time-step', '0.5'), 1, 'particle.txt')]
         for arguments, status, message in cases:
-            with self.subTest(arguments=arguments), Folder() as folder:
+            with case(arguments=arguments), Folder() as folder:
                 # A bag that is to lie in a file cannot be written.
                 name = SCENE + '/x.bag' if status == 1 else 'one.bag'
                 _, output = record(folder, name, *arguments, status=status)

@@ -9,12 +9,12 @@ import unittest
 
 import rospy
 import rostest
-from spring_pendulum.msg import PendulumState, PendulumStatus
+from spring_pendulum.msg import PendulumStatus
 from visualization_msgs.msg import MarkerArray
 
 from fault_injection import NO_MASTER
-from pendulum_process import (Folder, NodeTest, PendulumNode, computing_time, program, project,
-                              read_frames, run_exercise, service, total_computing_time, wait_until)
+from pendulum_process import (Folder, NodeTest, PendulumNode, case, computing_time, program, project,
+                              read_frames, run_exercise, service, standing, total_computing_time, wait_until)
 
 HORIZONTAL = SCENE = project('data/horizontal_11.txt')
 
@@ -28,13 +28,13 @@ class Ends(NodeTest):
     def test_hold_keeps_showing_the_last_frame(self):
         with PendulumNode(frames=3, at_end='hold') as node:
             self.listen('status', PendulumStatus).wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
-            self.assertEqual({m.frame for m in self.listen('state', PendulumState).wait_for(2)}, {2})
+            self.assertEqual(wait_until(lambda: standing(self.state.messages), 'the last frame again').frame, 2)
             node.interrupt()
             self.assertEqual(node.wait(), 0, node.output())
 
     def test_interrupted_exits_0_and_every_frame_is_whole(self):
         for number in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(signal=number), Folder() as folder, Folder() as expected_folder:
+            with case(signal=number), Folder() as folder, Folder() as expected_folder:
                 with PendulumNode(frames=100000, output=folder, particles=HORIZONTAL) as node:
                     wait_until(lambda: os.path.exists(folder + '/frame_0050.txt'), 'frame 50')
                     node.interrupt(number)
@@ -109,7 +109,7 @@ class Signals(unittest.TestCase):
         """Starts a node, interrupts it when phase(node) is true, and returns its output."""
         ended = {}
         for number in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(signal=number), Folder() as folder, \
+            with case(signal=number), Folder() as folder, \
                     PendulumNode(preexec=ignore_interrupts,
                                  **dict(dict(particles=SCENE, output=folder), **parameters)) as node:
                 wait_until(lambda: phase(node, folder), 'the phase')
@@ -125,7 +125,7 @@ class Signals(unittest.TestCase):
     def test_record_bag(self):
         for options in (('--steps-per-frame', '2000000000', '--time-step', '1e-4'),
                         ('--time-step', '1e6', '--steps-per-frame', '1', '--reference', 'always')):
-            with self.subTest(options=options), Folder() as folder:
+            with case(options=options), Folder() as folder:
                 process = subprocess.Popen(
                     [program('record_bag'), 'Runge-Kutta-4', SCENE, '--bag', folder + '/run.bag', *options],
                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -2,7 +2,7 @@
 import os
 import signal
 
-from pendulum_process import Folder, project
+from pendulum_process import Folder, case, project
 
 SCENE = project('data/particle.txt')
 INJECTION = os.environ['FAULT_INJECTION']
@@ -51,9 +51,8 @@ def disturbed_runs(test, kind, run, files):
             if os.path.exists(outside + '/call'):  # a program with threads does not always make as many
                 with open(outside + '/call') as report:
                     name = report.read()
-            with test.subTest(kind=kind, call=call, name=name, result=result):
-                if name:
-                    yield name, result, folder
+            if name:
+                yield name, result, folder
 
 
 def check_faults(test, kinds, run, message, files, repeats=True):
@@ -69,19 +68,20 @@ def check_faults(test, kinds, run, message, files, repeats=True):
     earlier = {name.replace('_', '.'): text for name, text in files.items()}
     for kind in kinds:
         for name, (status, output), folder in disturbed_runs(test, kind, run, files):
-            found = files_in(folder)
-            for file in finished:
-                if file in earlier or file in found:
-                    test.assertIn(found[file], (earlier.get(file), finished[file]), file)
-            if kind == 'kill':
-                test.assertEqual(status, -signal.SIGKILL)
-                test.assertEqual(run(folder)[0], 0)  # as if nothing had happened
-                if repeats:
-                    test.assertEqual(files_in(folder), finished)
-            elif status == 0:
-                test.assertEqual({**finished, **found}, found)
-            else:
-                test.assertEqual(status, 1)
-                test.assertRegex(output, message)
-                if kind == 'fail' and name not in CLEANS_UP:
-                    test.assertLessEqual(set(found), set(finished), 'unfinished files')
+            with case(kind=kind, name=name, output=output):
+                found = files_in(folder)
+                for file in finished:
+                    if file in earlier or file in found:
+                        test.assertIn(found[file], (earlier.get(file), finished[file]), file)
+                if kind == 'kill':
+                    test.assertEqual(status, -signal.SIGKILL)
+                    test.assertEqual(run(folder)[0], 0)  # as if nothing had happened
+                    if repeats:
+                        test.assertEqual(files_in(folder), finished)
+                elif status == 0:
+                    test.assertEqual({**finished, **found}, found)
+                else:
+                    test.assertEqual(status, 1)
+                    test.assertRegex(output, message)
+                    if kind == 'fail' and name not in CLEANS_UP:
+                        test.assertLessEqual(set(found), set(finished), 'unfinished files')

@@ -18,7 +18,7 @@ import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
 
 from fault_injection import INJECTION, SCENE, check_faults
-from pendulum_process import (Folder, Listener, PendulumNode, program, project, read_frames, run_exercise,
+from pendulum_process import (Folder, Listener, PendulumNode, case, program, project, read_frames, run_exercise,
                               wait_until)
 
 HORIZONTAL = project('data/horizontal_11.txt')
@@ -73,7 +73,7 @@ class Node(unittest.TestCase):
                     'http://127.0.0.1:65536', 'http://:1'):
             for source, variable, arguments in (('ROS_MASTER_URI', uri, []),
                                                 ('__master', valid, ['__master:=' + uri])):
-                with self.subTest(variable=variable, arguments=arguments):
+                with case(variable=variable, arguments=arguments):
                     self.assertEqual(
                         self.fail_to_start({'ROS_MASTER_URI': variable}, arguments),
                         (2, "%s: must be http://HOST:PORT, got '%s'\n" % (source, uri)))

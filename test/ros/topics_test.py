@@ -13,7 +13,7 @@ from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
-from pendulum_process import (Folder, Listener, NodeTest, PendulumNode, methods, project, read_frames, run_exercise,
+from pendulum_process import (Folder, Listener, NodeTest, PendulumNode, case, methods, project, read_frames, run_exercise,
                               wait_until)
 
 HORIZONTAL = project('data/horizontal_11.txt')
@@ -207,7 +207,7 @@ class Frames(unittest.TestCase):
     def test_all_methods_with_states_in_between(self):
         self.assertGreaterEqual(len(methods()), 3)
         for method, error_controlled in methods():
-            with self.subTest(method=method), Folder() as expected_folder:
+            with case(method=method), Folder() as expected_folder:
                 expected = run_exercise(expected_folder, method, '--particles', HORIZONTAL, '--frames', '21')
                 self.assertEqual(len(expected), 21)
                 self.check_displayed(method, error_controlled, expected)
