@@ -39,7 +39,8 @@ const Method& addMethod(const std::string& name, const py::sequence& a, const py
   if (Computation::running > 0) {
     throw InputError("register methods while no other thread integrates");
   }
-  Method method = methodOfTableau(name, toTableau(a, b));
+  const ButcherTableau tableau = toTableau(a, b);
+  Method method = methodOfTableau(name, tableau);
   method.reference = reference;
   method.use = use;
   registerMethod(method);

@@ -54,6 +54,7 @@ const std::deque<Method>& methodTable();
 /// \throws InputError if the tableau is not one of an explicit method, or the method is not consistent:
 ///   its weights do not add up to 1
 Method methodOfTableau(const std::string& name, const ButcherTableau& tableau);
+Method methodOfTableau(const std::string& name, ButcherTableau&& tableau) = delete;
 
 /// Adds a row to the table, so that the method can be used by name. The table copies the row and
 /// its tableau. Not thread-safe: register methods before starting other threads.
