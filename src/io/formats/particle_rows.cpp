@@ -25,12 +25,11 @@ constexpr std::size_t kColumnsWithVelocity = 5;
 
 /// Removes and returns the first word of a line; empty at its end.
 std::string_view nextWord(std::string_view& line) {
-  constexpr std::string_view kBlanks = " \t";
-  const std::size_t begin = std::min(line.find_first_not_of(kBlanks), line.size());
-  const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };  // find_first_of() is slow
+  const char* const begin = std::find_if_not(line.data(), line.data() + line.size(), is_blank);
+  const char* const end = std::find_if(begin, line.data() + line.size(), is_blank);
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  return {begin, static_cast<std::size_t>(end - begin)};
 }
 
 /// Removes and returns the first line of a text, without its end and its comment.
