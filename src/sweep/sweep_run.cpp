@@ -28,7 +28,6 @@ namespace spring_pendulum::sweep {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{1};  // for requests of other ranks
-constexpr std::size_t kFlushedText = 1 << 16;
 
 /// Runs a loop over cases on as many threads as the system grants.
 /// \param next      returns the next case, or one beyond the last
@@ -188,14 +187,10 @@ class Sweep {
 
   /// Writes the header and all rows, of which some may lack the columns.
   void writeRows(OutputFile& table) const {
-    std::string text = tableHeader(study_);
+    table.write(tableHeader(study_));
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      text += rowStart(study_, static_cast<std::int64_t>(i)) + rows_[i] + '\n';
-      if (text.size() < kFlushedText) continue;
-      table.write(text);
-      text.clear();
+      table.write(rowStart(study_, static_cast<std::int64_t>(i)) + rows_[i] + '\n');
     }
-    table.write(text);
   }
 
   const Study& study_;
