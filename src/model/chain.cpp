@@ -44,7 +44,6 @@ Chain::Chain(AlignedNumbers masses, const Constants& constants)
   }
   inverse_masses_ = masses_.view().cwiseInverse();
   inverse_masses_[0] = 0.0;
-  equal_masses_ = size() < 3 || (masses_.view().tail(size() - 1).array() == masses_[1]).all();
 }
 
 Chain Chain::drivenBy(Drive drive) const {
@@ -63,7 +62,6 @@ Chain Chain::drivenBy(Drive drive) const {
       throw InputError(fmt::format("particle {} is held twice", particle + 1));
     is_held[static_cast<std::size_t>(particle)] = true;
     chain.inverse_masses_[particle] = 0.0;
-    if (particle > 0) chain.equal_masses_ = false;
     x[particle] = acceleration.x;
     y[particle] = acceleration.y;
   }

@@ -47,15 +47,6 @@ TEST(Chain, NeverUsesTheMassOfTheFixedParticle) {
   masses[0] = 0.0;
   const Chain chain(masses, {}, 9.81);
   EXPECT_EQ(chain.inverseMasses()[0], 0.0);
-  EXPECT_TRUE(chain.equalMasses());
-}
-
-TEST(Chain, KnowsWhetherTheMassesAreEqual) {
-  Eigen::VectorXd masses = Eigen::VectorXd::Constant(4, 0.5);
-  EXPECT_TRUE(Chain(masses, {}, 9.81).equalMasses());
-  masses[3] = 0.25;
-  EXPECT_FALSE(Chain(masses, {}, 9.81).equalMasses());
-  EXPECT_TRUE(Chain(masses.head(1), {}, 9.81).equalMasses());
 }
 
 }  // namespace

@@ -72,8 +72,6 @@ class Chain {
   bool isDissipative() const { return spring().damping != 0.0 || airDrag() != 0.0; }
   /// Whether only springs and gravity act: neither air nor a drive.
   bool isPlain() const { return airDrag() == 0.0 && !isDriven(); }
-  /// Whether all moving particles have exactly the same mass.
-  bool equalMasses() const { return equal_masses_; }
 
   const Drive& drive() const { return drive_; }
   bool isDriven() const { return !drive_.empty(); }
@@ -86,7 +84,6 @@ class Chain {
   AlignedNumbers masses_;
   AlignedNumbers inverse_masses_;
   Constants constants_;
-  bool equal_masses_;
   Drive drive_;
   AlignedNumbers accelerations_;  ///< springless ones, all x and then all y; empty: not driven
 };
