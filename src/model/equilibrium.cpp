@@ -1,8 +1,6 @@
 #include "base/checks.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +12,7 @@ using Vector = PlaneVector<double>;
 
 constexpr int kMostIterations = 200;
 constexpr double kShortest = 1e-12;  ///< least part of a Newton step
+constexpr double kSharp = 1e-14;     ///< least blur above 0, relative to the first one
 constexpr double kClosed = 1e-11;  ///< largest remaining gap, relative to the length of the springs
 
 Vector operator+(const Vector& a, const Vector& b) {
@@ -36,7 +35,8 @@ Vector separationAt(const SpringLaw& spring, const Vector& f) {
   return (spring.rest_length / force + 1.0 / spring.stiffness) * f;
 }
 
-/// Where the springs between two held particles end if the first one has a given force.
+/// Where the springs between two held particles end if the first one has a given force. The direction of
+/// a spring changes within `blur`, in N, where its force turns over; without blur, suddenly.
 struct Gap {
   Vector size{};         ///< from the second held particle to the end of the last spring, m
   double springs = 0.0;  ///< length of the springs, m
@@ -50,20 +50,22 @@ struct Gap {
 };
 
 Gap gapOf(const Chain& chain, Eigen::Index first, Eigen::Index last, const Vector& span,
-          const Vector& first_force) {
+          const Vector& first_force, double blur) {
   Gap gap{-1.0 * span};
   Vector f = first_force;
   for (Eigen::Index i = first; i < last; ++i) {
     if (i > first) f = f + -1.0 * loadOn(chain, i);
-    const double force = std::max(lengthOf(f), std::numeric_limits<double>::min());
+    const double force = std::max(std::sqrt(f.x * f.x + f.y * f.y + blur * blur),
+                                  std::numeric_limits<double>::min());
     const Vector r = (1.0 / force) * f;
+    const double rest = blur / force * (blur / force);  // 1 - r·r
     const double turn = chain.spring().rest_length / force;
     const double stretch = 1.0 / chain.spring().stiffness;
     gap.size = gap.size + (turn + stretch) * f;
     gap.springs += chain.spring().rest_length + stretch * force;
-    gap.xx += turn * r.y * r.y + stretch;
+    gap.xx += turn * (r.y * r.y + rest) + stretch;
     gap.xy -= turn * r.x * r.y;
-    gap.yy += turn * r.x * r.x + stretch;
+    gap.yy += turn * (r.x * r.x + rest) + stretch;
   }
   return gap;
 }
@@ -74,19 +76,22 @@ Vector firstForce(const Chain& chain, Eigen::Index first, Eigen::Index last, con
   for (Eigen::Index i = first + 1; i < last; ++i) f = f + 0.5 * loadOn(chain, i);
   const double pull = lengthOf(f) + chain.spring().stiffness * chain.spring().rest_length;
   f = f + (0.1 * pull / std::max(lengthOf(span), 1e-9)) * span;
-  Gap gap = gapOf(chain, first, last, span, f);
+  // Without blur, the iteration would stop where a spring turns over.
+  double blur = pull;
+  Gap gap = gapOf(chain, first, last, span, f, blur);
   for (int i = 0; i < kMostIterations; ++i) {
     const Vector step = gap.newtonStep();
     // Along a Newton step, the length of the gap decreases at first.
     double part = 1.0;
-    Gap next = gapOf(chain, first, last, span, f + step);
+    Gap next = gapOf(chain, first, last, span, f + step, blur);
     while (part > kShortest && !(next.length() < gap.length())) {
       part *= 0.5;
-      next = gapOf(chain, first, last, span, f + part * step);
+      next = gapOf(chain, first, last, span, f + part * step, blur);
     }
-    if (part <= kShortest) break;
+    if (part <= kShortest && blur == 0.0) break;
     f = f + part * step;
-    gap = next;
+    blur = blur > kSharp * pull ? 0.5 * blur : 0.0;
+    gap = gapOf(chain, first, last, span, f, blur);
   }
   if (gap.length() <= kClosed * gap.springs) return f;
   throw InputError(

@@ -50,6 +50,26 @@ TEST(Equilibrium, StaysAtRestBetweenHeldParticles) {
   }
 }
 
+// The slack cable turns over within one short spring.
+TEST(Equilibrium, FindsTheRestOfSlackStiffCables) {
+  struct Case {
+    double left, right;  ///< masses, kg
+    double stiffness, x, y;
+  };
+  for (const Case& c : {Case{2.0, 2.4, 1e3, 0.9, -0.6},
+                        {0.3, 2.9, 1e4, 1.1, -0.6},
+                        {2.7, 1.9, 1e6, 0.7, -0.8},
+                        {2.5, 1.8, 1e4, 0.7, 0.8}}) {
+    const Eigen::Vector4d masses(1.0, c.left, c.right, 1.0);
+    const Chain chain = Chain(masses, {c.stiffness, 1.0, 1.0}, 9.81).drivenBy({{{3, {}}}, {}});
+    State state(4);
+    state.x().setLinSpaced(0.0, c.x);
+    state.y().setLinSpaced(0.0, c.y);
+    const State rest = equilibrium(chain, state);
+    EXPECT_LE(largestMove(chain, rest, 0.1), 1e-9) << c.stiffness;
+  }
+}
+
 TEST(Equilibrium, RefusesWhatCannotRest) {
   const State start = test::straightLine(4, 0.1, 0.0);
   const Chain soft(Eigen::VectorXd::Ones(4), SpringLaw{0.0, 1.0, 1.0}, 9.81);
