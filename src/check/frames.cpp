@@ -65,8 +65,7 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
     const auto refuse = [&](const std::string& what) {
       throw FileError(fmt::format("{}:{}: {}", frame.name, number, what));
     };
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::replace(line.begin(), line.end(), ';', ' ');
+    for (char& c : line) c = c == ',' || c == ';' ? ' ' : c;
     std::istringstream words(line.substr(0, line.find('#')));
     std::int64_t columns = 0;
     for (std::string word; words >> word; ++columns) {
@@ -106,15 +105,15 @@ bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
 }
 
 std::string missingFrames(const AllFrames& all) {
-  std::int64_t next = all.start;
+  std::int64_t last = all.start - 1;
   std::int64_t count = 0;
   std::string first;
   for (const FrameNumbers& frame : all.frames) {
-    const std::int64_t gap = frame.index - next;
+    const std::int64_t gap = frame.index - 1 - last;
     if (gap < 0) throw FileError(fmt::format("frame {} is there twice", frame.index));
-    if (gap > 0 && count == 0) first = fmt::format(", the first is frame {}", next);
+    if (gap > 0 && count == 0) first = fmt::format(", the first is frame {}", last + 1);
     count += gap;
-    next = frame.index + 1;
+    last = frame.index;
   }
   return count == 0 ? "" : counted(count, "missing frame") + first;
 }

@@ -214,11 +214,11 @@ class ProgramMotion : public Motion {
 };
 
 /// The first particle of a frame that differs from a motion by more than a unit of the last digit and
-/// `error` m.
+/// `error` m. Printing changes no number by more than `scale`, the largest one.
 std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::ArrayX2d& motion,
-                                     double error) {
+                                     double scale, double error) {
   constexpr double kMostly = 0.9;
-  const auto agrees = ((frame.positions - motion).abs() <= frame.units + error) ||
+  const auto agrees = ((frame.positions - motion).abs() <= frame.units.min(scale) + error) ||
                       (!frame.positions.isFinite() && !motion.isFinite());
   for (Eigen::Index i = 0; i < motion.rows(); ++i) {
     if (agrees.row(i).all()) continue;
@@ -283,7 +283,6 @@ Agreement compare(const AllFrames& frames, Motion& motion, Motion& companion, Wo
                   const Chain* chain) {
   constexpr double kWorkOfNumbers = 1e-7;  // s, to compare one
   constexpr double kMargin = 1.1;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
   double least_energy = std::numeric_limits<double>::infinity();  // J
   double most_energy = -least_energy;
@@ -305,15 +304,15 @@ Agreement compare(const AllFrames& frames, Motion& motion, Motion& companion, Wo
     if (is_comparable) {
       if (!companion.advanceTo(index, limit)) break;
       const Eigen::ArrayX2d spread = (positions - companion.positions()).abs();
-      rounding = spread.allFinite() ? std::max(rounding, spread.maxCoeff()) : kNan;
+      rounding = std::max(rounding, spread.maxCoeff());
       scale = std::max(scale, positions.isFinite().select(positions.abs(), 0.0).maxCoeff());
-      is_comparable = rounding <= kComparable * scale || scale == 0.0;
+      is_comparable = spread.allFinite() && (rounding <= kComparable * scale || scale == 0.0);
       if (motion.tolerance() == 0.0) companion.disturb(random);
     }
     if (!is_comparable && chain == nullptr) break;
     if (index < frame->index) continue;  // missing
     if (is_comparable) {
-      agreement.departure = departureOf(*frame, positions, rounding + motion.tolerance());
+      agreement.departure = departureOf(*frame, positions, scale, rounding + motion.tolerance());
       if (agreement.departure) return agreement;
       ++agreement.frames;
       agreement.last_frame = index;

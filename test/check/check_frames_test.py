@@ -234,6 +234,7 @@ def garbage_is_not_equal(lab):
             'junk from frame 20 on': (good[:20] + junk[20:], {4}),
             'junk at the end': (good[:298] + junk[298:], {4} if damping else {4, 5}),
             'nan at the end': (good[:299] + [np.full_like(good[0], np.nan)], {4}),
+            'huge numbers': ([np.full_like(good[0], 1e308)] * 300, {4}),
             'noise': ([frame * (1 + 1e-3 * noise) for frame, noise in zip(good, junk)], {4}),
             'g off by 1e-6': (student.frames(scene, count=300, k_d=damping, g=9.81 * (1 + 1e-6)), {4}),
             'right': (good, {0 if damping else 5}),  # without damping too sensitive for 30 s
