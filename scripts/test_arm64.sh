@@ -25,7 +25,7 @@ say "compiling for 64-bit ARM"
 rm -f "$folder"/objects/*.o
 (cd "$project" && ls src/base/*.cpp src/model/*.cpp src/integration/*.cpp src/integration/*/*.cpp \
   src/integration/kernels/instruction_sets/baseline.cpp \
-  src/simulation/{energy_balance,judge,reference_run}.cpp test/support/method_bits.cpp) |
+  src/simulation/{judge,reference_run}.cpp test/support/method_bits.cpp) |
   xargs -P "$(nproc)" -I{} bash -c 'compile_one {}'
 aarch64-linux-gnu-g++ -static "$folder"/objects/*.o -pthread -o "$folder/method_bits"
 
