@@ -50,11 +50,11 @@ class AlignedNumbers {
     struct rebind {  // NOLINT(readability-identifier-naming)
       using other = Allocator;
     };
-    double* allocate(std::size_t size) {
+    static double* allocate(std::size_t size) {
       return static_cast<double*>(
           ::operator new (size * sizeof(double), std::align_val_t{kAlignment}));
     }
-    void deallocate(double* numbers, std::size_t) noexcept {
+    static void deallocate(double* numbers, std::size_t) noexcept {
       ::operator delete (numbers, std::align_val_t{kAlignment});
     }
     friend bool operator==(const Allocator&, const Allocator&) { return true; }

@@ -64,7 +64,7 @@ class RowParser {
   }
 
   ParticleRows rows(bool keep_negative_zeros) const {
-    if (numbers_.empty()) {
+    if (columns_ == 0) {
       throw InputError(fmt::format("{}: no particles; write one line 'x y m' per particle", name_));
     }
     using Table = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -10,6 +10,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
@@ -36,9 +37,9 @@ ros::Time wallClock() {
 
 }  // namespace
 
-Node::Node(const Scenario& scenario, const NodeOptions& options, const Scene& scene)
-    : options_(options),
-      scenario_(scenario),
+Node::Node(Scenario scenario, NodeOptions options, const Scene& scene)
+    : options_(std::move(options)),
+      scenario_(std::move(scenario)),
       run_(scene, scenario_,
            {options_.track_dissipation || !scenario_.energy.empty(), options_.displayInterval(),
             interruption}),

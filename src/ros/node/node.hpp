@@ -23,7 +23,7 @@ class Node {
  public:
   /// Removes the frames of earlier runs.
   /// \throws InputError, FileError before that for a run that is impossible
-  Node(const Scenario& scenario, const NodeOptions& options, const Scene& scene);
+  Node(Scenario scenario, NodeOptions options, const Scene& scene);
 
   /// Runs until the end of the run, of ROS, or a signal.
   void spin();
