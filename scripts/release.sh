@@ -40,12 +40,13 @@ root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
 debootstrap --variant=minbase "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$root" \
   > "$release/../debootstrap.log" 2>&1 || die "debootstrap failed: output/debootstrap.log"
-cp "$release"/*.deb "$root/tmp"
+cp "$release"/*.deb "$root/srv"
 cp /etc/resolv.conf "$root/etc"
 env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-  chroot "$root" bash -ec 'apt-get install -y --no-install-recommends /tmp/*.deb > /tmp/log 2>&1 ||
-      { tail -n 20 /tmp/log; exit 1; }
-    cd /tmp && Exercise3 --version
+  chroot "$root" bash -ec 'cd /srv
+    apt-get install -y --no-install-recommends ./*.deb > log 2>&1 ||
+      { tail -n 20 log; exit 1; }
+    Exercise3 --version
     Exercise3 Runge-Kutta-4 /usr/share/spring_pendulum/data/particle.txt --output frames
     python3 -c "import spring_pendulum as sp; print(sp.simulate(\"/usr/share/spring_pendulum/data/particle.txt\"))"'
 say "the package works"
