@@ -1,5 +1,7 @@
 // Arbitrary files give frames that can be compared, and a report, or an error of one line. A line
 // `@NAME` of the input begins the next file.
+#include "check/check_frames.hpp"
+#include "check/motion.hpp"
 #include "io/files/frame_folder.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
@@ -8,8 +10,6 @@
 #include <string>
 #include <unistd.h>
 
-#include "check/check_frames.hpp"
-#include "check/motion.hpp"
 #include "fuzz_target.hpp"
 
 namespace {

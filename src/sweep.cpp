@@ -6,6 +6,8 @@
 #include "io/program/command_line.hpp"
 #include "io/program/program.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include "sweep/sweep_run.hpp"
+#include "sweep/table.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <boost/program_options/value_semantic.hpp>
@@ -14,9 +16,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
-
-#include "sweep/sweep_run.hpp"
-#include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {

@@ -2,6 +2,7 @@
 //
 // The worker (worker.js) calls these functions. Runs read and write files as Exercise3 does; the files
 // are in memory. What Exercise3 prints to standard error goes to standard error here, too.
+#include "check/check_frames.hpp"
 #include "integration/tableau.hpp"
 #include "io/program/program.hpp"
 #include "simulation/advice/linear_stability.hpp"
@@ -16,8 +17,6 @@
 #include <exception>
 #include <string>
 #include <vector>
-
-#include "check/check_frames.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -1,6 +1,7 @@
 #include "check/check_frames.hpp"
 
 #include "base/numbers.hpp"
+#include "check/motion.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
@@ -10,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "check/motion.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -1,6 +1,7 @@
 // The numbers in the text of frames, and how exactly they were printed.
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "check/motion.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
@@ -10,8 +11,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
-
-#include "check/motion.hpp"
 
 namespace spring_pendulum {
 namespace {

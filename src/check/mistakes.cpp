@@ -1,9 +1,9 @@
 // One line per mistake, roughly in the order in which they are likely: if several reproduce the same
 // frames, the first is reported first.
+#include "check/motion.hpp"
+
 #include <cmath>
 #include <utility>
-
-#include "check/motion.hpp"
 
 namespace spring_pendulum {
 namespace {

@@ -1,3 +1,4 @@
+#include "sweep/table.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <cerrno>
@@ -7,8 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
-
-#include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
 

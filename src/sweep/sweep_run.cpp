@@ -5,6 +5,8 @@
 #include "io/files/posix.hpp"
 #include "io/program/program.hpp"
 #include "io/program/progress.hpp"
+#include "sweep/journal.hpp"
+#include "sweep/table.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
@@ -20,9 +22,6 @@
 #include <optional>
 #include <system_error>
 #include <vector>
-
-#include "sweep/journal.hpp"
-#include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {

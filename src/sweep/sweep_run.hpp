@@ -1,13 +1,13 @@
 // Runs the cases of a study on threads and ranks and writes their table.
 #pragma once
 
+#include "sweep/case_counter.hpp"
+#include "sweep/study/study.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <string>
 #include <thread>
-
-#include "sweep/case_counter.hpp"
-#include "sweep/study/study.hpp"
 
 namespace spring_pendulum::sweep {
 

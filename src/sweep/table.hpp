@@ -1,6 +1,7 @@
 // The table of a study: its columns, its rows and its picture.
 #pragma once
 
+#include "sweep/study/study.hpp"
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <cstdint>
@@ -9,8 +10,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "sweep/study/study.hpp"
 
 namespace spring_pendulum::sweep {
 

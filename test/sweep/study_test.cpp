@@ -1,5 +1,6 @@
 #include "sweep/study/study.hpp"
 
+#include "sweep/sweep_run.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <string>
 
 #include "support/temporary_folder.hpp"
-#include "sweep/sweep_run.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {

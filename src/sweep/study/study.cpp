@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include "sweep/study/random_numbers.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-
-#include "sweep/study/random_numbers.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {

@@ -3,6 +3,9 @@
 #include "io/files/posix.hpp"
 #include "io/formats/yaml_tree.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include "sweep/study/random_numbers.hpp"
+#include "sweep/study/study.hpp"
+#include "sweep/table.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
 
@@ -11,10 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-
-#include "sweep/study/random_numbers.hpp"
-#include "sweep/study/study.hpp"
-#include "sweep/table.hpp"
 
 namespace spring_pendulum::sweep {
 namespace {
