@@ -35,7 +35,7 @@ struct Format {
     constexpr std::int64_t kMostExponent = 400;  // of a number other than 0
     const std::string_view mantissa = word.substr(0, word.find_first_of("eE"));
     const std::size_t point = std::min(mantissa.find('.'), mantissa.size() - 1);
-    std::int64_t after_point = static_cast<std::int64_t>(mantissa.size() - 1 - point);
+    auto after_point = static_cast<std::int64_t>(mantissa.size() - 1 - point);
     int count = 0;
     for (const char c : mantissa) {
       if (std::isdigit(static_cast<unsigned char>(c)) != 0 && (count > 0 || c != '0')) ++count;
