@@ -21,7 +21,7 @@ class Disturbed : public Exercise3Test {
     return Exercise3Test::command("Runge-Kutta-4 --output out --frames 20000 --steps-per-frame 1");
   }
 
-  void expectRefused(const Result& result, const std::string& reason) const {
+  static void expectRefused(const Result& result, const std::string& reason) {
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.errors, HasSubstr("could not be written: " + reason));
     expectOneLine(result.errors);

@@ -177,7 +177,7 @@ TEST(Follower, FollowsASteadyInputAgain) {
 /// Largest distance of a particle from its holder on a circle of 1 m, between 4 s and 8 s, m.
 double distanceOnACircle(bool has_velocity, double input_interval) {
   constexpr double kSpeed = 2.1;  // m/s, faster than a particle comes to its holder
-  const auto holderAt = [](double t) {
+  const auto holder_at = [](double t) {
     return Target{{4.0 + std::cos(kSpeed * t), -1.0 + std::sin(kSpeed * t)},
                   {-kSpeed * std::sin(kSpeed * t), kSpeed * std::cos(kSpeed * t)},
                   {}};
@@ -189,7 +189,7 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
   while (live.run.time() < 8.0) {
     const double now = live.run.nextTime();  // the state that is computed is shown now
     for (; next_input <= now; next_input += input_interval) {
-      Target input = holderAt(next_input);
+      Target input = holder_at(next_input);
       if (!has_velocity) input.velocity = {};
       follower.take(input, has_velocity, next_input, next_input);
     }
@@ -199,7 +199,7 @@ double distanceOnACircle(bool has_velocity, double input_interval) {
     live.driver.apply(live.run, now, false);
     live.run.advancePart();
     if (live.run.time() < 4.0) continue;
-    const Target holder = holderAt(live.run.time());
+    const Target holder = holder_at(live.run.time());
     largest = std::max(largest, std::hypot(live.run.state().x()[5] - holder.position.x,
                                            live.run.state().y()[5] - holder.position.y));
   }

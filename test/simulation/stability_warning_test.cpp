@@ -14,7 +14,6 @@ namespace spring_pendulum {
 namespace {
 
 using test::Scene;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 

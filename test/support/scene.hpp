@@ -18,7 +18,7 @@ struct Scene {
 inline Chain inAir(const Chain& chain, double air_drag) {
   Constants constants = chain.constants();
   constants.air_drag = air_drag;
-  return Chain(chain.masses(), constants);
+  return {chain.masses(), constants};
 }
 
 }  // namespace spring_pendulum::test

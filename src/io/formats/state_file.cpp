@@ -79,7 +79,7 @@ Scene readStateFile(const Scenario& scenario) {
   return std::move(rows.particles);
 }
 
-void writeState(OutputFile& file, AlignedNumbers::ConstView masses, const State& state,
+void writeState(OutputFile& file, const AlignedNumbers::ConstView& masses, const State& state,
                 std::int64_t frame, double time) {
   file.write(
       fmt::format("{}{} particles at frame {}, t = {} s\n"

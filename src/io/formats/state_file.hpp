@@ -22,7 +22,7 @@ Scene readStateFile(const Scenario& scenario);
 /// Writes and finishes a state file.
 /// \param time s
 /// \throws FileError naming the file
-void writeState(OutputFile& file, AlignedNumbers::ConstView masses, const State& state,
+void writeState(OutputFile& file, const AlignedNumbers::ConstView& masses, const State& state,
                 std::int64_t frame, double time);
 
 /// Writes a state file. Replaces no file of another kind.
