@@ -153,7 +153,7 @@ def folder_errors(files):
 # Lines of code that a newcomer has to hold in the head: rooms with their public headers, and a program with its room.
 # A change that does not fit takes something else out; a budget only falls.
 BUDGETS = {
-    'base, model': (1390, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
+    'base, model': (1295, 'src/base', 'src/model', 'include/spring_pendulum/base', 'include/spring_pendulum/model'),
     'integration': (6000, 'src/integration', 'include/spring_pendulum/integration'),
     'simulation': (2657, 'src/simulation', 'include/spring_pendulum/simulation'),
     'io': (2350, 'src/io', 'include/spring_pendulum/io', 'src/Exercise3.cpp'),

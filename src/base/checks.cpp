@@ -17,20 +17,14 @@ void requireSize(std::ptrdiff_t of_chain, std::ptrdiff_t of_state) {
 void requireAdvance(std::ptrdiff_t of_chain, std::ptrdiff_t of_state, double time_step,
                     std::int64_t steps) {
   requireSize(of_chain, of_state);
-  requireFinitePositive("time_step", time_step, "s");
+  requirePositive("time_step", time_step, "s");
   requireAtLeastZero("steps", steps);
 }
 
-void requireFiniteAtLeastZero(const char* name, double value, const char* unit) {
-  if (std::isfinite(value) && value >= 0.0) return;
-  throw InputError(
-      fmt::format("{} must be finite and at least 0 {}, got {}", name, unit, numberText(value)));
-}
-
-void requireFinitePositive(const char* name, double value, const char* unit) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw InputError(
-      fmt::format("{} must be finite and above 0 {}, got {}", name, unit, numberText(value)));
+void requirePositive(const char* name, double value, const char* unit, bool or_zero) {
+  if (std::isfinite(value) && (value > 0.0 || (or_zero && value == 0.0))) return;
+  throw InputError(fmt::format("{} must be finite and {} 0 {}, got {}", name,
+                               or_zero ? "at least" : "above", unit, numberText(value)));
 }
 
 void requireAtLeastZero(const char* name, std::ptrdiff_t value) {

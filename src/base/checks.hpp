@@ -17,11 +17,8 @@ void requireSize(std::ptrdiff_t of_chain, std::ptrdiff_t of_state);
 void requireAdvance(std::ptrdiff_t of_chain, std::ptrdiff_t of_state, double time_step,
                     std::int64_t steps);
 
-/// \throws InputError naming the value unless it is finite and at least 0
-void requireFiniteAtLeastZero(const char* name, double value, const char* unit);
-
-/// \throws InputError naming the value unless it is finite and above 0
-void requireFinitePositive(const char* name, double value, const char* unit);
+/// \throws InputError naming the value unless it is finite and above 0, or exactly 0 if `or_zero`
+void requirePositive(const char* name, double value, const char* unit, bool or_zero = false);
 
 /// \throws InputError naming the value unless it is at least 0
 void requireAtLeastZero(const char* name, std::ptrdiff_t value);

@@ -20,10 +20,6 @@ std::string_view withoutPlus(std::string_view text) {
   return sign_then_digit ? text.substr(1) : text;
 }
 
-std::optional<double> finite(double value) {
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 }  // namespace
 
 std::optional<double> parseNumberPortably(std::string_view text) {
@@ -34,7 +30,7 @@ std::optional<double> parseNumberPortably(std::string_view text) {
   if (number.empty() || number.front() == '+' || !is_plain) return std::nullopt;
   char* end = nullptr;
   const double value = strtod_l(number.c_str(), &end, kClassic);
-  return *end == '\0' ? finite(value) : std::nullopt;
+  return *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::optional<double> parseNumber(std::string_view text) {
@@ -43,9 +39,8 @@ std::optional<double> parseNumber(std::string_view text) {
   const char* end = number.data() + number.size();
   double value = 0.0;
   const auto [rest, error] = std::from_chars(number.data(), end, value);
-  if (rest != end || error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc()) return finite(value);
-    // "Out of range" means either too large or rounded to 0; strtod distinguishes the two.
+  if (error == std::errc() && rest == end && std::isfinite(value)) return value;
+    // Else no number, or out of range: too large, or rounded to 0, which only strtod distinguishes.
 #endif
   return parseNumberPortably(text);
 }

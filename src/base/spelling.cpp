@@ -46,47 +46,37 @@ bool abbreviates(const std::string& name, const std::string& known) {
   return name.size() >= 3 && found == name.size();
 }
 
-}  // namespace
-
+/// Returns the length in bytes of the UTF-8 character at the begin of a text; 0 if it is none.
 std::size_t characterLength(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
   if (first < 0x80) return 1;
   const std::size_t length = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-  if (length == 0 || length > text.size()) return 0;
-  char32_t code = first & (0x7fU >> length);
+  if (length == 0 || length > text.size() || first > 0xf4) return 0;
   for (std::size_t i = 1; i < length; ++i) {
-    const auto next = static_cast<unsigned char>(text[i]);
-    if ((next & 0xc0) != 0x80) return 0;
-    code = code << 6 | (next & 0x3fU);
+    if ((byte(i) & 0xc0) != 0x80) return 0;
   }
-  const bool is_overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-  return is_overlong || is_surrogate || first > 0xf4 || code > 0x10ffff ? 0 : length;
+  const bool is_overlong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xf0 && byte(1) < 0x90);
+  const bool is_surrogate = first == 0xed && byte(1) > 0x9f;
+  return is_overlong || is_surrogate || (first == 0xf4 && byte(1) > 0x8f) ? 0 : length;
 }
 
-std::string onOneLine(std::string_view text) {
+}  // namespace
+
+std::string onOneLine(std::string_view text, std::size_t most) {
   std::string line;
-  while (!text.empty()) {
-    const std::size_t length = characterLength(text);
-    const auto first = static_cast<unsigned char>(text.front());
-    if (length == 0 || first < 0x20 || first == 0x7f) {
-      line += '?';
-    } else {
-      line += text.substr(0, length);
-    }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
+  for (std::size_t at = 0, next = 0; at < text.size(); at = next) {
+    const std::size_t length = characterLength(text.substr(at));
+    next = at + std::max<std::size_t>(length, 1);
+    if (text.size() > most && next > most) return line + "...";
+    const bool is_printable = length > 1 || (length == 1 && text[at] >= ' ' && text[at] != '\x7f');
+    line += is_printable ? text.substr(at, length) : "?";
   }
   return line;
 }
 
 std::string inQuotes(std::string_view text) {
-  if (text.size() <= kLongestQuote) return "'" + onOneLine(text) + "'";
-  std::size_t end = 0;  // not inside a character
-  for (std::size_t next = 0; next <= kLongestQuote;) {
-    end = next;
-    next += std::max<std::size_t>(characterLength(text.substr(next)), 1);
-  }
-  return "'" + onOneLine(text.substr(0, end)) + "...'";
+  return "'" + onOneLine(text, kLongestQuote) + "'";
 }
 
 bool isSameName(std::string_view a, std::string_view b) {
@@ -95,8 +85,9 @@ bool isSameName(std::string_view a, std::string_view b) {
 
 std::string closestName(std::string_view name, const std::vector<std::string>& known) {
   const std::string given = simplified(name.substr(0, 100));
-  std::string closest, abbreviated;
-  std::size_t least = std::min<std::size_t>((given.size() + 1) / 2, 4), abbreviations = 0;
+  std::string closest;
+  std::vector<std::string> abbreviated;
+  std::size_t least = std::min<std::size_t>((given.size() + 1) / 2, 4);
   for (const std::string& candidate : known) {
     const std::string simple = simplified(candidate);
     const std::size_t distance = editDistance(given, simple);
@@ -105,12 +96,9 @@ std::string closestName(std::string_view name, const std::vector<std::string>& k
       least = distance;
       closest = candidate;
     }
-    if (!abbreviates(given, simple)) continue;
-    ++abbreviations;
-    abbreviated = candidate;
+    if (abbreviates(given, simple)) abbreviated.push_back(candidate);
   }
-  if (!closest.empty()) return closest;
-  return abbreviations == 1 ? abbreviated : "";
+  return closest.empty() && abbreviated.size() == 1 ? abbreviated.front() : closest;
 }
 
 std::string unknownName(std::string_view kind, std::string_view name,

@@ -8,11 +8,9 @@
 
 namespace spring_pendulum {
 
-/// Returns the length in bytes of the UTF-8 character at the begin of a text; 0 if it is none.
-std::size_t characterLength(std::string_view text);
-
-/// Returns text with '?' for each control character and each byte that is not UTF-8.
-std::string onOneLine(std::string_view text);
+/// Returns text with '?' for each control character and each byte that is not UTF-8. Of a text longer than
+/// `most` bytes, returns the characters that begin it, and "...".
+std::string onOneLine(std::string_view text, std::size_t most = std::string_view::npos);
 
 /// Returns text in quotes for a message of one line, as onOneLine does, truncated if long.
 std::string inQuotes(std::string_view text);

@@ -249,7 +249,7 @@ std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& ch
                                            const IntegratorOptions& options) {
   if (chain.size() < 1) throw InputError("the chain has no particles: it was moved from");
   if (!method.hasFixedStep()) {
-    requireFinitePositive("tolerance", options.tolerance, "m");
+    requirePositive("tolerance", options.tolerance, "m");
   }
   requireAtLeastZero("threads", options.threads);
   if (!method.make) {

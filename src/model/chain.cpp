@@ -6,22 +6,22 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 #include <utility>
-#include <vector>
 
 namespace spring_pendulum {
 namespace {
 
-void requireFinite(const char* what, std::ptrdiff_t particle, const PlaneVector<double>& value) {
+/// Checks an entry of a drive.
+void requireEntry(std::ptrdiff_t size, std::ptrdiff_t particle, const char* what,
+                  const PlaneVector<double>& value) {
+  if (particle < 0 || particle >= size) {
+    throw InputError(fmt::format("particle {} does not exist: the chain has particles 1 to {}",
+                                 particle + 1, size));
+  }
   if (std::isfinite(value.x) && std::isfinite(value.y)) return;
   throw InputError(fmt::format("{} of particle {} must be finite, got ({}, {})", what, particle + 1,
                                numberText(value.x), numberText(value.y)));
-}
-
-void requireParticle(std::ptrdiff_t particle, std::ptrdiff_t size) {
-  if (0 <= particle && particle < size) return;
-  throw InputError(fmt::format("particle {} does not exist: the chain has particles 1 to {}",
-                               particle + 1, size));
 }
 
 }  // namespace
@@ -29,10 +29,10 @@ void requireParticle(std::ptrdiff_t particle, std::ptrdiff_t size) {
 Chain::Chain(AlignedNumbers masses, const Constants& constants)
     : masses_(std::move(masses)), constants_(constants) {
   if (masses_.size() < 1) throw InputError("a chain needs at least one particle, the fixed one");
-  requireFiniteAtLeastZero("stiffness", constants.spring.stiffness, "N/m");
-  requireFiniteAtLeastZero("damping", constants.spring.damping, "N·s/m");
-  requireFiniteAtLeastZero("rest_length", constants.spring.rest_length, "m");
-  requireFiniteAtLeastZero("air_drag", constants.air_drag, "N·s/m");
+  requirePositive("stiffness", constants.spring.stiffness, "N/m", true);
+  requirePositive("damping", constants.spring.damping, "N·s/m", true);
+  requirePositive("rest_length", constants.spring.rest_length, "m", true);
+  requirePositive("air_drag", constants.air_drag, "N·s/m", true);
   if (!std::isfinite(constants.gravity)) {
     throw InputError(fmt::format("gravity must be a finite number in m/s², got {}",
                                  numberText(constants.gravity)));
@@ -54,20 +54,17 @@ Chain Chain::drivenBy(Drive drive) const {
   double* x = chain.accelerations_.data();
   double* y = x + size;
   for (std::ptrdiff_t i = 1; i < size; ++i) y[i] = -gravity();
-  std::vector<bool> is_held(static_cast<std::size_t>(size), false);
+  std::set<std::ptrdiff_t> held;
   for (const auto& [particle, acceleration] : drive.held) {
-    requireParticle(particle, size);
-    requireFinite("acceleration", particle, acceleration);
-    if (is_held[static_cast<std::size_t>(particle)])
+    requireEntry(size, particle, "acceleration", acceleration);
+    if (!held.insert(particle).second)
       throw InputError(fmt::format("particle {} is held twice", particle + 1));
-    is_held[static_cast<std::size_t>(particle)] = true;
     chain.inverse_masses_[particle] = 0.0;
     x[particle] = acceleration.x;
     y[particle] = acceleration.y;
   }
   for (const auto& [particle, force] : drive.forces) {
-    requireParticle(particle, size);
-    requireFinite("force", particle, force);
+    requireEntry(size, particle, "force", force);
     if (chain.isHeld(particle))
       throw InputError(fmt::format("particle {} is held: a force would not move it", particle + 1));
     x[particle] += force.x * inverse_masses_[particle];

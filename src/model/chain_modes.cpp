@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spring_pendulum {
 namespace {
@@ -9,18 +10,12 @@ namespace {
 constexpr double kPrecision = 1e-4;            ///< relative precision of the largest eigenvalue
 constexpr Eigen::Index kSwingingSprings = 10;  ///< number of springs that swing as a rigid body
 
-using InverseMasses = AlignedNumbers::ConstView;
-
-/// Diagonal entry of the tridiagonal matrix A = B M^-1 B^T. Beside it are the negative inverse masses.
-double diagonal(const InverseMasses& inverse_masses, Eigen::Index i) {
-  return inverse_masses[i] + inverse_masses[i + 1];
-}
-
-/// Whether all eigenvalues lie below `bound`: all pivots of bound·I - A are positive.
-bool isBelow(const InverseMasses& inverse_masses, double bound) {
-  double pivot = bound - diagonal(inverse_masses, 0);
-  for (Eigen::Index i = 1; i + 1 < inverse_masses.size() && pivot > 0.0; ++i) {
-    pivot = bound - diagonal(inverse_masses, i) - inverse_masses[i] * inverse_masses[i] / pivot;
+/// Whether all eigenvalues of A = B M^-1 B^T lie below `bound`: all pivots of bound·I - A are positive. A is
+/// tridiagonal, with the negative inverse masses beside its diagonal.
+bool isBelow(const AlignedNumbers::ConstView& inverse, double bound) {
+  double pivot = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i + 1 < inverse.size() && pivot > 0.0; ++i) {
+    pivot = bound - (inverse[i] + inverse[i + 1]) - inverse[i] * inverse[i] / pivot;
   }
   return pivot > 0.0;
 }
@@ -51,11 +46,9 @@ double largestDampingRate(const Chain& chain) {
 }
 
 double stiffestSpring(const Chain& chain) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i + 1 < chain.size(); ++i) {
-    largest = std::max(largest, diagonal(chain.inverseMasses(), i));
-  }
-  return largest;
+  const Eigen::Index springs = chain.size() - 1;
+  if (springs == 0) return 0.0;
+  return (chain.inverseMasses().head(springs) + chain.inverseMasses().tail(springs)).maxCoeff();
 }
 
 double slowSwing(const Chain& chain) {

@@ -9,11 +9,8 @@ namespace spring_pendulum {
 namespace {
 
 PlaneVector<double> forceOn(const SpringLaw& law, const State& state, std::ptrdiff_t i) {
-  const PlaneVector<double> separation{state.x()[i + 1] - state.x()[i],
-                                       state.y()[i + 1] - state.y()[i]};
-  const PlaneVector<double> relative_velocity{state.vx()[i + 1] - state.vx()[i],
-                                              state.vy()[i + 1] - state.vy()[i]};
-  return springForce(law, separation, relative_velocity);
+  const Eigen::RowVector4d spring = state.values().row(i + 1) - state.values().row(i);
+  return springForce<double>(law, {spring[0], spring[1]}, {spring[2], spring[3]});
 }
 
 }  // namespace
@@ -51,13 +48,10 @@ void computeSlope(const Chain& chain, const State& state, State& slope) {
     const bool free_end = i + 1 == size;
     const auto right = free_end ? PlaneVector<double>{} : forceOn(chain.spring(), state, i);
     const double inverse_mass = chain.inverseMasses()[i];
+    const PlaneVector<double> springless = chain.springlessAcceleration(i);
     slope.vx()[i] = (right.x - left.x) * inverse_mass;
-    slope.vy()[i] = fused(right.y - left.y, inverse_mass, -chain.gravity());
-    if (chain.isDriven()) {
-      const PlaneVector<double> springless = chain.springlessAcceleration(i);
-      slope.vx()[i] += springless.x;
-      slope.vy()[i] = fused(right.y - left.y, inverse_mass, springless.y);
-    }
+    if (chain.isDriven()) slope.vx()[i] += springless.x;
+    slope.vy()[i] = fused(right.y - left.y, inverse_mass, springless.y);
     if (chain.airDrag() != 0.0) {
       const double rate = chain.airDrag() * inverse_mass;
       slope.vx()[i] = fused(-rate, state.vx()[i], slope.vx()[i]);

@@ -1,7 +1,5 @@
-#include <spring_pendulum/base/errors.hpp>
+#include "base/checks.hpp"
 #include <spring_pendulum/model/state.hpp>
-
-#include <fmt/format.h>
 
 #include <limits>
 #include <new>
@@ -10,9 +8,7 @@ namespace spring_pendulum {
 namespace {
 
 std::ptrdiff_t numbersOf(std::ptrdiff_t particles) {
-  if (particles < 0) {
-    throw InputError(fmt::format("number of particles must be at least 0, got {}", particles));
-  }
+  requireAtLeastZero("number of particles", particles);
   if (particles > std::numeric_limits<std::ptrdiff_t>::max() / 4) throw std::bad_alloc();
   return 4 * particles;
 }

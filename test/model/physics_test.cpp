@@ -33,7 +33,7 @@ struct RandomScene {
   double gravity = 9.81;
 };
 
-State::PlaneMatrix accelerationsOf(const Chain& chain, const State& state) {
+Eigen::MatrixXd accelerationsOf(const Chain& chain, const State& state) {
   State slope;
   computeSlope(chain, state, slope);
   return slope.velocities();
@@ -44,7 +44,7 @@ TEST(Force, IsMinusTheGradientOfThePotentialWithoutDamping) {
     RandomScene scene(seed);
     scene.spring.damping = 0.0;
     const Chain chain(scene.masses, scene.spring, scene.gravity);
-    const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
+    const Eigen::MatrixXd accelerations = accelerationsOf(chain, scene.state);
     const double h = 1e-5;
     for (Eigen::Index i = 1; i < chain.size(); ++i) {
       for (Eigen::Index axis = 0; axis < 2; ++axis) {
@@ -100,7 +100,7 @@ TEST(Power, LostIsThatOfTheDashpots) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const RandomScene scene(seed);
     const Chain chain(scene.masses, scene.spring, scene.gravity);
-    const State::PlaneMatrix accelerations = accelerationsOf(chain, scene.state);
+    const Eigen::MatrixXd accelerations = accelerationsOf(chain, scene.state);
     const double h = 1e-6;
     double energy[2] = {};
     for (const int side : {0, 1}) {

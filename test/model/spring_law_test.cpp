@@ -53,7 +53,8 @@ TEST(SpringForce, WithoutDampingHasTheBitsOfDampingZero) {
       const PlaneVector<double> separation{number(random), number(random)};
       const PlaneVector<double> relative_velocity{number(random), number(random)};
       const PlaneVector<double> full = springForce(law, separation, relative_velocity);
-      const PlaneVector<double> skipped = undampedSpringForce(law, separation);
+      const PlaneVector<double> skipped =
+          undampedSpringForce(law, separation, inverseLength(separation));
       EXPECT_EQ(full.x, skipped.x);
       EXPECT_EQ(std::signbit(full.x), std::signbit(skipped.x));
       EXPECT_EQ(full.y, skipped.y);

@@ -44,24 +44,21 @@ class AlignedNumbers {
   ConstView view() const { return {data(), static_cast<Eigen::Index>(size())}; }
 
  private:
+  template <typename Number>
   struct Allocator {
-    using value_type = double;
-    template <typename>
-    struct rebind {  // NOLINT(readability-identifier-naming)
-      using other = Allocator;
-    };
-    static double* allocate(std::size_t size) {
-      return static_cast<double*>(
-          ::operator new (size * sizeof(double), std::align_val_t{kAlignment}));
+    using value_type = Number;
+    static Number* allocate(std::size_t size) {
+      return static_cast<Number*>(
+          ::operator new (size * sizeof(Number), std::align_val_t{kAlignment}));
     }
-    static void deallocate(double* numbers, std::size_t) noexcept {
+    static void deallocate(Number* numbers, std::size_t) noexcept {
       ::operator delete (numbers, std::align_val_t{kAlignment});
     }
     friend bool operator==(const Allocator&, const Allocator&) { return true; }
     friend bool operator!=(const Allocator&, const Allocator&) { return false; }
   };
 
-  std::vector<double, Allocator> numbers_;
+  std::vector<double, Allocator<double>> numbers_;
 };
 
 }  // namespace spring_pendulum

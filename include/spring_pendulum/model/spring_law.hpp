@@ -35,18 +35,6 @@ struct PlaneVector {
   return q > 0.0 ? 1.0 / std::sqrt(q) : 0.0;
 }
 
-/// Returns d·d, m².
-template <typename Value>
-[[gnu::always_inline]] inline Value squaredLength(const PlaneVector<Value>& separation) {
-  return fused(separation.x, separation.x, separation.y * separation.y);
-}
-
-/// Returns the length L = |d| in m, with the same bits on every machine: std::hypot rounds
-/// differently in different C libraries.
-inline double lengthOf(const PlaneVector<double>& separation) {
-  return std::sqrt(squaredLength(separation));
-}
-
 /// Returns a·b.
 template <typename Value>
 [[gnu::always_inline]] inline Value dotProduct(const PlaneVector<Value>& a,
@@ -54,11 +42,23 @@ template <typename Value>
   return fused(a.x, b.x, a.y * b.y);
 }
 
+/// Returns the length L = |d| in m, with the same bits on every machine: std::hypot rounds
+/// differently in different C libraries.
+inline double lengthOf(const PlaneVector<double>& separation) {
+  return std::sqrt(dotProduct(separation, separation));
+}
+
+/// Returns 1/L, 1/m.
+template <typename Value>
+[[gnu::always_inline]] inline Value inverseLength(const PlaneVector<Value>& separation) {
+  return inverseSquareRoot(dotProduct(separation, separation));
+}
+
 /// Returns the elongation rate w·r, m/s; 0 for a spring of length 0.
 template <typename Value>
 [[gnu::always_inline]] inline Value elongationRate(const PlaneVector<Value>& separation,
                                                    const PlaneVector<Value>& relative_velocity) {
-  return dotProduct(relative_velocity, separation) * inverseSquareRoot(squaredLength(separation));
+  return dotProduct(relative_velocity, separation) * inverseLength(separation);
 }
 
 /// Returns the force of a spring from given w·d (m²/s) and 1/L (1/m); see below.
@@ -91,15 +91,8 @@ template <typename Value>
 [[gnu::always_inline]] inline PlaneVector<Value> springForce(
     const SpringLaw& law, const PlaneVector<Value>& separation,
     const PlaneVector<Value>& relative_velocity) {
-  const Value inverse_length = inverseSquareRoot(squaredLength(separation));
-  return springForce(law, separation, dotProduct(relative_velocity, separation), inverse_length);
-}
-
-/// The force for damping 0. The same bits as springForce if w·d is finite.
-template <typename Value>
-[[gnu::always_inline]] inline PlaneVector<Value> undampedSpringForce(
-    const SpringLaw& law, const PlaneVector<Value>& separation) {
-  return undampedSpringForce(law, separation, inverseSquareRoot(squaredLength(separation)));
+  return springForce(law, separation, dotProduct(relative_velocity, separation),
+                     inverseLength(separation));
 }
 
 }  // namespace spring_pendulum

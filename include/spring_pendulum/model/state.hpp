@@ -19,7 +19,6 @@ namespace spring_pendulum {
 class State {
  public:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 4>;
-  using PlaneMatrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
   State() = default;
   /// Places N particles at the origin, at rest.
@@ -29,35 +28,27 @@ class State {
   /// Number of particles N.
   std::ptrdiff_t size() const { return numbers_.size() / 4; }
 
-  auto x() { return column(0); }
-  auto y() { return column(1); }
-  auto vx() { return column(2); }
-  auto vy() { return column(3); }
-  auto x() const { return column(0); }
-  auto y() const { return column(1); }
-  auto vx() const { return column(2); }
-  auto vy() const { return column(3); }
+  /// N×4, columns x, y, vx, vy.
+  auto values() { return Eigen::Map<Matrix>(numbers_.data(), size(), 4); }
+  auto values() const { return Eigen::Map<const Matrix>(numbers_.data(), size(), 4); }
+
+  auto x() { return values().col(0); }
+  auto y() { return values().col(1); }
+  auto vx() { return values().col(2); }
+  auto vy() { return values().col(3); }
+  auto x() const { return values().col(0); }
+  auto y() const { return values().col(1); }
+  auto vx() const { return values().col(2); }
+  auto vy() const { return values().col(3); }
 
   /// N×2: x and y.
-  auto positions() { return Eigen::Map<PlaneMatrix>(numbers_.data(), rows(), 2); }
-  auto positions() const { return Eigen::Map<const PlaneMatrix>(numbers_.data(), rows(), 2); }
+  auto positions() { return values().leftCols<2>(); }
+  auto positions() const { return values().leftCols<2>(); }
   /// N×2: vx and vy.
-  auto velocities() { return Eigen::Map<PlaneMatrix>(numbers_.data() + 2 * size(), rows(), 2); }
-  auto velocities() const {
-    return Eigen::Map<const PlaneMatrix>(numbers_.data() + 2 * size(), rows(), 2);
-  }
-
-  /// N×4, columns x, y, vx, vy.
-  auto values() { return Eigen::Map<Matrix>(numbers_.data(), rows(), 4); }
-  auto values() const { return Eigen::Map<const Matrix>(numbers_.data(), rows(), 4); }
+  auto velocities() { return values().rightCols<2>(); }
+  auto velocities() const { return values().rightCols<2>(); }
 
  private:
-  Eigen::Index rows() const { return static_cast<Eigen::Index>(size()); }
-  AlignedNumbers::View column(int index) { return {numbers_.data() + index * size(), rows()}; }
-  AlignedNumbers::ConstView column(int index) const {
-    return {numbers_.data() + index * size(), rows()};
-  }
-
   AlignedNumbers numbers_;  ///< column by column
 };
 

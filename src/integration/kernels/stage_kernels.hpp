@@ -90,7 +90,7 @@ void stageSlope(const KernelChain& callers_chain, const double* state, const Slo
     if constexpr (kDamped) {
       forces = springForce(chain.spring, separation, relativeVelocitiesOf(left, here));
     } else {  // no velocity is read, which changes no bit
-      forces = undampedSpringForce(chain.spring, separation);
+      forces = undampedSpringForce(chain.spring, separation, inverseLength(separation));
     }
     forces = onlySprings(forces, chain, block);
     store(slopeOf(chain, here, forces, next_forces, block), placeOf(slope, chain.pitch, block));

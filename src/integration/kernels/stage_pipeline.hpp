@@ -184,7 +184,7 @@ class StagePipeline {
   [[gnu::always_inline]] static Springs springsBetween(const Block& left, const Block& here) {
     Springs springs{};
     springs.separation = separationsOf(left, here);
-    springs.inverse_length = inverseSquareRoot(squaredLength(springs.separation));
+    springs.inverse_length = inverseLength(springs.separation);
     if constexpr (kDamped) {
       springs.dot = dotProduct(relativeVelocitiesOf(left, here), springs.separation);
     }
@@ -219,7 +219,7 @@ class StagePipeline {
                                  Pack::load(at.first + at.pitch - kLanes)};
     const PlaneVector<Pack> separation{here.x - leftNeighbours(left.x, here.x),
                                        here.y - leftNeighbours(left.y, here.y)};
-    inverseSquareRoot(squaredLength(separation)).store(placeIn(workspace, kLengths, block).first);
+    inverseLength(separation).store(placeIn(workspace, kLengths, block).first);
     here = left;
   }
 

@@ -195,7 +195,7 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
   for (Index block = 0; block < blocks; ++block) {
     const Block here = load(placeOf(state, work.chain.pitch, block));
     const PlaneVector<Pack> separation = separationsOf(left, here);
-    const Pack square = squaredLength(separation);
+    const Pack square = dotProduct(separation, separation);
     // 1/L_0 = 0 makes all forces of the springs in the padding 0.
     const Index springs = work.chain.size - 1 - block * kLanes;
     const Pack inverse = only(inverseSquareRoot(square), springs);

@@ -114,7 +114,7 @@ bool isClearlyUnstable(const Method& method, const Chain& chain, double time_ste
 }
 
 double linearStepLimit(const Method& method, const Chain& chain, double duration) {
-  requireFinitePositive("duration", duration, "s");
+  requirePositive("duration", duration, "s");
   if (!method.hasFixedStep() || stiffestSpring(chain) == 0.0) return kUnlimited;
   // Transverse motion is undamped. The tension acts as a stiffness below k_s; for methods that are
   // unstable on the imaginary axis, the slowest mode, which has most of the energy, counts.
