@@ -1,6 +1,6 @@
 // Arbitrary files give frames that can be compared, and a report, or an error of one line. A line
 // `@NAME` of the input begins the next file.
-#include "check/check_frames.hpp"
+#include "check/checker.hpp"
 #include "check/motion.hpp"
 #include "io/files/frame_folder.hpp"
 #include <spring_pendulum/base/errors.hpp>

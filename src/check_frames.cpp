@@ -1,9 +1,9 @@
 // Says what is wrong with the frames of another program for the exercise.
-#include "check/check_frames.hpp"
-
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "check/checker.hpp"
 #include "io/files/posix.hpp"
+#include "io/files/touched_files.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/program.hpp"
 #include "simulation/options/scenario_options.hpp"
@@ -50,11 +50,9 @@ const Method& registerTableau(const std::string& path) {
           fmt::format("{}: line n must have n numbers, the last one the weights; at most {}", path,
                       ButcherTableau::kMaxStages - 1));
     }
-    tableau.b = {};
-    std::copy(row.begin(), row.end(), tableau.b.begin());
-    tableau.a[tableau.stages] = tableau.b;
+    std::copy(row.begin(), row.end(), tableau.a[tableau.stages].begin());
   }
-  tableau.a[tableau.stages] = {};
+  tableau.b = std::exchange(tableau.a[tableau.stages], {});
   const std::string name = std::filesystem::path(path).filename();
   registerMethod(methodOfTableau("tableau " + onOneLine(name), tableau));
   return methodTable().back();
@@ -123,9 +121,19 @@ int runCommandLine(int argc, const char* const* argv) {
     refuseUnused(options, scenario);
   }
   const bool is_given = options.isGiven("method") || options.isGiven("tableau");
-  if (switches.answer.empty()) return checkAll(scenario, is_given, switches.folders);
   printOutput(switches.answer);
-  return kDone;
+  if (!switches.answer.empty()) return kDone;
+  // The report must not be appended to a frame.
+  TouchedFiles touched{{scenario.particles, switches.config, tableau}, {}, ""};
+  for (const std::string& folder : switches.folders) {
+    std::error_code ignored;  // reported when the frames are read
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+      const std::string name = entry.path().filename();
+      if (name.rfind("frame_", 0) == 0) touched.inputs.push_back(entry.path());
+    }
+  }
+  checkTouchedFiles(touched);
+  return checkAll(scenario, is_given, switches.folders);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 //
 // The worker (worker.js) calls these functions. Runs read and write files as Exercise3 does; the files
 // are in memory. What Exercise3 prints to standard error goes to standard error here, too.
-#include "check/check_frames.hpp"
+#include "check/checker.hpp"
 #include "integration/tableau.hpp"
 #include "io/program/program.hpp"
 #include "simulation/advice/linear_stability.hpp"

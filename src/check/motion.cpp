@@ -223,13 +223,13 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
   for (Eigen::Index i = 0; i < motion.rows(); ++i) {
     if (agrees.row(i).all()) continue;
     const Eigen::RowVector2d offset = (frame.positions.row(i) - motion.row(i)).matrix();
-    const double distance = offset.norm();
+    const double distance = std::hypot(offset.x(), offset.y());
     const std::string particle = fmt::format("particle {}, ", i + 1);
     if (!std::isfinite(distance))
-      return Departure{frame.index, distance, particle + "where a number is not finite"};
+      return Departure{frame.index, distance, particle + "where a number is nan, inf or too large"};
     const Eigen::RowVector2d spring =
         (motion.row(i) - motion.row(std::max<Eigen::Index>(i - 1, 0))).matrix();
-    const double along = std::abs(offset.dot(spring)) / (distance * spring.norm());
+    const double along = std::abs((offset / distance).dot(spring)) / spring.norm();
     return Departure{frame.index, distance,
                      fmt::format("{}by {} m{}", particle, roundedText(distance, 2),
                                  along > kMostly         ? " along its spring"

@@ -204,7 +204,7 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
 /// Where frames depart from a motion.
 struct Departure {
   std::int64_t frame;
-  double distance;          ///< m; NaN if the frame has a number that is not finite
+  double distance;          ///< m; not finite if a number is not, or too large
   std::string text;         ///< "particle 2, by 6.9e-06 m along its spring"
   bool is_compared = true;  ///< else, the frame is too late to be compared, but impossible
 };

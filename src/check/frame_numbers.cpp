@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -16,12 +15,11 @@ namespace spring_pendulum {
 namespace {
 
 /// Returns a number, also nan and infinity as C and Python print them.
-std::optional<double> valueOf(std::string_view word) {
+std::optional<double> valueOf(const std::string& word) {
   if (const std::optional<double> value = parseNumber(word)) return value;
-  const std::string text(word);
   char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || std::isfinite(value)) return std::nullopt;
+  const double value = std::strtod(word.c_str(), &end);
+  if (end == word.c_str() || *end != '\0' || std::isfinite(value)) return std::nullopt;
   return value;
 }
 
@@ -38,7 +36,7 @@ struct Format {
     auto after_point = static_cast<std::int64_t>(mantissa.size() - 1 - point);
     int count = 0;
     for (const char c : mantissa) {
-      if (std::isdigit(static_cast<unsigned char>(c)) != 0 && (count > 0 || c != '0')) ++count;
+      if (('1' <= c && c <= '9') || (c == '0' && count > 0)) ++count;
     }
     if (mantissa.size() < word.size()) {
       after_point -= std::clamp(parseInteger(word.substr(mantissa.size() + 1)).value_or(0),
@@ -103,18 +101,17 @@ bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
          first.equals(rounded(start), kRounded);
 }
 
-std::string missingFrames(const AllFrames& all) {
-  std::int64_t last = all.start - 1;
-  std::int64_t count = 0;
-  std::string first;
+void noteMissingFrames(AllFrames& all) {
+  std::int64_t last = all.start - 1, first = all.start;
   for (const FrameNumbers& frame : all.frames) {
-    const std::int64_t gap = frame.index - 1 - last;
-    if (gap < 0) throw FileError(fmt::format("frame {} is there twice", frame.index));
-    if (gap > 0 && count == 0) first = fmt::format(", the first is frame {}", last + 1);
-    count += gap;
+    if (frame.index == last) throw FileError(fmt::format("frame {} is there twice", last));
+    if (frame.index == first) ++first;
     last = frame.index;
   }
-  return count == 0 ? "" : counted(count, "missing frame") + first;
+  const auto count = last + 1 - all.start - static_cast<std::int64_t>(all.frames.size());
+  if (count == 0) return;
+  all.notes.push_back(
+      fmt::format("{}, the first is frame {}", counted(count, "missing frame"), first));
 }
 
 }  // namespace
@@ -134,8 +131,7 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles
   AllFrames all;
   all.start = particles.frame;
   for (const FrameText& text : texts) {
-    if (text.index < all.start) continue;
-    all.frames.push_back(read(text, particles.state.size(), format));
+    if (text.index >= all.start) all.frames.push_back(read(text, particles.state.size(), format));
   }
   if (all.frames.empty())
     throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
@@ -145,7 +141,7 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles
     frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
   all.digits = format.digits;
   all.are_floats = areFloats(all, particles.state.positions());
-  if (const std::string gaps = missingFrames(all); !gaps.empty()) all.notes.push_back(gaps);
+  noteMissingFrames(all);
   return all;
 }
 

@@ -1,4 +1,4 @@
-#include "check/check_frames.hpp"
+#include "check/checker.hpp"
 
 #include "base/numbers.hpp"
 #include "check/motion.hpp"
@@ -253,8 +253,7 @@ class Checker {
   }
 
   FrameCheck different() {
-    Programs found;
-    if (departure_->is_compared) found = explain();
+    const Programs found = departure_->is_compared ? explain() : Programs();
     const double time = nearest_.timeOfFrame(departure_->frame);
     std::vector<std::string> lines{
         "", fmt::format("depart from {} at frame {}, t = {} s, {}", nearest_.method.get().name,
