@@ -171,7 +171,12 @@ class Sweep {
     OutputFile table(options_.output);
     writeRows(table);
     table.finish();
-    std::filesystem::remove(journal_->path());
+    std::error_code error;
+    std::filesystem::remove(journal_->path(), error);
+    if (error) {
+      throw FileError(fmt::format("{}: could not be removed: {}; the table {} is complete",
+                                  fullPath(journal_->path()), error.message(), options_.output));
+    }
     std::string text = fmt::format("{}: {}, table {}", study_.name, counted(study_.cases(), "case"),
                                    options_.output);
     if (options_.plot) {

@@ -67,7 +67,9 @@ const std::vector<Column>& allColumns() {
        [](const Run& run) { return run.state().y()[run.chain().size() - 1]; }},
       {"diverged_at", "s", "time of the divergence", divergenceTime},
       {"seconds", "s", "nominal computing time of the method, counted and not measured",
-       [](const Run& run) { return *parseNumber(roundedText(run.integrator().work(), 6)); }},
+       [](const Run& run) {
+         return parseNumber(roundedText(run.integrator().work(), 6)).value_or(kNan);
+       }},
       {"force_evaluations", "", "evaluations of the forces on the whole chain",
        [](const Run& run) { return static_cast<double>(run.integrator().forceEvaluations()); }},
       {"linear_step", "s", "stability limit of the linearised chain, with a margin", linearStep},

@@ -249,6 +249,10 @@ int unlink(const char* path) noexcept {
   return fails("unlink", pathOf(AT_FDCWD, path)) ? -1 : NEXT(unlink)(path);
 }
 
+int remove(const char* path) noexcept {
+  return fails("remove", pathOf(AT_FDCWD, path)) ? -1 : NEXT(remove)(path);
+}
+
 int unlinkat(int folder, const char* path, int flags) noexcept {
   return fails("unlinkat", pathOf(folder, path)) ? -1 : NEXT(unlinkat)(folder, path, flags);
 }
