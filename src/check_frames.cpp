@@ -123,7 +123,6 @@ int runCommandLine(int argc, const char* const* argv) {
   const bool is_given = options.isGiven("method") || options.isGiven("tableau");
   printOutput(switches.answer);
   if (!switches.answer.empty()) return kDone;
-  // The report must not be appended to a frame.
   TouchedFiles touched{{scenario.particles, switches.config, tableau}, {}, ""};
   for (const std::string& folder : switches.folders) {
     std::error_code ignored;  // reported when the frames are read
@@ -132,7 +131,7 @@ int runCommandLine(int argc, const char* const* argv) {
       if (name.rfind("frame_", 0) == 0) touched.inputs.push_back(entry.path());
     }
   }
-  checkTouchedFiles(touched);
+  checkTouchedFiles(touched);  // the report must not be appended to a frame
   return checkAll(scenario, is_given, switches.folders);
 }
 

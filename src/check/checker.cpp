@@ -112,10 +112,12 @@ class Checker {
     for (int level = 0; level < levels; ++level) {
       for (const Method* method : methods) tryMistakes(StudentProgram(*method, scenario_), level);
       Programs found = std::exchange(found_, {});
+      std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+        return a.mistakes.size() < b.mistakes.size();
+      });
       // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
-      const auto weak =
-          std::stable_partition(found.begin(), found.end(),
-                                [&](const StudentProgram& one) { return one.last_frame >= far; });
+      const auto weak = std::stable_partition(
+          found.begin(), found.end(), [&](const auto& one) { return one.last_frame >= far; });
       if (weak != found.begin()) return {found.begin(), weak};
       if (best.empty() && levels > 1 && level < 3) best = found;
     }
@@ -125,14 +127,13 @@ class Checker {
   /// Tries, by level, a mistake, a wrong number, float, two mistakes, or a mistake and a wrong number.
   void tryMistakes(StudentProgram right, int level) {
     constexpr int kDigitsOfFloat = 9;  // more digits show whether the numbers are floats
-    const std::vector<Mistake>& table = knownMistakes();
-    const StudentProgram in_float = right.with(table.back());
+    const StudentProgram in_float = right.with(table_.back());
     if (frames_.are_floats) right = in_float;
     if (level == 0 && frames_.are_floats && explains(right)) return;
     if (level < 2) tryChanges(right, 0, level == 1);
     if (level == 2 && !frames_.are_floats && frames_.digits <= kDigitsOfFloat) explains(in_float);
-    for (std::size_t i = 0; level > 2 && i + 1 < table.size(); ++i) {
-      if (right.canMake(table[i])) tryChanges(right.with(table[i]), i + 1, level == 4);
+    for (std::size_t i = 0; level > 2 && i + 1 < table_.size(); ++i) {
+      if (right.canMake(table_[i])) tryChanges(right.with(table_[i]), i + 1, level == 4);
     }
   }
 
@@ -144,9 +145,8 @@ class Checker {
         if (!base.mistakes.empty()) break;
       }
     }
-    const std::vector<Mistake>& table = knownMistakes();
-    for (std::size_t i = first; i < table.size() && !numbers && !search_limit_.isOver(); ++i) {
-      if (base.canMake(table[i])) explains(base.with(table[i]));
+    for (std::size_t i = first; i < table_.size() && !numbers && !search_limit_.isOver(); ++i) {
+      if (base.canMake(table_[i])) explains(base.with(table_[i]));
     }
   }
 
@@ -285,6 +285,7 @@ class Checker {
   std::size_t known_frames_ = 0;      ///< number of frames before the departure
   std::optional<Departure> departure_;
   Programs found_;
+  const std::vector<Mistake>& table_ = knownMistakes();
   Plan nearest_;  ///< with the method from which the frames depart
 };
 
