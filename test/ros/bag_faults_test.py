@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """record_bag with failing system calls, and with other runs that use its files."""
 import os
 import signal
@@ -6,10 +5,9 @@ import subprocess
 import unittest
 
 import rosbag
-import rostest
 
-from fault_injection import NO_MASTER, check_faults, files_in, fill
-from pendulum_process import Folder, program, wait_until
+from fault_injection import check_faults, fill
+from pendulum_process import NO_MASTER, Folder, files_in, program, running, wait_until
 
 
 def record(folder, *arguments, env=None, bag='run.bag'):
@@ -42,10 +40,8 @@ class RecordBag(unittest.TestCase):
     def test_a_second_run_into_the_same_bag_is_refused(self):
         with Folder() as folder:
             fill(folder)
-            first = subprocess.Popen(
-                [program('record_bag'), 'Runge-Kutta-4', '--bag', 'run.bag', '--frames', '1000000'],
-                cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            try:
+            with running(program('record_bag'), 'Runge-Kutta-4', '--bag', 'run.bag', '--frames', '1000000',
+                         cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as first:
                 wait_until(lambda: os.path.exists(folder + '/.run.bag.tmp'), 'a bag')
                 for arguments in ((), ('--append',)):
                     second = record(folder, *arguments)
@@ -56,9 +52,6 @@ class RecordBag(unittest.TestCase):
                 output, errors = first.communicate()
                 self.assertEqual(first.returncode, 128 + signal.SIGINT, errors)
                 self.assertEqual(errors, '')
-            finally:
-                first.kill()
-                first.wait()
             with rosbag.Bag(folder + '/run.bag') as bag:
                 self.assertGreater(bag.get_message_count(), 2)
 
@@ -73,7 +66,3 @@ class RecordBag(unittest.TestCase):
             self.assertEqual(refused.returncode, 2)
             self.assertIn('particle.txt: is an input of this run', refused.stderr)
             self.assertEqual(files_in(folder), before)
-
-
-if __name__ == '__main__':
-    rostest.rosrun('spring_pendulum', 'bag_faults', RecordBag)

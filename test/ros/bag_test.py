@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """record_bag: a bag with the messages of the node, the same bytes in every run, readable by all ROS
 tools."""
 import math
@@ -7,23 +6,17 @@ import subprocess
 import unittest
 
 import rosbag
-import rospy
-import rostest
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import Folder, Listener, case, program, project, read_frames, run_exercise
-
-SCENE = project('data/particle.txt')
+from pendulum_process import NO_MASTER, SCENE, Folder, Listener, case, read_frames, run_exercise, run_program
 
 
-def record(folder, name, *arguments, method='Runge-Kutta-4', scene=SCENE, status=0):
+def record(folder, name, *arguments, method='Runge-Kutta-4', status=0):
     path = os.path.join(folder, name)
-    done = subprocess.run([program('record_bag'), method, '--particles', scene, '--bag', path,
-                           *arguments], capture_output=True, text=True,
-                          env=dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:1'))
-    assert done.returncode == status, done.stderr
+    done = run_program('record_bag', method, '--particles', SCENE, '--bag', path, *arguments, status=status,
+                       env=dict(os.environ, **NO_MASTER))
     return path, done.stdout + done.stderr
 
 
@@ -159,8 +152,3 @@ class Bag(unittest.TestCase):
                 self.assertIn(message, output)
                 self.assertEqual(len(output.strip().splitlines()), 1)
                 self.assertEqual(os.listdir(folder), [])
-
-
-if __name__ == '__main__':
-    rospy.init_node('bag_test')
-    rostest.rosrun('spring_pendulum', 'bag', Bag)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """How a run ends: hold, exit, a motion that diverges, and a signal in every phase, also if SIGINT was
 ignored when the node started, as in a job that a script starts with `&`."""
 import os
@@ -7,16 +6,13 @@ import subprocess
 import time
 import unittest
 
-import rospy
-import rostest
 from spring_pendulum.msg import PendulumStatus
 from visualization_msgs.msg import MarkerArray
 
-from fault_injection import NO_MASTER
-from pendulum_process import (Folder, NodeTest, PendulumNode, case, computing_time, program, project,
-                              read_frames, run_exercise, service, standing, total_computing_time, wait_until)
+from pendulum_process import (HORIZONTAL, NO_MASTER, Folder, NodeTest, PendulumNode, case, computing_time, ended_node,
+                              program, read_frames, run_exercise, running, service, standing, total_computing_time,
+                              wait_until)
 
-HORIZONTAL = SCENE = project('data/horizontal_11.txt')
 
 
 def ignore_interrupts():
@@ -29,8 +25,7 @@ class Ends(NodeTest):
         with PendulumNode(frames=3, at_end='hold') as node:
             self.listen('status', PendulumStatus).wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
             self.assertEqual(wait_until(lambda: standing(self.state.messages), 'the last frame again').frame, 2)
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
+            node.stop()
 
     def test_interrupted_exits_0_and_every_frame_is_whole(self):
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -38,7 +33,7 @@ class Ends(NodeTest):
                 with PendulumNode(frames=100000, output=folder, particles=HORIZONTAL) as node:
                     wait_until(lambda: os.path.exists(folder + '/frame_0050.txt'), 'frame 50')
                     node.interrupt(number)
-                    self.assertEqual(node.wait(), 0, node.output())
+                    node.ends()
                     self.assertIn('verdict: ', node.output())
                 frames = read_frames(folder)
                 self.assertEqual(sorted(frames),
@@ -54,7 +49,8 @@ class Ends(NodeTest):
                               at_end='hold') as node:
                 wait_until(lambda: len(read_frames(folder)) == len(expected), 'the last good frame')
                 time.sleep(0.5)
-                message = self.listen('status', PendulumStatus).wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
+                status = self.listen('status', PendulumStatus)
+                message = status.wait_for_any(lambda m: m.code == PendulumStatus.DIVERGED)
                 self.assertIn('diverged at t = ', message.text)
                 # All of this is logged when it happens, not at the end of the node. The search for the
                 # largest stable step comes between the status and the log.
@@ -68,15 +64,13 @@ class Ends(NodeTest):
                 self.call('reset')
                 wait_until(lambda: len(node.lines('ERROR')) == 2, 'the same again')
                 node.interrupt()
-                self.assertEqual(node.wait(), 3, node.output())
+                node.ends(3)
             self.assertEqual(read_frames(folder), expected)
-            with PendulumNode(method='Euler', particles=HORIZONTAL) as node:
-                self.assertEqual(node.wait(), 3, node.output())
+            ended_node(3, method='Euler', particles=HORIZONTAL)
 
     def test_divergence_changes_the_colour_and_keeps_the_last_good_chain(self):
         markers = self.listen('markers', MarkerArray)
-        with PendulumNode(method='Euler', particles=HORIZONTAL, wait_for_subscribers=2) as node:
-            self.assertEqual(node.wait(), 3, node.output())
+        ended_node(3, method='Euler', particles=HORIZONTAL, wait_for_subscribers=2)
         last = wait_until(lambda: markers.messages and 'diverged' in markers.messages[-1].markers[3].text
                           and markers.messages[-1], 'the verdict')
         springs, good = last.markers[0], markers.messages[-2].markers[0]
@@ -85,21 +79,18 @@ class Ends(NodeTest):
         self.assertNotEqual(springs.colors, good.colors)
 
     def test_warns_of_a_bad_verdict_and_of_an_unstable_step(self):
-        with PendulumNode(method='Euler', particles=HORIZONTAL, frames=30) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-            self.assertTrue(any('Euler: gained energy' in line for line in node.lines('WARN')), node.output())
-        with PendulumNode(method='Euler', particles=HORIZONTAL, time_step=0.5) as node:
-            self.assertEqual(node.wait(), 3, node.output())
-            self.assertRegex(node.lines('WARN')[0], r'Euler may be unstable with a time step of 0\.5 s; largest stable '
-                                                    r'step for Euler: [\d.e-]+ s; or use Auto')
+        node = ended_node(method='Euler', particles=HORIZONTAL, frames=30)
+        self.assertTrue(any('Euler: gained energy' in line for line in node.lines('WARN')), node.output())
+        node = ended_node(3, method='Euler', particles=HORIZONTAL, time_step=0.5)
+        self.assertRegex(node.lines('WARN')[0], r'Euler may be unstable with a time step of 0\.5 s; largest stable '
+                                                r'step for Euler: [\d.e-]+ s; or use Auto')
 
     def test_the_closing_line_says_what_was_done(self):
-        with PendulumNode(frames=11, particles=HORIZONTAL) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-            self.assertEqual(node.lines('WARN'), [])
-            for part in ('Runge-Kutta-4: 11 particles, 11 frames, 100 steps, 400 force evaluations',
-                         's integrating, 0 marker', 'energy error ', 'verdict: ok'):
-                self.assertIn(part, node.lines('INFO')[-1])
+        node = ended_node(frames=11, particles=HORIZONTAL)
+        self.assertEqual(node.lines('WARN'), [])
+        for part in ('Runge-Kutta-4: 11 particles, 11 frames, 100 steps, 400 force evaluations',
+                     's integrating, 0 marker', 'energy error ', 'verdict: ok'):
+            self.assertIn(part, node.lines('INFO')[-1])
 
 
 class Signals(unittest.TestCase):
@@ -111,7 +102,7 @@ class Signals(unittest.TestCase):
         for number in (signal.SIGINT, signal.SIGTERM):
             with case(signal=number), Folder() as folder, \
                     PendulumNode(preexec=ignore_interrupts,
-                                 **dict(dict(particles=SCENE, output=folder), **parameters)) as node:
+                                 **dict(dict(particles=HORIZONTAL, output=folder), **parameters)) as node:
                 wait_until(lambda: phase(node, folder), 'the phase')
                 before = computing_time(node.process.pid)
                 ended_before = total_computing_time()
@@ -125,34 +116,22 @@ class Signals(unittest.TestCase):
     def test_record_bag(self):
         for options in (('--steps-per-frame', '2000000000', '--time-step', '1e-4'),
                         ('--time-step', '1e6', '--steps-per-frame', '1', '--reference', 'always')):
-            with case(options=options), Folder() as folder:
-                process = subprocess.Popen(
-                    [program('record_bag'), 'Runge-Kutta-4', SCENE, '--bag', folder + '/run.bag', *options],
-                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-                try:
-                    wait_until(lambda: os.path.exists(folder + '/.run.bag.tmp'), 'a bag')
-                    before = computing_time(process.pid)
-                    ended_before = total_computing_time()
-                    process.send_signal(signal.SIGINT)
-                    errors = process.communicate(timeout=60)[1]
-                    self.assertIn(process.returncode, (3, 128 + signal.SIGINT), errors)
-                    self.assertLess(total_computing_time() - ended_before - before, 1.0)
-                finally:
-                    process.kill()
-                    process.wait()
+            with case(options=options), Folder() as folder, \
+                    running(program('record_bag'), 'Runge-Kutta-4', HORIZONTAL, '--bag', folder + '/run.bag', *options,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+                wait_until(lambda: os.path.exists(folder + '/.run.bag.tmp'), 'a bag')
+                before = computing_time(process.pid)
+                ended_before = total_computing_time()
+                process.send_signal(signal.SIGINT)
+                errors = process.communicate(timeout=60)[1]
+                self.assertIn(process.returncode, (3, 128 + signal.SIGINT), errors)
+                self.assertLess(total_computing_time() - ended_before - before, 1.0)
 
     def test_without_a_master(self):
         for number in (signal.SIGINT, signal.SIGTERM):
-            node = subprocess.Popen([program('pendulum_node'), '_particles:=' + SCENE], text=True,
-                                    env=dict(os.environ, **NO_MASTER), stdout=subprocess.PIPE,
-                                    stderr=subprocess.STDOUT, preexec_fn=ignore_interrupts)
-            try:
-                wait_until(lambda: 'master' in node.stdout.readline(), 'a try to find a master')
-                node.send_signal(number)
-                self.assertIn(node.wait(60), (0, -number))  # before ROS has started, killed
-            finally:
-                node.kill()
-                node.communicate()
+            with PendulumNode(env=NO_MASTER, preexec=ignore_interrupts) as node:
+                wait_until(lambda: 'master' in node.output(), 'a try to find a master')
+                node.stop(number)
 
     def test_in_every_phase(self):
         def has(text):
@@ -173,8 +152,3 @@ class Signals(unittest.TestCase):
                 (lambda *_: service('pause')(True).success, dict(frames=1000000, real_time_factor=1.0)),
                 (has('until Ctrl-C'), dict(frames=3, at_end='hold'))):
             self.assertIn('verdict: ', self.end(phase, **parameters), parameters)
-
-
-if __name__ == '__main__':
-    rospy.init_node('ends_test')
-    rostest.rosrun('spring_pendulum', 'ends', '__main__')

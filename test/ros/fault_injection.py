@@ -2,20 +2,10 @@
 import os
 import signal
 
-from pendulum_process import Folder, case, project
+from pendulum_process import SCENE, Folder, case, files_in
 
-SCENE = project('data/particle.txt')
 INJECTION = os.environ['FAULT_INJECTION']
-NO_MASTER = {'ROS_MASTER_URI': 'http://127.0.0.1:1'}
 CLEANS_UP = {'unlinkat', 'fstatat', 'fstat'}  # calls that remove the unfinished file
-
-
-def files_in(folder):
-    files = {}
-    for name in os.listdir(folder):
-        with open(os.path.join(folder, name), 'rb') as file:
-            files[name] = file.read()
-    return files
 
 
 def fill(folder, **files):

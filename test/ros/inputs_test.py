@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Runs that are repeated from the inputs in a bag."""
 import os
 import random
@@ -7,13 +6,12 @@ import subprocess
 
 import rosbag
 import rospy
-import rostest
 from geometry_msgs.msg import PoseStamped, Vector3
 from spring_pendulum.msg import PendulumInput, PendulumState
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
-from pendulum_process import (Folder, NodeTest, PendulumNode, connected, feedback, pose, program, read_frames, service,
-                              wait_until)
+from pendulum_process import (Folder, NodeTest, connected, ended_node, feedback, pose, program, read_frames,
+                              run_program, service, wait_until, write)
 
 CONSTANTS = (('stiffness', 80), ('damping', 0.5), ('gravity', 5.25), ('air_drag', 0.3), ('rest_length', 0.9),
              ('tolerance', 1e-7))
@@ -91,7 +89,7 @@ class Repeated(NodeTest):
                     self.disturb(dice, method)
                 except rospy.ServiceException:  # the run is over
                     pass
-                self.assertEqual(node.wait(), 0, node.output())
+                node.ends()
             self.inputs.wait_for_any(lambda m: m.end)
             rospy.sleep(1.0)
             recorder.send_signal(signal.SIGINT)
@@ -101,9 +99,8 @@ class Repeated(NodeTest):
                 numbers = {message.number for _, message, _ in recorded.read_messages()}
             self.assertEqual(numbers, {m.number for m in self.inputs.messages})
             self.assertGreater(len(numbers), 30)
-            done = subprocess.run([program('record_bag'), '--inputs', bag, '--bag', folder + '/again.bag',
-                                   '--output', again], capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stderr), (0, ''), parameters)
+            done = run_program('record_bag', '--inputs', bag, '--bag', folder + '/again.bag', '--output', again)
+            self.assertEqual(done.stderr, '', parameters)
             expected = read_frames(live)
             self.assertEqual(len(expected), 80)
             self.assertTrue(read_frames(again) == expected, parameters)
@@ -137,13 +134,11 @@ class Repeated(NodeTest):
         memory, size = self.memory_of(100000)
         self.assertLess(memory - least, size)  # measured: 20 MB of 41 MB
 
-    def replay(self, folder, path, *arguments):
-        return subprocess.run([program('record_bag'), 'Euler', '--inputs', path, '--bag',
-                               os.path.join(folder, 'out.bag'), *arguments], capture_output=True, text=True)
+    def replay(self, folder, path, status=0):
+        return run_program('record_bag', 'Euler', '--inputs', path, '--bag', folder + '/out.bag', status=status)
 
     def check_refused(self, folder, path, says, status):
-        done = self.replay(folder, path)
-        self.assertEqual(done.returncode, status, done.stderr)
+        done = self.replay(folder, path, status)
         self.assertIn(says, done.stderr)
         self.assertIn(path, done.stderr)
         # A run that is refused at a later input has warned that the closing one is missing.
@@ -157,8 +152,7 @@ class Repeated(NodeTest):
             with rosbag.Bag(empty, 'w') as bag:
                 bag.write('/state', PendulumState(), rospy.Time(1))
             write_inputs(cut, PendulumInput(number=3))
-            with open(text, 'w') as file:
-                file.write('no bag')
+            write(text, 'no bag')
             os.mkfifo(fifo)  # reading it would wait forever
             for path, says, status in ((empty, 'has no inputs', 2), (cut, 'input 0 is missing', 2),
                                        (text, 'cannot be read as a bag', 1), (fifo, 'it is a pipe', 1),
@@ -206,13 +200,11 @@ class Repeated(NodeTest):
         with Folder() as folder:
             path = os.path.join(folder, 'inputs.bag')
             write_inputs(path, start(scenario=constants), change(1, 59.0, scenario=constants, end=True))
-            done = self.replay(folder, path)
-            self.assertEqual(done.returncode, 3, done.stderr)
+            done = self.replay(folder, path, status=3)
             self.assertIn(', 60 frames, ', done.stdout)
 
     def test_a_recorder_gets_all_inputs_of_a_short_run(self):
-        with PendulumNode(frames=3, at_end='exit') as node:
-            self.assertEqual(node.wait(), 0, node.output())
+        ended_node(frames=3, at_end='exit')
         # A latched message can arrive twice.
         self.assertEqual(sorted({(m.number, m.start, m.end) for m in self.inputs.messages}),
                          [(0, True, False), (1, False, True)])
@@ -227,12 +219,6 @@ class Repeated(NodeTest):
                                            change(2, 9.5, end=True))):
                 write_inputs(path, *inputs)
                 done = self.replay(folder, path)
-                self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(', %d frame%s, ' % (frames, 's' if frames > 1 else ''), done.stdout)
                 self.assertIn(says, done.stderr)
                 self.assertEqual(done.stderr.count('\n'), 1 if says else 0, done.stderr)
-
-
-if __name__ == '__main__':
-    rospy.init_node('inputs_test', disable_signals=True)
-    rostest.rosrun('spring_pendulum', 'inputs', '__main__')

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The launch files, without a display."""
 import glob
 import os
@@ -10,16 +9,10 @@ import xml.etree.ElementTree
 import rosbag
 import rosgraph
 import rospy
-import rostest
 import yaml
 
-from pendulum_process import Folder, PendulumNode, program, project, read_frames, run_exercise
-
-SCENE = project('data/particle.txt')
-
-
-def launch_file(name):
-    return xml.etree.ElementTree.parse(project('launch/%s.launch' % name)).getroot()
+from pendulum_process import (SCENE, Folder, PendulumNode, program, project, read_frames, run_exercise, run_program,
+                              write)
 
 
 def launch(file, *arguments, cwd='/'):
@@ -66,9 +59,8 @@ class Launch(unittest.TestCase):
             expected = run_exercise(expected_folder, 'Euler', '--particles', SCENE, '--frames', '4',
                                     '--time-step', '0.002', '--gravity', '1.62')
             shutil.copy(SCENE, folder + '/mine.txt')
-            with open(folder + '/mine.yaml', 'w') as file:
-                file.write('method: Euler\nframes: 9\ntime_step: 0.002\ngravity: 9.0\noutput: mine\n'
-                           'particles: mine.txt\nreal_time_factor: 0.0\nat_end: exit\n')
+            write(folder + '/mine.yaml', 'method: Euler\nframes: 9\ntime_step: 0.002\ngravity: 9.0\noutput: mine\n'
+                  'particles: mine.txt\nreal_time_factor: 0.0\nat_end: exit\n')
             launch('pendulum.launch', 'rviz:=false', 'config:=' + folder + '/mine.yaml', 'frames:=4',
                    'params:={gravity: 1.62, frames: 7}', cwd=folder)
             self.assertEqual(read_frames(folder + '/mine'), expected)
@@ -121,10 +113,8 @@ class Launch(unittest.TestCase):
             for recorder, text, message in (
                     ('exit 1', 'earlier', 'no bag was written to ' + bag),
                     ('echo new > "$4.active" && mv "$4.active" "$4"', 'new', '')):
-                with open(bag, 'w') as file:
-                    file.write('earlier\n')
-                with open(rosrun, 'w') as file:
-                    file.write('#!/bin/sh\n' + recorder + '\n')
+                write(bag, 'earlier\n')
+                write(rosrun, '#!/bin/sh\n' + recorder + '\n')
                 os.chmod(rosrun, 0o755)
                 done = subprocess.run([project('scripts/record.sh'), bag, '/state'], capture_output=True,
                                       text=True, env=dict(os.environ, PATH=folder + ':/usr/bin:/bin'))
@@ -152,10 +142,10 @@ class Launch(unittest.TestCase):
         """Runs view.py with a shell script in place of rviz."""
         for name, text in (('python3', 'exit 9'), ('rviz', rviz)):  # another python3 does no harm
             if text:
-                with open(folder + '/' + name, 'w') as file:
-                    file.write('#!/bin/sh\n%s\n' % text)
+                write(folder + '/' + name, '#!/bin/sh\n%s\n' % text)
                 os.chmod(folder + '/' + name, 0o755)
-        changes = dict(dict(PATH=folder + ':' + os.environ['PATH'], QT_QPA_PLATFORM='offscreen', ROS_HOME=folder), **environment)
+        changes = {'PATH': folder + ':' + os.environ['PATH'], 'QT_QPA_PLATFORM': 'offscreen', 'ROS_HOME': folder,
+                   **environment}
         return subprocess.run([project('scripts/view.py'), project('rviz/pendulum.rviz'), source],
                               capture_output=True, text=True,
                               env={k: v for k, v in dict(os.environ, **changes).items() if v is not None})
@@ -171,9 +161,8 @@ class Launch(unittest.TestCase):
 
     def test_a_bag_without_a_camera_is_seen_from_near(self):
         with Folder() as folder:
-            subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--particles',
-                            project('data/one_spring.txt'), '--frames', '20', '--camera-frame', '',
-                            '--bag', folder + '/one.bag'], check=True, stdout=subprocess.DEVNULL)
+            run_program('record_bag', 'Runge-Kutta-4', '--particles', project('data/one_spring.txt'), '--frames', 20,
+                        '--camera-frame', '', '--bag', folder + '/one.bag')
             done = self.view(folder, folder + '/one.bag')
         view = yaml.safe_load(done.stdout)['Visualization Manager']['Views']['Current']
         self.assertLess(view['Position']['Y'], -2.0)
@@ -189,8 +178,7 @@ class Launch(unittest.TestCase):
 
     def test_replay_without_loop_plays_the_bag_and_ends(self):
         with Folder() as folder:
-            subprocess.run([program('record_bag'), 'Euler', '--particles', SCENE, '--frames', '5', '--bag',
-                            folder + '/one.bag'], check=True, stdout=subprocess.DEVNULL)
+            run_program('record_bag', 'Euler', '--particles', SCENE, '--frames', 5, '--bag', folder + '/one.bag')
             output = launch('replay.launch', 'bag:=one.bag', 'rviz:=false', 'loop:=false', 'rate:=10',
                             cwd=folder)
         self.assertIn('process has finished cleanly', output)
@@ -203,7 +191,3 @@ class Launch(unittest.TestCase):
     def test_nodes_scripts_are_found_where_rosrun_looks(self):
         for name in ('pendulum_node', 'record_bag', 'Exercise3'):
             self.assertTrue(os.access(program(name), os.X_OK))
-
-
-if __name__ == '__main__':
-    rostest.rosrun('spring_pendulum', 'launch', Launch)

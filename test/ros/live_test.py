@@ -1,16 +1,14 @@
-#!/usr/bin/python3
 """Hands and robots move particles of a running node."""
 import math
 
 import rospy
-import rostest
-from geometry_msgs.msg import PoseStamped, TransformStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback as Feedback
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import NodeTest, connected, feedback, pose, wait_until
+from pendulum_process import NodeTest, connected, feedback, pose, transform, wait_until
 
 BAD = ('gained energy', 'drift', 'diverged', 'inaccurate')
 
@@ -112,17 +110,14 @@ class Robots(LiveTest):
     def publish(self, _=None):
         now = rospy.Time.now()
         gripper, odom, end = self.places(now.to_sec())
-        transform, odometry = TransformStamped(), Odometry()
-        for message in (transform, odometry):
-            message.header.frame_id, message.header.stamp = 'world', now
-        transform.child_frame_id = 'gripper'
-        transform.transform.translation.x, transform.transform.translation.z = gripper
-        transform.transform.rotation.w = 1.0
+        odometry = Odometry()
+        odometry.header.frame_id, odometry.header.stamp = 'world', now
         odometry.pose.pose.position.x, odometry.pose.pose.position.z = odom
         odometry.pose.pose.orientation.w = 1.0
         odometry.twist.twist.linear.x = -self.SPEED * odom[1]
         odometry.twist.twist.linear.z = self.SPEED * (odom[0] - 4.0)
-        for topic, message in zip(self.topics, (TFMessage([transform]), odometry, pose(*end, stamp=now))):
+        messages = TFMessage([transform('gripper', *gripper, now)]), odometry, pose(*end, stamp=now)
+        for topic, message in zip(self.topics, messages):
             topic.publish(message)
 
     def distances(self, message):
@@ -169,11 +164,8 @@ class Robots(LiveTest):
         self.start = 3600.0
 
         def move(x, earlier):
-            transform = TransformStamped()
-            transform.header.frame_id, transform.child_frame_id = 'world', 'gripper'
-            transform.header.stamp = rospy.Time.now() - rospy.Duration(earlier)
-            transform.transform.translation.x, transform.transform.rotation.w = x, 1.0
-            self.topics[0].publish(TFMessage([transform]))
+            stamp = rospy.Time.now() - rospy.Duration(earlier)
+            self.topics[0].publish(TFMessage([transform('gripper', x, 0.0, stamp)]))
             rospy.sleep(0.02)
             return abs(self.last().positions[10].x - x) < 1e-3
         with self.node(held='last=gripper'):
@@ -203,8 +195,3 @@ class Robots(LiveTest):
             for text in ('backwards in time', 'followed again', 'out of the plane', 'nowhere'):
                 self.assertIn(text, warnings)
             self.check_energy()
-
-
-if __name__ == '__main__':
-    rospy.init_node('live_test')
-    rostest.rosrun('spring_pendulum', 'live', '__main__')

@@ -1,6 +1,6 @@
-#!/usr/bin/python3
 """pendulum_node with failing system calls, a clock that steps back, no master, a master that dies, a closed
 terminal, subscribers that stop, come and go, and long runs."""
+import contextlib
 import os
 import pty
 import signal
@@ -10,32 +10,27 @@ import threading
 import time
 import unittest
 from xmlrpc.client import ServerProxy
-from xmlrpc.server import SimpleXMLRPCServer
 
 import rosgraph
-import rospy
-import rostest
+from rosgraph.xmlrpc import ThreadingXMLRPCServer
 from spring_pendulum.msg import PendulumState, PendulumStatus
 
-from fault_injection import INJECTION, SCENE, check_faults
-from pendulum_process import (Folder, Listener, PendulumNode, case, program, project, read_frames, run_exercise,
-                              wait_until)
-
-HORIZONTAL = project('data/horizontal_11.txt')
+from fault_injection import INJECTION, check_faults
+from pendulum_process import (HORIZONTAL, SCENE, Folder, Listener, PendulumNode, case, ended_node, program, read_frames,
+                              run_exercise, running, wait_until, write)
 
 
-class MasterThatLoses:
-    """Passes all calls on to the master except those of one method for one parameter."""
+class MasterBetween:
+    """Passes all calls on to the master, after act(method, *arguments)."""
 
-    def __init__(self, method, parameter):
-        self.server = SimpleXMLRPCServer(('127.0.0.1', 0), logRequests=False)
+    def __init__(self, act):
+        self.server = ThreadingXMLRPCServer(('127.0.0.1', 0), False)
         self.server.register_instance(self)
-        self.lost = (method, parameter)
+        self.act = act
         self.uri = 'http://127.0.0.1:%d' % self.server.server_address[1]
 
     def _dispatch(self, method, arguments):
-        if (method, arguments[-1]) == self.lost:
-            raise OSError('lost')
+        self.act(method, *arguments)
         return getattr(ServerProxy(os.environ['ROS_MASTER_URI']), method)(*arguments)
 
     def __enter__(self):
@@ -61,9 +56,8 @@ class Node(unittest.TestCase):
     def test_the_clock_steps_back(self):
         with Folder() as folder:
             start = time.monotonic()
-            with PendulumNode(particles=SCENE, output=folder, frames=31, real_time_factor=1.0,
-                              env={'LD_PRELOAD': INJECTION, 'CLOCK_BACK': '3600'}) as node:
-                self.assertEqual(node.wait(), 0, node.output())
+            ended_node(output=folder, frames=31, real_time_factor=1.0,
+                       env={'LD_PRELOAD': INJECTION, 'CLOCK_BACK': '3600'})
             self.assertGreater(time.monotonic() - start, 3.0)  # it was paced all the same
             self.assertEqual(len(read_frames(folder)), 31)
 
@@ -80,12 +74,13 @@ class Node(unittest.TestCase):
 
     def test_a_master_that_is_lost_before_the_parameters_are_read_is_an_error(self):
         for lost in ('hasParam', 'getParam'):
-            with MasterThatLoses(lost, '/pendulum') as uri:
-                with PendulumNode(frames=2, env={'ROS_MASTER_URI': uri}) as node:
-                    self.assertEqual(node.wait(), 1, node.output())
-                    self.assertEqual(node.lines('FATAL'),
-                                     ['[FATAL]: /pendulum: the ROS master at %s did not answer when '
-                                      'the parameters were read' % uri])
+            def lose(*call):
+                if call == (lost, '/pendulum', '/pendulum'):
+                    raise OSError('lost')
+            with MasterBetween(lose) as uri:
+                node = ended_node(1, frames=2, env={'ROS_MASTER_URI': uri})
+                self.assertEqual(node.lines('FATAL'), ['[FATAL]: /pendulum: the ROS master at %s did not answer when '
+                                                       'the parameters were read' % uri])
 
     def test_names_a_log_folder_that_cannot_be_created(self):
         with Folder() as folder:
@@ -121,7 +116,7 @@ class Node(unittest.TestCase):
             wait_until(lambda: os.path.exists(folder + '/frame_0001.txt'), 'frames')
             first.interrupt(signal.SIGSTOP)
             with PendulumNode(output=folder, frames=2) as second:
-                self.assertEqual(second.wait(), 1, second.output())
+                second.ends(1)
                 self.assertRegex(second.lines('FATAL')[0], 'another run is writing here; .*'
                                                            '; the node that had this name until now is ending$')
 
@@ -136,39 +131,25 @@ class Node(unittest.TestCase):
 
     def test_a_vanished_terminal_does_not_end_it(self):
         ours, other_end = pty.openpty()
-        with Folder() as folder:
-            node = subprocess.Popen(
-                [program('pendulum_node'), '__name:=on_terminal', '_particles:=' + SCENE,
-                 '_output:=' + folder, '_frames:=30', '_at_end:=exit'],
-                stdin=subprocess.DEVNULL, stdout=other_end, stderr=other_end)
+        with Folder() as folder, \
+                running(program('pendulum_node'), '__name:=on_terminal', '_particles:=' + SCENE, '_output:=' + folder,
+                        '_frames:=30', '_at_end:=exit', stdin=subprocess.DEVNULL, stdout=other_end,
+                        stderr=other_end) as node:
             os.close(other_end)
-            try:
-                wait_until(lambda: os.path.exists(folder + '/frame_0003.txt'), 'frames')
-                os.close(ours)
-                self.assertEqual(node.wait(60), 0)
-                self.assertEqual(len(read_frames(folder)), 30)
-            finally:
-                node.kill()
-                node.wait()
+            wait_until(lambda: os.path.exists(folder + '/frame_0003.txt'), 'frames')
+            os.close(ours)
+            self.assertEqual(node.wait(60), 0)
+            self.assertEqual(len(read_frames(folder)), 30)
 
 
-class Master:
-    """A ROS master of our own, on loopback: with Master(port) as master."""
-
-    def __init__(self, port):
-        self.port = port
-        self.uri = 'http://127.0.0.1:%d/' % port
-        self.process = subprocess.Popen(
-            ['rosmaster', '--core', '-p', str(port)], stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL, env=dict(os.environ, ROS_MASTER_URI=self.uri))
-        wait_until(lambda: rosgraph.is_master_online(self.uri), 'a master')
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.kill()
-        self.process.wait()
+@contextlib.contextmanager
+def master(port):
+    """A ROS master of our own, on loopback."""
+    uri = 'http://127.0.0.1:%d/' % port
+    with running('rosmaster', '--core', '-p', str(port), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                 env=dict(os.environ, ROS_MASTER_URI=uri)):
+        wait_until(lambda: rosgraph.is_master_online(uri), 'a master')
+        yield
 
 
 def free_port():
@@ -181,58 +162,40 @@ class Faults(unittest.TestCase):
 
     def test_the_master_dies_and_comes_back(self):
         port = free_port()
-        environment = dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:%d/' % port)
-        with Folder() as folder, Folder() as expected_folder:
-            with Master(port):
-                node = subprocess.Popen(
-                    [program('pendulum_node'), '__name:=pendulum', '_particles:=' + HORIZONTAL,
-                     '_output:=' + folder, '_frames:=100000', '_real_time_factor:=2'],
-                    env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with Folder() as folder, Folder() as expected_folder, \
+                PendulumNode(env={'ROS_MASTER_URI': 'http://127.0.0.1:%d/' % port},
+                             arguments=['_particles:=' + HORIZONTAL, '_output:=' + folder, '_frames:=100000',
+                                        '_real_time_factor:=2']) as node:
+            with master(port):
                 wait_until(lambda: len(read_frames(folder)) > 2, 'frames')
-            try:
-                self.check_survival(node, port, folder)
-            finally:
-                node.kill()
-                node.wait()
+            count = len(read_frames(folder))
+            wait_until(lambda: len(read_frames(folder)) > count + 5, 'frames without a master')
+            with master(port):
+                node.stop()
             frames = read_frames(folder)
             expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', HORIZONTAL,
                                     '--frames', str(len(frames)))
             self.assertEqual(frames, expected)
 
-    def check_survival(self, node, port, folder):
-        count = len(read_frames(folder))
-        wait_until(lambda: len(read_frames(folder)) > count + 5, 'frames without a master')
-        with Master(port):
-            node.send_signal(signal.SIGINT)
-            self.assertEqual(node.wait(60), 0)
-
     def test_a_subscriber_that_stops_does_not_stop_the_node_or_make_it_grow(self):
         with Folder() as folder:
-            with open(folder + '/chain.txt', 'w') as file:
-                file.writelines('%d 0 1\n' % i for i in range(2000))
+            scene = write(folder + '/chain.txt', ''.join('%d 0 1\n' % i for i in range(2000)))
             status = Listener('status', PendulumStatus)
-            with PendulumNode(particles=folder + '/chain.txt', frames=3000, track_dissipation=False,
-                              steps_per_frame=1, wait_for_subscribers=2) as node:
-                listener = subprocess.Popen(['rostopic', 'echo', '/state'], stdout=subprocess.DEVNULL,
-                                            stderr=subprocess.DEVNULL)
-                try:
-                    status.wait_for_any(lambda m: m.code == PendulumStatus.RUNNING)
-                    os.kill(listener.pid, signal.SIGSTOP)
-                    start = node.resident_bytes()
-                    largest = start
-                    while node.process.poll() is None:
-                        try:
-                            largest = max(largest, node.resident_bytes())
-                        except (FileNotFoundError, AttributeError):
-                            break
-                        time.sleep(0.05)
-                    # 3000 messages of 98 kB would be 290 MB; the queue holds 64 MB of them.
-                    self.assertLess(largest - start, 120e6)
-                    self.assertEqual(node.wait(120), 0, node.output())
-                finally:
-                    os.kill(listener.pid, signal.SIGCONT)
-                    listener.kill()
-                    listener.wait()
+            with running('rostopic', 'echo', '/state', stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as listener, \
+                    PendulumNode(particles=scene, frames=3000, track_dissipation=False, steps_per_frame=1,
+                                 wait_for_subscribers=2) as node:
+                status.wait_for_any(lambda m: m.code == PendulumStatus.RUNNING)
+                listener.send_signal(signal.SIGSTOP)
+                largest = start = node.resident_bytes()
+                while node.process.poll() is None:
+                    try:
+                        largest = max(largest, node.resident_bytes())
+                    except (FileNotFoundError, AttributeError):
+                        break
+                    time.sleep(0.05)
+                # 3000 messages of 98 kB would be 290 MB; the queue holds 64 MB of them.
+                self.assertLess(largest - start, 120e6)
+                node.ends()
             status.close()
 
     def test_subscribers_that_come_and_go(self):
@@ -241,10 +204,4 @@ class Faults(unittest.TestCase):
                 listener = Listener('state', PendulumState)
                 listener.wait_for(1)
                 listener.close()
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
-
-
-if __name__ == '__main__':
-    rospy.init_node('node_faults_test', disable_signals=True)
-    rostest.rosrun('spring_pendulum', 'node_faults', '__main__')
+            node.stop()

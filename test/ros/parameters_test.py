@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Valid and invalid parameters."""
 import os
 import re
@@ -6,29 +5,17 @@ import subprocess
 import unittest
 
 import rosgraph
-import rospy
-import rostest
 import yaml
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import (Folder, Listener, PendulumNode, program, project, read_frames,
-                              run_exercise, wait_until)
+from pendulum_process import (HORIZONTAL, NO_MASTER, Folder, Listener, PendulumNode, ended_node, files_in,
+                              program, project, read_frames, run_program, wait_until, write)
 
-SCENE = project('data/horizontal_11.txt')
 # Values with a visible effect, and what they need; other options get twice their default.
 VALUES = {'method': 'Runge-Kutta-2', 'particles': project('data/two_masses.txt'), 'output': 'elsewhere', 'resume': True,
           'no_frames': True, 'energy': 'energy.csv', 'save_state': 'state.txt', 'start': 'at_rest',
           'on_divergence': 'continue', 'reference': 'never', 'sleep': 1e3}
 EXTRA = {'on_divergence': {'time_step': 0.5}}
-
-
-def files_below(folder):
-    found = {}
-    for path, _, names in os.walk(folder):
-        for name in names:
-            with open(os.path.join(path, name), 'rb') as file:
-                found[os.path.relpath(os.path.join(path, name), folder)] = file.read()
-    return found
 
 
 class Parameters(unittest.TestCase):
@@ -39,7 +26,7 @@ class Parameters(unittest.TestCase):
         self.assertGreater(len(cases), 40)
         for case in cases:
             with PendulumNode(**case['parameters']) as node:
-                self.assertEqual(node.wait(), case.get('status', 2), (case, node.output()))
+                self.assertEqual(node.wait(), case.get('status', 2), (node.output()))
                 self.assertEqual(len(node.output().strip().splitlines()), 1, node.output())
                 self.assertIn(case['says'], node.lines('FATAL')[0])
                 if case.get('status', 2) == 2:
@@ -76,12 +63,9 @@ class Parameters(unittest.TestCase):
 
     def test_a_clock_that_would_end_during_the_run_is_refused_before_it(self):
         with Folder() as folder:
-            with open(folder + '/frame_0000.txt', 'w') as earlier:
-                earlier.write('1 2\n')
-            with PendulumNode(output=folder, frames=4, time_step=1e9, steps_per_frame=1,
-                              publish_clock=True) as node:
-                self.assertEqual(node.wait(), 2, node.output())
-                self.assertIn('simulated time 3e+09 s is too large', node.lines('FATAL')[0])
+            write(folder + '/frame_0000.txt', '1 2\n')
+            node = ended_node(2, output=folder, frames=4, time_step=1e9, steps_per_frame=1, publish_clock=True)
+            self.assertIn('simulated time 3e+09 s is too large', node.lines('FATAL')[0])
             with open(folder + '/frame_0000.txt') as earlier:
                 self.assertEqual(earlier.read(), '1 2\n')
 
@@ -92,23 +76,21 @@ class Parameters(unittest.TestCase):
         for key, default in defaults.items():
             value = VALUES.get(key, 2 * default if default else 0.25)
             options = {'method': 'Auto' if key in ('tolerance', 'frame_interval') else 'Euler', 'frames': 40,
-                       'damping': 0.1, 'output': '.', 'particles': SCENE, **EXTRA.get(key, {}), key: value}
+                       'damping': 0.1, 'output': '.', 'particles': HORIZONTAL, **EXTRA.get(key, {}), key: value}
             words = ['--%s%s' % (name.replace('_', '-'), '' if text is True else '=%s' % text)
                      for name, text in options.items() if name != 'method']
             with Folder() as expected, Folder() as folder:
-                done = subprocess.run([program('Exercise3'), options['method'], *words], cwd=expected,
-                                      capture_output=True, text=True)
-                with PendulumNode(cwd=folder, **options) as node:
-                    self.assertEqual(node.wait(), done.returncode, (key, node.output(), done.stderr))
-                self.assertEqual(files_below(folder), files_below(expected), key)
+                status = subprocess.run([program('Exercise3'), options['method'], *words], cwd=expected,
+                                        capture_output=True).returncode
+                ended_node(status, cwd=folder, **options)
+                self.assertEqual(files_in(folder), files_in(expected), key)
 
     def test_relative_output_and_frames_only_on_request(self):
         for output, frames in ((None, 0), ('sub/frames', 2)):
             with Folder() as folder:
-                with PendulumNode(arguments=['_method:=Euler', '_frames:=2'], output=output, cwd=folder) as node:
-                    self.assertEqual(node.wait(), 0, node.output())
-                    self.assertIn(folder + '/sub/frames' if frames else 'no frame files', node.output())
-                self.assertEqual(len(files_below(folder)), frames)
+                node = ended_node(arguments=['_method:=Euler', '_frames:=2'], output=output, cwd=folder)
+                self.assertIn(folder + '/sub/frames' if frames else 'no frame files', node.output())
+                self.assertEqual(len(files_in(folder)), frames)
 
     def test_other_arguments_and_invalid_names_are_refused_in_one_line(self):
         for arguments, message in (
@@ -117,38 +99,30 @@ class Parameters(unittest.TestCase):
                 (['__name:=7th'], 'Character [7] is not valid as the first character in Graph Resource Name'),
                 (['__name:=a/b'], 'Invalid node name [a/b]: node names cannot contain /'),
                 (['__name:='], 'the name of the node must not be empty\n')):
-            done = subprocess.run([program('pendulum_node'), *arguments], capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stderr[:len(message)]), (2, message))
-            self.assertEqual(done.stderr.count('\n'), 1, done.stderr)
+            done = run_program('pendulum_node', *arguments, status=2)
+            self.assertEqual((done.stderr[:len(message)], done.stderr.count('\n')), (message, 1), done.stderr)
 
     def test_a_text_that_ros_takes_for_a_number_is_refused_and_its_cure_works(self):
         for text, guess in (('0042', '42'), ('1e3', '1000'), ('True', 'true')):
             with Folder() as folder:
                 os.mkdir(folder + '/' + guess)
                 open(folder + '/' + guess + '/frame_0007.txt', 'w').close()
-                with PendulumNode(arguments=['_output:=' + text], output=None, frames=2, cwd=folder) as node:
-                    self.assertEqual(node.wait(), 2, node.output())
-                    self.assertIn('write _output:=./NAME', node.lines('FATAL')[0])
+                node = ended_node(2, arguments=['_output:=' + text], output=None, frames=2, cwd=folder)
+                self.assertIn('write _output:=./NAME', node.lines('FATAL')[0])
                 self.assertEqual(os.listdir(folder + '/' + guess), ['frame_0007.txt'])
-                with PendulumNode(arguments=['_output:=./' + text], output=None, frames=2, cwd=folder) as node:
-                    self.assertEqual(node.wait(), 0, node.output())
+                ended_node(arguments=['_output:=./' + text], output=None, frames=2, cwd=folder)
                 self.assertEqual(len(read_frames(folder + '/' + text)), 2)
 
     def test_a_forgotten_underscore_is_an_error_with_the_cure(self):
         for argument in ('method:=Auto', 'particles:=data/x.txt', 'frames:=3'):
-            done = subprocess.run([program('pendulum_node'), argument], capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stderr),
-                             (2, "'%s' sets no parameter: write _%s\n" % (argument, argument)))
-        with PendulumNode(arguments=['markers:=elsewhere'], frames=2) as node:  # a remapping
-            self.assertEqual(node.wait(), 0, node.output())
+            self.assertEqual(run_program('pendulum_node', argument, status=2).stderr,
+                             "'%s' sets no parameter: write _%s\n" % (argument, argument))
+        ended_node(arguments=['markers:=elsewhere'], frames=2)
 
     def test_help_lists_every_parameter_with_its_default(self):
-        with PendulumNode(bogus=1) as node:
-            self.assertEqual(node.wait(), 2)
-            known = re.search(r'known[^,]* (\w+(?:, \w+)*)', node.output()).group(1).split(', ')
-        done = subprocess.run([program('pendulum_node'), '--help'], capture_output=True, text=True,
-                              env=dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:1'))
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        known = re.search(r'known[^,]* (\w+(?:, \w+)*)', ended_node(2, bogus=1).output()).group(1).split(', ')
+        done = run_program('pendulum_node', '--help', env=dict(os.environ, **NO_MASTER))
+        self.assertEqual(done.stderr, '')
         self.assertEqual(re.findall(r'^  _(\w+)$', done.stdout, re.M), known)
         self.assertRegex(done.stdout, r'_time_step\n .*fixed-step methods \[0\.01 s\]')
 
@@ -161,18 +135,9 @@ class Parameters(unittest.TestCase):
     def test_the_log_keeps_every_character(self):
         for language in ('C', 'C.UTF-8'):
             with Folder() as folder:
-                with PendulumNode(output=folder + '/jörgen', frames=2,
-                                  env={'LC_ALL': language, 'LANG': language}) as node:
-                    self.assertEqual(node.wait(), 0, node.output())
-                    self.assertIn('/jörgen', node.output())
+                node = ended_node(output=folder + '/jörgen', frames=2, env={'LC_ALL': language, 'LANG': language})
+                self.assertIn('/jörgen', node.output())
 
     def test_a_node_below_is_no_parameter_of_this_one_only_if_it_has_none(self):
-        master = rosgraph.Master('/test')
-        master.setParam('/other/pendulum/frames', 2)
-        with PendulumNode(frames=2) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-
-
-if __name__ == '__main__':
-    rospy.init_node('parameters_test')
-    rostest.rosrun('spring_pendulum', 'parameters', Parameters)
+        rosgraph.Master('/test').setParam('/other/pendulum/frames', 2)
+        ended_node(frames=2)

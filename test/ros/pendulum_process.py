@@ -14,7 +14,7 @@ import rosgraph
 import rospkg
 import rospy
 import roslib.packages
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseStamped, TransformStamped
 from spring_pendulum.msg import PendulumState
 from spring_pendulum.srv import ApplyForce, Set, SetMethod, StatePath
 from std_srvs.srv import SetBool, Trigger
@@ -29,6 +29,11 @@ def program(name):
 
 def project(path):
     return os.path.join(rospkg.RosPack().get_path('spring_pendulum'), path)
+
+
+SCENE = project('data/particle.txt')
+HORIZONTAL = project('data/horizontal_11.txt')
+NO_MASTER = {'ROS_MASTER_URI': 'http://127.0.0.1:1'}
 
 
 def wait_until(condition, what, patience=PATIENCE):
@@ -76,6 +81,17 @@ def case(**values):
         raise AssertionError('%s: %s' % (values, error)) from error
 
 
+@contextlib.contextmanager
+def running(*command, end=signal.SIGKILL, **options):
+    """A process that gets a signal in the end."""
+    with subprocess.Popen(command, **options) as process:
+        try:
+            yield process
+        finally:
+            process.send_signal(signal.SIGCONT)
+            process.send_signal(end)
+
+
 class PendulumNode:
     """A pendulum_node: with PendulumNode('/name', frames=3) as node."""
 
@@ -83,7 +99,7 @@ class PendulumNode:
 
     def __init__(self, name='/pendulum', arguments=(), cwd='/', env=None, preexec=None, **parameters):
         self.name = name
-        self.parameters = dict(self.DEFAULTS, particles=project('data/particle.txt'))
+        self.parameters = dict(self.DEFAULTS, particles=SCENE)
         self.parameters.update(parameters)
         self.parameters = {k: v for k, v in self.parameters.items() if v is not None}
         master = rosgraph.Master('/test')
@@ -100,11 +116,14 @@ class PendulumNode:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, failure, *_):
+        if failure:
+            print('%s, exit status %s:\n%s' % (self.name, self.process.poll(), self.output()))
         if self.process.poll() is None:
             os.kill(self.process.pid, signal.SIGCONT)
             self.process.kill()
             self.process.wait()
+        self.output()
         self.log.close()
 
     def interrupt(self, number=signal.SIGINT):
@@ -114,9 +133,20 @@ class PendulumNode:
         """The exit status."""
         return self.process.wait(patience)
 
+    def ends(self, status=0):
+        """Waits for the end with this exit status."""
+        ended = self.wait()
+        assert ended == status, 'exit status %d instead of %d:\n%s' % (ended, status, self.output())
+
+    def stop(self, number=signal.SIGINT):
+        self.interrupt(number)
+        self.ends()
+
     def output(self):
-        self.log.seek(0)
-        return re.sub(r'\x1b\[[0-9;]*m', '', self.log.read())
+        if not self.log.closed:
+            self.log.seek(0)
+            self.text = re.sub(r'\x1b\[[0-9;]*m', '', self.log.read())
+        return self.text
 
     def lines(self, severity):
         return [line for line in self.output().splitlines() if line.startswith('[%5s]' % severity)]
@@ -128,6 +158,13 @@ class PendulumNode:
     def resident_bytes(self):
         with open('/proc/%d/status' % self.process.pid) as status:
             return int(re.search(r'VmRSS:\s+(\d+) kB', status.read()).group(1)) * 1024
+
+
+def ended_node(status=0, **parameters):
+    """A node that has ended, with this exit status."""
+    with PendulumNode(**parameters) as node:
+        node.ends(status)
+    return node
 
 
 class Listener:
@@ -197,9 +234,18 @@ def pose(x, z, stamp=None, frame='world', y=0.0):
     return message
 
 
+def transform(child, x=0.0, z=0.0, stamp=None):
+    """Where a tf frame is in the frame `world`."""
+    message = TransformStamped(child_frame_id=child)
+    message.header.frame_id, message.header.stamp = 'world', rospy.Time.now() if stamp is None else stamp
+    message.transform.translation.x, message.transform.translation.z = x, z
+    message.transform.rotation.w = 1.0
+    return message
+
+
 class NodeTest(unittest.TestCase):
     """Tests of a node at /pendulum, which plays for hours unless told otherwise."""
-    PARAMETERS = dict(particles=project('data/horizontal_11.txt'), frames=100000, real_time_factor=1.0,
+    PARAMETERS = dict(particles=HORIZONTAL, frames=100000, real_time_factor=1.0,
                       at_end='hold', wait_for_subscribers=1)
 
     def setUp(self):
@@ -243,29 +289,45 @@ def standing(states):
     return last[1] if len(last) == 2 and last[0].time == last[1].time else None
 
 
+def run_program(name, *arguments, status=0, **options):
+    """Runs a program, which ends with this exit status, and returns what it printed."""
+    command = [program(name), *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, **options)
+    assert done.returncode == status, (command, done.returncode, done.stderr)
+    return done
+
+
 def run_exercise(folder, method='Runge-Kutta-4', *options, status=0):
     """The frames of Exercise3 by file name."""
-    done = subprocess.run([program('Exercise3'), method, '--output', folder, *options], cwd=folder,
-                          capture_output=True, text=True)
-    assert done.returncode == status, done.stderr
+    run_program('Exercise3', method, '--output', folder, *options, status=status, cwd=folder)
     return read_frames(folder)
 
 
+def write(path, text):
+    with open(path, 'w') as file:
+        file.write(text)
+    return path
+
+
+def files_in(folder, start=''):
+    """The contents of all files below a folder whose names have this start, by path."""
+    files = {}
+    for path, _, names in sorted(os.walk(folder)):
+        for name in sorted(names):
+            if name.startswith(start):
+                with open(os.path.join(path, name), 'rb') as file:
+                    files[os.path.relpath(file.name, folder)] = file.read()
+    return files
+
+
 def read_frames(folder):
-    frames = {}
-    for name in sorted(os.listdir(folder)):
-        if name.startswith('frame_'):
-            with open(os.path.join(folder, name), 'rb') as frame:
-                frames[name] = frame.read()
-    return frames
+    return files_in(folder, 'frame_')
 
 
 def methods():
     """Names of all methods, and whether they control their error."""
-    listed = subprocess.run([program('Exercise3'), '--list-methods'], capture_output=True,
-                            text=True, check=True).stdout
     found, error_controlled = [], False
-    for line in listed.splitlines():
+    for line in run_program('Exercise3', '--list-methods').stdout.splitlines():
         error_controlled = error_controlled or line.startswith('Error-controlled')
         if re.match(r'  \S', line):
             found.append((line.split()[0], error_controlled))

@@ -1,7 +1,6 @@
-#!/usr/bin/python3
 """Random and absurd inputs on every topic and service of a running node.
 
-By hand, with a roscore: random_test.py inputs:=10000 seed:=3
+By hand, with a roscore: rostest_runner.py random inputs:=10000 seed:=3
 """
 import math
 import random
@@ -10,7 +9,6 @@ import threading
 import unittest
 
 import rospy
-import rostest
 from geometry_msgs.msg import PoseStamped, TransformStamped, Vector3, WrenchStamped
 from nav_msgs.msg import Odometry
 from spring_pendulum.msg import PendulumState, PendulumStatus
@@ -206,8 +204,3 @@ class RandomInputs(unittest.TestCase):
             print('%d inputs, %d messages, %d divergences, %g s' % (INPUTS, judge.messages, judge.diverged, time))
             node.interrupt()
             self.assertIn(node.wait(), (0, 3), node.output())
-
-
-if __name__ == '__main__':
-    rospy.init_node('random_test')
-    rostest.rosrun('spring_pendulum', 'random', '__main__')

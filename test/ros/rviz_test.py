@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """rviz on a virtual display shows the running node, a replayed bag and the comparison. The tests check
 colours in the pictures, and keep the pictures in the folder PENDULUM_PICTURES."""
 import math
@@ -7,17 +6,13 @@ import re
 import signal
 import subprocess
 import tempfile
-import unittest
 
 import rosgraph
 import rospy
-import rostest
-from spring_pendulum.msg import PendulumState
-from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 
-from pendulum_process import (Folder, Listener, PendulumNode, program, project, standing,
-                              wait_until)
+from pendulum_process import (HORIZONTAL, SCENE, Folder, NodeTest, PendulumNode, project, run_program, service,
+                              standing, wait_until)
 
 WIDTH, HEIGHT = 1280, 800
 PICTURES = os.environ.get('PENDULUM_PICTURES', '/tmp')
@@ -157,7 +152,7 @@ def pixel_of(point, camera):
     return round(WIDTH / 2 + scale * (point.x - camera.x)), round(HEIGHT / 2 - scale * (point.z - camera.z))
 
 
-class Rviz(unittest.TestCase):
+class Rviz(NodeTest):
 
     def test_the_running_node_and_the_next_one(self):
         with Display() as display, \
@@ -167,37 +162,32 @@ class Rviz(unittest.TestCase):
 
     def check_running_node(self, viewer):
         with PendulumNode(method='Euler', frames=500, real_time_factor=2.0, wait_for_subscribers=1) as node:
-            listener = Listener('state', PendulumState, keep=2)
-            cameras = Listener('/tf_static', TFMessage)
-            listener.wait_for_any(lambda state: state.frame >= 22)
-            rospy.ServiceProxy('/pendulum/pause', SetBool)(True)
-            state = wait_until(lambda: standing(listener.messages), 'the pause')
+            cameras = self.listen('/tf_static', TFMessage)
+            self.state.wait_for_any(lambda state: state.frame >= 22)
+            service('pause')(True)
+            state = wait_until(lambda: standing(self.state.messages), 'the pause')
             camera = cameras.wait_for(1)[-1].transforms[0].transform.translation
             pixels = [pixel_of(p, camera) for p in state.positions]
             for x, y in pixels:
-                self.assertTrue(20 < x < WIDTH - 20 and 20 < y < HEIGHT - 20, 'the whole chain is seen')
+                self.assertTrue(0 < x < WIDTH and 0 < y < HEIGHT, ('the whole chain is seen', pixels, state.frame))
             picture = viewer.wait_for_picture(
                 'running_node.png',
                 lambda p: all(p.near(*pixel, is_yellow) for pixel in pixels[1:]), 'the chain')
             self.check_chain(picture, pixels)
             self.assertGreater(picture.count(is_yellow), 1000)  # measured: 6556
             self.assertGreater(picture.count(is_pale), 500)  # measured: 3421
-            listener.close()
-            cameras.close()
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
+            node.stop()
 
     def check_next_node(self, viewer):
         viewer.wait_for_picture('ended_node.png', lambda p: p.count(is_marker) == 0,
                                 'a picture without markers of the node that has ended')
-        with PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=1,
+        with PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=2,
                           color='#3fb6ff') as node:
             picture = viewer.wait_for_picture(
                 'next_node.png', lambda p: p.count(is_like((63, 182, 255))) > 1000, 'the next chain')
             self.assertEqual(picture.count(is_yellow), 0)
             self.assertEqual(picture.count(is_pale), 0)
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
+            node.stop()
 
     def check_chain(self, picture, pixels):
         self.assertTrue(picture.near(*pixels[0], is_like((154, 164, 178))), 'the anchor')
@@ -210,14 +200,13 @@ class Rviz(unittest.TestCase):
         with Display() as display, \
                 Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer, \
                 PendulumNode(frames=100000, real_time_factor=1.0, wait_for_subscribers=1, at_end='hold',
-                             start='at_rest', particles=project('data/horizontal_11.txt')) as node:
-            listener = Listener('state', PendulumState, keep=2)
-            cameras = Listener('/tf_static', TFMessage)
+                             start='at_rest', particles=HORIZONTAL) as node:
+            cameras = self.listen('/tf_static', TFMessage)
             cameras.wait_for(1)
 
             def now():
                 return cameras.messages[-1].transforms[0].transform.translation
-            rest = listener.wait_for(2)[-1].positions[-1]
+            rest = self.state.wait_for(2)[-1].positions[-1]
 
             def mouse(*arguments):
                 subprocess.run(['xdotool', *map(str, arguments)], env=display.environment, check=True)
@@ -235,39 +224,33 @@ class Rviz(unittest.TestCase):
                     mouse('mousemove', column + shift, row)
                     rospy.sleep(0.1)
                 rospy.sleep(1.0)
-                if listener.messages[-1].positions[-1].x > rest.x + 0.5:
+                if self.last().positions[-1].x > rest.x + 0.5:
                     return True
                 mouse('mouseup', 1)
                 return False
             wait_until(grabbed, 'the tip follows the mouse', patience=120)
-            tip = listener.messages[-1].positions[-1]
+            tip = self.last().positions[-1]
             wanted = tip.x, tip.z
             pixel = pixel_of(tip, now())  # the camera follows a chain that leaves the picture
             self.assertLess(abs(pixel[0] - column - 160), 25)
             self.assertLess(abs(pixel[1] - row), 25)
             display.picture('hand_pulls.png')
             rospy.sleep(0.5)
-            tip = listener.messages[-1].positions[-1]
+            tip = self.last().positions[-1]
             self.assertLess(math.hypot(tip.x - wanted[0], tip.z - wanted[1]), 1e-3)
             mouse('mouseup', 1)
-            wait_until(lambda: listener.messages[-1].positions[-1].x < wanted[0] - 0.5, 'the tip swings back')
-            self.assertLess(abs(listener.messages[-1].energy_error), 1e-4)
-            for topic in (listener, cameras):
-                topic.close()
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
+            wait_until(lambda: self.last().positions[-1].x < wanted[0] - 0.5, 'the tip swings back')
+            self.assertLess(abs(self.last().energy_error), 1e-4)
+            node.stop()
 
     def test_a_replayed_bag_of_any_namespaces(self):
         colors = {'left': (63, 182, 255), 'a/right': (255, 90, 79)}
         with Folder() as folder, Display() as display:
             bag = folder + '/two runs.bag'
             for row, (name, color) in enumerate(colors.items()):
-                subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '60', '--bag', bag,
-                                *(['--append'] if row else []), '--namespace', name,
-                                '--color', '#%02x%02x%02x' % color, '--text-row', str(row + 1),
-                                '--gravity', str(9 - row), '--particles',
-                                project('data/particle.txt')], check=True,
-                               stdout=subprocess.DEVNULL)
+                run_program('record_bag', 'Runge-Kutta-4', '--frames', 60, '--bag', bag, '--particles', SCENE,
+                            *(['--append'] if row else []), '--namespace', name, '--gravity', 9 - row,
+                            '--color', '#%02x%02x%02x' % color, '--text-row', row + 1)
             with Viewer(display, 'replay.launch', 'bag:=' + bag) as viewer:
                 viewer.wait_for_picture(
                     'replayed_bag.png',
@@ -277,9 +260,7 @@ class Rviz(unittest.TestCase):
 
     def test_a_film_shows_the_whole_bag_and_tells_its_progress(self):
         with Folder() as folder:
-            subprocess.run([program('record_bag'), 'Runge-Kutta-4', '--frames', '121', '--bag', folder + '/a.bag',
-                            '--particles', project('data/particle.txt')], check=True,
-                           stdout=subprocess.DEVNULL)
+            run_program('record_bag', 'Runge-Kutta-4', SCENE, '--frames', 121, '--bag', folder + '/a.bag')
             done = subprocess.run([project('scripts/film.sh'), folder + '/a.bag', folder + '/a.gif', '--fps',
                                    '10', '--slow', '1', '--size', '320x240'], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -300,8 +281,3 @@ class Rviz(unittest.TestCase):
                         picture.count(is_like(colors['Euler'])) > 150 and
                         picture.count(is_like(colors['Runge-Kutta-2'])) > 20)
             viewer.wait_for_picture('comparison.png', all_shown, 'three chains')
-
-
-if __name__ == '__main__':
-    rospy.init_node('rviz_test')
-    rostest.rosrun('spring_pendulum', 'rviz', Rviz)

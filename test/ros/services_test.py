@@ -1,19 +1,14 @@
-#!/usr/bin/python3
 """Each service acts, or is refused, and answers with a sentence."""
 import math
 import os
 import random
-import subprocess
 
 import rospy
-import rostest
 from geometry_msgs.msg import Vector3
 from spring_pendulum.msg import PendulumStatus
 
-from pendulum_process import (Folder, NodeTest, PendulumNode, program, project, read_frames, run_exercise, service,
-                              standing, wait_until)
-
-SCENE = project('data/horizontal_11.txt')
+from pendulum_process import (HORIZONTAL, Folder, NodeTest, PendulumNode, read_frames, run_exercise, run_program,
+                              service, standing, wait_until, write)
 
 
 class Playing(NodeTest):
@@ -26,7 +21,7 @@ class Playing(NodeTest):
 
     def test_pause_step_reset_resume_and_still_the_same_frames(self):
         with Folder() as folder, Folder() as expected_folder:
-            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '31')
+            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', HORIZONTAL, '--frames', '31')
             with self.node(frames=31, output=folder, at_end='exit') as node:
                 self.state.wait_for(5)
                 self.call('step', success=False)
@@ -43,7 +38,7 @@ class Playing(NodeTest):
                 self.check_stands_still()
                 self.assertEqual(self.last().frame, 0)
                 self.assertIn('running', self.call('pause', False))
-                self.assertEqual(node.wait(), 0, node.output())
+                node.ends()
             self.assertEqual(read_frames(folder), expected)
         self.assert_increasing(self.state.messages)
 
@@ -58,9 +53,7 @@ class Playing(NodeTest):
 
     def test_resets_rests_and_forces_need_no_memory(self):
         with Folder() as folder:
-            scene = folder + '/chain.txt'
-            with open(scene, 'w') as file:
-                file.writelines('0 %g 1\n' % -i for i in range(10000))
+            scene = write(folder + '/chain.txt', ''.join('0 %g 1\n' % -i for i in range(10000)))
             with self.node(particles=scene, wait_for_subscribers=0) as node:
                 self.call('pause', True)
                 reset, rest, force = (service(name, True) for name in ('reset', 'at_rest', 'apply_force'))
@@ -146,7 +139,7 @@ class States(NodeTest):
 
     def test_saves_and_loads(self):
         with Folder() as folder, self.play(folder):
-            frames = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')
+            frames = run_exercise(folder, 'Runge-Kutta-4', '--particles', HORIZONTAL, '--frames', '60')
             self.state.wait_for_any(lambda m: m.frame >= 20)
             path = os.path.join(folder, 'pendulum_state.txt')
             self.assertIn(path, self.call('save_state', ''))
@@ -194,10 +187,10 @@ class States(NodeTest):
 
     def test_writes_the_frames_that_a_jump_left_out_when_it_reaches_them(self):
         with Folder() as folder:
-            expected = run_exercise(folder, 'Runge-Kutta-4', '--particles', SCENE, '--frames', '60')
+            expected = run_exercise(folder, 'Runge-Kutta-4', '--particles', HORIZONTAL, '--frames', '60')
             state_file, written = os.path.join(folder, 'state.txt'), os.path.join(folder, 'written')
-            subprocess.run([program('Exercise3'), 'Runge-Kutta-4', '--particles', SCENE, '--frames', '31', '--no-frames',
-                            '--save-state', state_file], capture_output=True, check=True)
+            run_program('Exercise3', 'Runge-Kutta-4', '--particles', HORIZONTAL, '--frames', 31, '--no-frames',
+                        '--save-state', state_file)
             with self.node(frames=60, output=written, real_time_factor=2.0):
                 self.state.wait_for(2)
                 self.call('load_state', state_file)
@@ -209,7 +202,7 @@ class States(NodeTest):
 
     def test_a_run_that_has_not_started_refuses_requests(self):
         status = self.listen('status', PendulumStatus)
-        with Folder() as folder, PendulumNode(particles=SCENE, wait_for_subscribers=9, wait_timeout=100):
+        with Folder() as folder, PendulumNode(particles=HORIZONTAL, wait_for_subscribers=9, wait_timeout=100):
             for name, *arguments in (('save_state', folder + '/state.txt'), ('load_state', folder + '/state.txt'),
                                      ('pause', True), ('step',), ('reset',), ('at_rest',), ('set', 'gravity', 1)):
                 self.assertEqual(self.call(name, *arguments, success=False), 'the run has not started yet')
@@ -219,22 +212,15 @@ class States(NodeTest):
     def test_refuses_what_is_no_state(self):
         with Folder() as folder, self.play(folder):
             self.state.wait_for(3)
-            other = os.path.join(folder, 'other.txt')
-            with open(other, 'w') as file:
-                file.write('# state of 11 particles at frame 0, t = 0 s\n' +
-                           ''.join('%d 0 2 0 0\n' % i for i in range(11)))
-            for path, says in (('nothing.txt', 'nothing.txt'), (SCENE, 'must be'), (folder, folder),
+            other = write(folder + '/other.txt', '# state of 11 particles at frame 0, t = 0 s\n' +
+                          ''.join('%d 0 2 0 0\n' % i for i in range(11)))
+            for path, says in (('nothing.txt', 'nothing.txt'), (HORIZONTAL, 'must be'), (folder, folder),
                                (other, 'masses differ')):
                 self.assertIn(says, self.call('load_state', path, success=False))
             for path, says in (('/proc/nowhere/state.txt', 'could not be'), (folder, 'is a folder'),
-                               (os.path.dirname(SCENE), 'is a folder'), (SCENE, 'is an input')):
+                               (os.path.dirname(HORIZONTAL), 'is a folder'), (HORIZONTAL, 'is an input')):
                 message = self.call('save_state', path, success=False)
                 self.assertIn(path.replace('/state.txt', ''), message)
                 self.assertIn(says, message)
             del self.state.messages[:]
             self.state.wait_for(3)
-
-
-if __name__ == '__main__':
-    rospy.init_node('services_test')
-    rostest.rosrun('spring_pendulum', 'services', '__main__')

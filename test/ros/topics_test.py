@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The messages of the node: topics, stamps and contents."""
 import csv
 import math
@@ -7,16 +6,12 @@ import time
 import unittest
 
 import rosgraph
-import rospy
-import rostest
 from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
-from pendulum_process import (Folder, Listener, NodeTest, PendulumNode, case, methods, project, read_frames, run_exercise,
-                              wait_until)
-
-HORIZONTAL = project('data/horizontal_11.txt')
+from pendulum_process import (HORIZONTAL, Folder, Listener, NodeTest, PendulumNode, case, ended_node, methods,
+                              read_frames, run_exercise, wait_until, write)
 
 
 def stamps(messages):
@@ -31,11 +26,9 @@ class Topics(NodeTest):
     def test_one_stamp_a_state_on_every_topic_and_nothing_lost(self):
         markers, state, status = (self.listen('markers', MarkerArray), self.listen('state', PendulumState),
                                   self.listen('status', PendulumStatus))
-        with PendulumNode(frames=20, real_time_factor=4.0, display_rate=80.0,
-                          wait_for_subscribers=3, frame_id='base') as node:
-            self.assertEqual(node.wait(), 0, node.output())
-            for listener, count in zip((markers, state), node.messages_built()):
-                self.assertEqual(len(listener.wait_for(count)), count)
+        node = ended_node(frames=20, real_time_factor=4.0, display_rate=80.0, wait_for_subscribers=3, frame_id='base')
+        for listener, count in zip((markers, state), node.messages_built()):
+            self.assertEqual(len(listener.wait_for(count)), count)
         status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
         self.assertEqual(state.messages[0].time, 0.0)
         self.assertEqual([m.frame for m in state.messages if m.at_frame and m.frame < 19],
@@ -56,8 +49,7 @@ class Topics(NodeTest):
 
     def test_markers_are_what_rviz_wants(self):
         markers = self.listen('markers', MarkerArray)
-        with PendulumNode(frames=5, wait_for_subscribers=1) as node:
-            self.assertEqual(node.wait(), 0, node.output())
+        ended_node(frames=5, wait_for_subscribers=1)
         markers.wait_for(5)
         names = ['springs', 'particles', 'anchor', 'text', 'grid']
         for message in markers.messages:
@@ -75,7 +67,7 @@ class Topics(NodeTest):
                 markers.wait_for_any(lambda m: 'finished' in m.markers[3].text)
                 if at_end == 'hold':
                     node.interrupt()
-                self.assertEqual(node.wait(), 0, node.output())
+                node.ends()
             wait_until(lambda: markers.deleted, 'the deletion')
 
     def check_marker(self, marker):
@@ -93,11 +85,9 @@ class Topics(NodeTest):
 
     def test_one_particle(self):
         with Folder() as folder:
-            with open(folder + '/one.txt', 'w') as file:
-                file.write('1 2 3\n')
+            scene = write(folder + '/one.txt', '1 2 3\n')
             markers, state = self.listen('markers', MarkerArray), self.listen('state', PendulumState)
-            with PendulumNode(particles=folder + '/one.txt', frames=3, wait_for_subscribers=2) as node:
-                self.assertEqual(node.wait(), 0, node.output())
+            ended_node(particles=scene, frames=3, wait_for_subscribers=2)
             for marker in markers.wait_for(3)[-1].markers:
                 self.check_marker(marker)
                 self.assertEqual(marker.action, Marker.ADD if marker.ns in ('anchor', 'text', 'grid')
@@ -117,8 +107,7 @@ class Topics(NodeTest):
             status = self.listen('status', PendulumStatus)
             status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
             last = self.listen('state', PendulumState).wait_for(1)[0]
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
+            node.stop()
         lines = frames['frame_0030.txt'].decode().splitlines()
         self.assertEqual([(p.x, p.z) for p in last.positions],
                          [tuple(map(float, line.split())) for line in lines])
@@ -139,15 +128,13 @@ class Topics(NodeTest):
 
     def test_nothing_for_nobody(self):
         with Folder() as folder:
-            with PendulumNode(frames=50, cwd=folder) as node:
-                self.assertEqual(node.wait(), 0, node.output())
-                self.assertIn('0 marker and 0 state messages built', node.output())
-                self.assertNotIn('writing', node.output())
+            node = ended_node(frames=50, cwd=folder)
+            self.assertIn('0 marker and 0 state messages built', node.output())
+            self.assertNotIn('writing', node.output())
             self.assertEqual(os.listdir(folder), [])
         state = self.listen('state', PendulumState)
-        with PendulumNode(frames=50, wait_for_subscribers=1) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-            self.assertIn('0 marker and 50 state messages built', node.output())
+        node = ended_node(frames=50, wait_for_subscribers=1)
+        self.assertIn('0 marker and 50 state messages built', node.output())
         self.assertEqual(len(state.wait_for(50)), 50)
 
     def test_paced_by_the_wall_clock(self):
@@ -155,7 +142,7 @@ class Topics(NodeTest):
         with PendulumNode(frames=31, real_time_factor=2.0, display_rate=40.0,
                           wait_for_subscribers=1) as node:
             start = time.monotonic()
-            self.assertEqual(node.wait(), 0, node.output())
+            node.ends()
             self.assertGreater(time.monotonic() - start, 1.45)  # 3 s of motion at double speed
         state.wait_for_any(lambda m: m.frame == 30)
         times = [m.time for m in state.messages]
@@ -172,29 +159,25 @@ class Topics(NodeTest):
                           wait_for_subscribers=1) as node:
             clock.wait_for_any(lambda m: m.clock.to_sec() >= 2.0)
             state.wait_for_any(lambda m: m.frame == 10)
-            node.interrupt()
-            self.assertEqual(node.wait(), 0, node.output())
+            node.stop()
         seconds = [m.clock.to_nsec() for m in clock.messages]
         self.assertTrue(all(a < b for a, b in zip(seconds, seconds[1:])))
         for message in state.messages:
             self.assertAlmostEqual(message.header.stamp.to_sec(), 1.0 + message.time, places=6)
 
     def test_waits_for_subscribers_but_not_for_ever(self):
-        with PendulumNode(frames=2, wait_for_subscribers=5, wait_timeout=0.5) as node:
-            self.assertEqual(node.wait(), 0, node.output())
-            self.assertIn('0 of 5 subscribers after 0.5 s', node.lines('WARN')[0].replace('1 of', '0 of'))
+        node = ended_node(frames=2, wait_for_subscribers=5, wait_timeout=0.5)
+        self.assertIn('0 of 5 subscribers after 0.5 s', node.lines('WARN')[0].replace('1 of', '0 of'))
 
     def test_a_hundred_thousand_particles(self):
         with Folder() as folder:
-            with open(folder + '/long.txt', 'w') as file:
-                file.writelines('%g 0 1\n' % (0.01 * i) for i in range(100000))
+            write(folder + '/long.txt', ''.join('%g 0 1\n' % (0.01 * i) for i in range(100000)))
             markers, state = (self.listen('markers', MarkerArray), self.listen('state', PendulumState))
             with PendulumNode(particles=folder + '/long.txt', frames=3, rest_length=0.01,
                               time_step=0.0001, wait_for_subscribers=2, at_end='hold') as node:
                 shown = markers.wait_for(2)[-1].markers
                 positions = state.wait_for(2)[-1].positions
-                node.interrupt()
-                self.assertEqual(node.wait(), 0, node.output())
+                node.stop()
         self.assertLessEqual(len(shown[1].points), 10000)
         self.assertGreater(len(shown[1].points), 5000)
         self.assertIn('of 100000 particles drawn', shown[3].text)
@@ -215,10 +198,8 @@ class Frames(unittest.TestCase):
     def check_displayed(self, method, error_controlled, expected):
         state = Listener('state', PendulumState)
         with Folder() as folder:
-            with PendulumNode(method=method, particles=HORIZONTAL, frames=21, output=folder,
-                              real_time_factor=5.0, display_rate=350.0,
-                              wait_for_subscribers=1) as node:
-                self.assertEqual(node.wait(), 0, node.output())
+            ended_node(method=method, particles=HORIZONTAL, frames=21, output=folder, real_time_factor=5.0,
+                       display_rate=350.0, wait_for_subscribers=1)
             self.assertEqual(read_frames(folder), expected)
         state.wait_for_any(lambda m: m.frame == 20)
         state.close()
@@ -227,8 +208,3 @@ class Frames(unittest.TestCase):
         part = 0.1 / 8 if error_controlled else 0.01
         for message in in_between:
             self.assertAlmostEqual(message.time / part, round(message.time / part), places=6)
-
-
-if __name__ == '__main__':
-    rospy.init_node('topics_test')
-    rostest.rosrun('spring_pendulum', 'topics', '__main__')
