@@ -12,6 +12,7 @@
 
 #include <ros/network.h>
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 
 #include <clocale>
 #include <csignal>
@@ -20,6 +21,7 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace spring_pendulum {
@@ -66,6 +68,23 @@ std::string helpText(const OptionSet& options) {
   return text;
 }
 
+/// Ends a program that starts: ROS may wait for its master. Once it has begun to, it must be shut down.
+void stopStarting() {
+  ros::isStarted() ? ros::requestShutdown() : std::_Exit(kDone);
+}
+
+/// Ends the run when the master asks for it. ROS itself would shut down at once, before the files are
+/// closed; and while topics are advertised, that aborts the program.
+void endWhenTheMasterAsks() {
+  using XmlRpc::XmlRpcValue;
+  ros::XMLRPCManager::instance()->unbind("shutdown");
+  ros::XMLRPCManager::instance()->bind("shutdown", [](XmlRpcValue& call, XmlRpcValue& answer) {
+    ::kill(::getpid(), SIGINT);  // this thread of ROS takes no signals
+    answer = ros::xmlrpc::responseInt(1, "", 0);
+    ROS_WARN_STREAM("the master ends this node: " << static_cast<std::string>(call[1]));
+  });
+}
+
 /// Checks the arguments and initialises ROS, which takes the arguments with ":=" away. From then on
 /// SIGINT ends the program even if it was ignored, as in a job that a script starts with `&`, and
 /// the log keeps UTF-8.
@@ -78,7 +97,8 @@ std::string startRos(int argc, char** argv) {
     return helpText(options);
   }
   checkArguments({argv + 1, argv + argc}, options);
-  std::signal(SIGINT, [](int /*signal*/) { std::_Exit(kDone); });  // ROS may wait for its master
+  std::signal(SIGINT, SIG_DFL);
+  catchInterruptions(stopStarting);
   std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx prints '?' for what the locale lacks
   try {
     // The handler of roscpp would end ROS before the files are closed and the closing line is logged.
@@ -128,8 +148,7 @@ int runNode(bool replaces) {
         error.what() +
         std::string(replaces ? "; the node that had this name until now is ending" : ""));
   }
-  node->spin();
-  return node->run().verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
+  return node->spin();
 }
 
 }  // namespace
@@ -143,13 +162,14 @@ int main(int argc, char** argv) {
     const std::string answer = startRos(argc, argv);
     printOutput(answer);
     if (!answer.empty()) return static_cast<int>(kDone);
-    // Without a master, ROS waits until it is shut down.
-    catchInterruptions(ros::requestShutdown);
     const bool replaces = replacesNode();
     keeps_ros_started.emplace();
-    return interruption() == 0 ? runNode(replaces) : kDone;
+    catchInterruptions();  // only recorded from now on: ROS continues until the files are closed
+    endWhenTheMasterAsks();
+    return interruption() == 0 && ros::ok() ? runNode(replaces) : kDone;
   };
   return runProgram(run, [&](const std::string& message) {
-    keeps_ros_started ? logFatal(message) : printError(message + "\n");
+    if (!keeps_ros_started) return printError(message + "\n");
+    ROS_FATAL_STREAM(message);
   });
 }

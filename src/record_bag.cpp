@@ -17,6 +17,7 @@
 #include <boost/make_shared.hpp>
 #include <fmt/format.h>
 
+#include <ros/names.h>
 #include <rosbag/bag.h>
 
 #include <cerrno>
@@ -111,6 +112,13 @@ void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files)
     goes_on = replay->apply(run) || (goes_on && !replay->isOver(run));
   }
   if (!run.isShown()) recorder.write(run);
+}
+
+/// Whether ROS accepts a topic or namespace of this name; it may be empty.
+bool isTopicName(std::string_view text) {
+  std::string reason;
+  const bool is_private = !text.empty() && text.front() == '~';
+  return !is_private && ros::names::validate(std::string(text), reason);
 }
 
 std::vector<Option> bagOptions(BagOptions& o) {

@@ -82,6 +82,35 @@ class Node(unittest.TestCase):
                 self.assertEqual(node.lines('FATAL'), ['[FATAL]: /pendulum: the ROS master at %s did not answer when '
                                                        'the parameters were read' % uri])
 
+    def start(self, act, **parameters):
+        """Runs a node until its end. Before its call k of the master, act(k, node, method, *arguments)."""
+        calls, nodes = [], []
+
+        def between(*call):
+            calls.append(call)
+            act(len(calls), wait_until(lambda: nodes, 'the node')[0], *call)
+        with MasterBetween(between) as uri, \
+                PendulumNode(env={'ROS_MASTER_URI': uri}, held='1, last=gripper', **parameters) as node:
+            nodes.append(node)
+            node.ends()
+        return calls
+
+    def test_it_can_be_ended_at_every_call_of_its_start(self):
+        def interrupt(node, *_):
+            node.interrupt()
+
+        def shut_down(_, method, *arguments):
+            ServerProxy(arguments[-1]).shutdown('/master', 'test')
+        calls = self.start(lambda *_: None, frames=2)
+        last = [call[2] for call in calls].index('/pendulum/load_state')
+        for k, (method, _, what, *_) in enumerate(calls[:last + 1], 1):
+            if '/statistics' in what:  # many
+                continue
+            # roscpp itself cannot be shut down while it advertises /rosout.
+            for end in (interrupt, shut_down) if method == 'registerPublisher' and what != '/rosout' else (interrupt,):
+                with case(end=end, method=method, what=what):
+                    self.start(lambda at, *call: end(*call) if at == k else None, frames=100000, real_time_factor=1.0)
+
     def test_names_a_log_folder_that_cannot_be_created(self):
         with Folder() as folder:
             open(folder + '/file', 'w').close()

@@ -65,10 +65,18 @@ class SimTime(NodeTest):
     def test_a_clock_that_jumps(self):
         clock, tf = (rospy.Publisher(*topic, queue_size=10) for topic in (('/clock', Clock), ('/tf', TFMessage)))
         with self.node(held='last=gripper') as node:
+            hand = connected('handles/feedback', Feedback)
             wait_until(lambda: clock.get_num_connections() and tf.get_num_connections(), 'the subscribers')
-            for second in (100, 101, 5, 1000, 3, 4000000000, 7):  # the last jump is longer than a duration of ROS
+            # The jump to 4e9 s is longer than a duration of ROS. interactive_markers computes it for another client.
+            for second in (100, 101, 5, 1000000005, 1000, 3, 4000000000, 7):
                 clock.publish(Clock(rospy.Time(second)))
                 tf.publish(TFMessage([transform('gripper', stamp=rospy.Time())]))
-                self.state.wait_for(len(self.state.messages) + 5)
+                for _ in range(5):
+                    self.state.wait_for(len(self.state.messages) + 1)
+                    pull = feedback(6, Feedback.POSE_UPDATE, 4.0, 1.0)
+                    pull.client_id = 'another' if second == 4000000000 else 'rviz'
+                    hand.publish(pull)
+            self.wait_state(lambda m: math.hypot(m.positions[5].x - 4.0, m.positions[5].z - 1.0) < 1e-3, 'the pull')
+            self.assertIn('refused: Duration is out of', node.output())
             node.stop()
         self.assert_increasing(self.state.messages)

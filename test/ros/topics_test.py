@@ -6,6 +6,7 @@ import time
 import unittest
 
 import rosgraph
+import rospy
 from rosgraph_msgs.msg import Clock
 from spring_pendulum.msg import PendulumState, PendulumStatus
 from visualization_msgs.msg import Marker, MarkerArray
@@ -168,6 +169,17 @@ class Topics(NodeTest):
     def test_waits_for_subscribers_but_not_for_ever(self):
         node = ended_node(frames=2, wait_for_subscribers=5, wait_timeout=0.5)
         self.assertIn('0 of 5 subscribers after 0.5 s', node.lines('WARN')[0].replace('1 of', '0 of'))
+
+    def test_a_slow_subscriber_gets_the_last_message_of_a_node_that_ends(self):
+        def take(message):
+            frames.append(message.frame)
+            time.sleep(0.02)
+        frames, slow = [], rospy.Subscriber('state', PendulumState, take)
+        with Folder() as folder:
+            scene = write(folder + '/long.txt', ''.join('%d 0 1\n' % i for i in range(2000)))
+            ended_node(particles=scene, frames=150, steps_per_frame=1, track_dissipation=False, wait_for_subscribers=1)
+        wait_until(lambda: frames[-1] == 149, 'the last frame')  # without waiting for it: about frame 65
+        slow.unregister()
 
     def test_a_hundred_thousand_particles(self):
         with Folder() as folder:

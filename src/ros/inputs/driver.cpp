@@ -100,11 +100,11 @@ std::string Driver::on(const ApplyForceTo& request) {
     throw InputError("too many forces act already; call ~clear_forces");
   }
   const double begin = std::max(start_time, run_.time());
-  const double end = duration < 0.0 ? std::numeric_limits<double>::infinity() : begin + duration;
-  forces_.push_back({particle, force, begin, end});
-  return fmt::format("particle {}: ({:.6g}, {:.6g}) N from t = {:.6g} s {}", particle + 1, force.x,
-                     force.y, begin,
-                     std::isinf(end) ? "until clear_forces" : fmt::format("to {:.6g} s", end));
+  const double lasts = duration < 0.0 ? std::numeric_limits<double>::infinity() : duration;
+  forces_.push_back({particle, force, begin, lasts});
+  return fmt::format(
+      "particle {}: ({:.6g}, {:.6g}) N from t = {:.6g} s {}", particle + 1, force.x, force.y, begin,
+      std::isinf(lasts) ? "until clear_forces" : fmt::format("to {:.6g} s", begin + lasts));
 }
 
 std::string Driver::on(const ClearForces& /*request*/) {
@@ -150,13 +150,15 @@ Drive Driver::driveUntil(double next_time, State& state) {
     drive.held.push_back(held);
   }
   const double now = run_.time();
+  const auto end_of = [](const ApplyForceTo& force) { return force.start_time + force.duration; };
   forces_.erase(std::remove_if(forces_.begin(), forces_.end(),
-                               [&](const TimedForce& force) { return force.end <= now; }),
+                               [&](const ApplyForceTo& f) { return end_of(f) <= now; }),
                 forces_.end());
-  for (const TimedForce& force : forces_) {
-    if (isHeld(force.particle) || force.begin >= next_time) continue;
+  for (const ApplyForceTo& force : forces_) {
+    if (isHeld(force.particle) || force.start_time >= next_time) continue;
     // The impulse of the part of the interval in which the force acts.
-    const double share = (std::min(force.end, next_time) - std::max(force.begin, now)) / interval;
+    const double share =
+        (std::min(end_of(force), next_time) - std::max(force.start_time, now)) / interval;
     drive.forces.push_back({force.particle, {share * force.force.x, share * force.force.y}});
   }
   return drive;

@@ -14,15 +14,7 @@
 
 namespace spring_pendulum {
 
-/// A force that acts for a while.
-struct TimedForce {
-  std::ptrdiff_t particle = 0;  ///< counted from 0
-  PlaneVector<double> force{};  ///< N
-  double begin = 0.0;           ///< s of simulated time
-  double end = 0.0;             ///< s of simulated time
-};
-
-/// Collects what acts on a run, and changes the run between two of its states. Scene are counted
+/// Collects what acts on a run, and changes the run between two of its states. Particles are counted
 /// from 0. In each interval between two states a held particle has the constant acceleration that
 /// brings it to rest relative to its target within two intervals.
 class Driver {
@@ -60,7 +52,7 @@ class Driver {
   double fastest_;  ///< m/s, of a particle on the way to its target
   Scenario wanted_;
   std::map<std::ptrdiff_t, Target> targets_;
-  std::vector<TimedForce> forces_;
+  std::vector<ApplyForceTo> forces_;  ///< with infinite durations instead of negative ones
   std::unique_ptr<State> jump_;
 };
 

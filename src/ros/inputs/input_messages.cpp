@@ -31,15 +31,6 @@ void addState(PendulumInput& message, const State& state, Eigen::Index i) {
   for (Eigen::Index c = 0; c < 4; ++c) message.states.push_back(state.values()(i, c));
 }
 
-/// Index of the particle with this number.
-std::ptrdiff_t indexOf(std::uint32_t particle) {
-  return static_cast<std::ptrdiff_t>(particle) - 1;
-}
-
-PlaneVector<double> vectorAt(const std::vector<double>& numbers, std::size_t k) {
-  return {numbers[2 * k], numbers[2 * k + 1]};
-}
-
 void setScenario(Scenario& scenario, const PendulumInput& input) {
   OptionSet options(scenarioOptions(scenario));
   auto text = input.scenario.begin();
@@ -56,7 +47,7 @@ void setScenario(Scenario& scenario, const PendulumInput& input) {
 
 void setStates(State& state, const PendulumInput& input) {
   for (std::size_t k = 0; k < input.placed.size(); ++k) {
-    const std::ptrdiff_t i = indexOf(input.placed[k]);
+    const std::ptrdiff_t i = input.placed[k] - std::ptrdiff_t{1};
     if (i < 0 || i >= state.size()) throw InputError("a particle does not exist");
     for (Eigen::Index c = 0; c < 4; ++c) {
       state.values()(i, c) = input.states[4 * k + static_cast<std::size_t>(c)];
@@ -67,10 +58,12 @@ void setStates(State& state, const PendulumInput& input) {
 Drive driveOf(const PendulumInput& input) {
   Drive drive;
   for (std::size_t k = 0; k < input.held.size(); ++k) {
-    drive.held.push_back({indexOf(input.held[k]), vectorAt(input.accelerations, k)});
+    const double* const at = &input.accelerations[2 * k];
+    drive.held.push_back({input.held[k] - std::ptrdiff_t{1}, {at[0], at[1]}});
   }
   for (std::size_t k = 0; k < input.pushed.size(); ++k) {
-    drive.forces.push_back({indexOf(input.pushed[k]), vectorAt(input.forces, k)});
+    const double* const at = &input.forces[2 * k];
+    drive.forces.push_back({input.pushed[k] - std::ptrdiff_t{1}, {at[0], at[1]}});
   }
   return drive;
 }

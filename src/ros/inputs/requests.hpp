@@ -1,7 +1,5 @@
-// What is asked of a node from outside: by services, the mouse in rviz and robots.
-//
-// The callback queue of ROS is the queue of requests. It is served between two states only; every
-// callback turns its message into a request and hands it to the node, which acts on it and answers.
+// What is asked of a node from outside: by services, the mouse in rviz and robots. Between two states only,
+// the callback queue of ROS is served: a callback hands a request to the node, which acts on it and answers.
 #pragma once
 
 #include <spring_pendulum/model/chain.hpp>

@@ -24,10 +24,6 @@ namespace {
 constexpr double kOutOfPlane = 1e-3;  // m
 constexpr double kStaleFrame = 1.0;   // s, until an unchanged frame is forgotten
 
-double steadySeconds() {
-  return ros::SteadyTime::now().toSec();
-}
-
 /// Returns the force on the holder of a particle, N, as the sensor of a gripper would feel it: springs,
 /// weight and inertia. The mass of P_1 is not used.
 PlaneVector<double> forceOnHolder(const Run& run, std::ptrdiff_t particle) {
@@ -72,7 +68,8 @@ Robots::Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options
   const auto warn = [](const std::string& text) { ROS_WARN_STREAM(text); };
   for (const auto& [particle, frame] : parseHeld(options.held, run.chain().size())) {
     const std::string name = fmt::format("held_{}", particle + 1);
-    const Follower follower(frame.empty() ? name : name + " (frame " + frame + ")", longest, warn);
+    const std::string of_frame = frame.empty() ? "" : fmt::format(" (frame {})", frame);
+    const Follower follower(name + of_frame, longest, warn);
     connect(node, robots_.emplace_back(Robot{particle, name, frame, follower}));
   }
   if (!robots_.empty()) frames_.listen();
@@ -107,7 +104,7 @@ void Robots::receive(Robot& robot, const std_msgs::Header& header,
                      const std::optional<tf2::Vector3>& velocity) {
   try {
     take(robot, {frames_.from(header.frame_id).transform, header.stamp.toSec()}, point, velocity,
-         steadySeconds());
+         ros::SteadyTime::now().toSec());
   } catch (const InputError& error) {
     if (robot.warnings.isDue()) ROS_WARN_STREAM(robot.name << ": " << error.what());
   }
@@ -131,14 +128,13 @@ void Robots::lookUp(Robot& robot, double now) {
   }
 }
 
-void Robots::take(Robot& robot, const StampedTransform& transform,
-                  const geometry_msgs::Point& point, const std::optional<tf2::Vector3>& velocity,
-                  double now) {
-  const tf2::Vector3 at = transform.transform * tf2::Vector3(point.x, point.y, point.z);
+void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_msgs::Point& point,
+                  const std::optional<tf2::Vector3>& velocity, double now) {
+  const tf2::Vector3 at = frame.transform * tf2::Vector3(point.x, point.y, point.z);
   const tf2::Vector3 speed =
-      transform.transform.getBasis() * velocity.value_or(tf2::Vector3(0.0, 0.0, 0.0));
+      frame.transform.getBasis() * velocity.value_or(tf2::Vector3(0.0, 0.0, 0.0));
   const bool accepted = robot.follower.take({{at.x(), at.z()}, {speed.x(), speed.z()}, {}},
-                                            velocity.has_value(), transform.stamp, now);
+                                            velocity.has_value(), frame.stamp, now);
   if (accepted && !robot.warned && !(std::abs(at.y()) <= kOutOfPlane)) {
     robot.warned = true;
     ROS_WARN_STREAM(robot.name << ": the input is " << std::abs(at.y())
@@ -147,7 +143,7 @@ void Robots::take(Robot& robot, const StampedTransform& transform,
 }
 
 void Robots::follow(double real_time_factor) {
-  const double now = steadySeconds();
+  const double now = ros::SteadyTime::now().toSec();
   const double share = real_time_factor > 0.0 ? 1.0 / real_time_factor : 0.0;
   for (Robot& robot : robots_) {
     if (!robot.frame.empty()) lookUp(robot, now);

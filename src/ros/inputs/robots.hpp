@@ -112,8 +112,8 @@ class Robots {
   };
 
   void connect(ros::NodeHandle& node, Robot& robot);
-  void take(Robot& robot, const StampedTransform& transform, const geometry_msgs::Point& point,
-            const std::optional<tf2::Vector3>& velocity, double now);
+  static void take(Robot& robot, const StampedTransform& frame, const geometry_msgs::Point& point,
+                   const std::optional<tf2::Vector3>& velocity, double now);
   void receive(Robot& robot, const std_msgs::Header& header, const geometry_msgs::Point& point,
                const std::optional<tf2::Vector3>& velocity);
   void lookUp(Robot& robot, double now);

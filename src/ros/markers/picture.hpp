@@ -1,4 +1,4 @@
-// What the markers of a chain draw from. Each kind of marker is a file of its own.
+// What the markers draw from. The chain, the text and the grid are a file each.
 // rviz draws a list of points in one batch; with one marker per particle it is unusable.
 #pragma once
 
@@ -28,7 +28,6 @@ struct Picture {
 
   /// Whether the state can be drawn; if not, the chain keeps its last shape.
   bool isDrawable() const { return run.isFinite() && run.isShown() && drawn.size() > 1; }
-  bool isDiverged() const { return run.verdict().kind == VerdictKind::kDiverged; }
 
   /// Diameter of a particle, m.
   double diameter() const {
@@ -78,8 +77,6 @@ std_msgs::ColorRGBA colorOf(const std::string& text);
 std_msgs::ColorRGBA mix(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to,
                         double share);
 
-constexpr std::uint32_t kTextColor = 0xe6e9ee;
-constexpr std::uint32_t kGridColor = 0x788291;
 constexpr std::uint32_t kHeldColor = 0x9aa4b2;      ///< of held particles
 constexpr std::uint32_t kDoubtColor = 0xffb000;     ///< of springs if the verdict is bad
 constexpr std::uint32_t kDivergedColor = 0xff2fd0;  ///< of the whole chain

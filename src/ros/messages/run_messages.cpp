@@ -74,17 +74,17 @@ PendulumStatus statusOf(const Run& run, bool paused) {
   return status;
 }
 
-enum Index : std::size_t { kSprings, kParticles, kAnchor, kText, kGrid };
+struct Kind {
+  const char* name;  ///< namespace of the marker
+  int type;
+  void (*draw)(const Picture&, Marker&);
+};
 
-Marker emptyMarker(std::string name, int type) {
-  Marker marker;
-  marker.ns = std::move(name);
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  marker.color = colorOf(kTextColor);
-  return marker;
-}
+constexpr Kind kKinds[] = {{"springs", Marker::LINE_LIST, drawSprings},
+                           {"particles", Marker::SPHERE_LIST, drawParticles},
+                           {"anchor", Marker::CUBE, drawAnchor},
+                           {"text", Marker::TEXT_VIEW_FACING, drawText},
+                           {"grid", Marker::LINE_LIST, drawGrid}};
 
 }  // namespace
 
@@ -119,10 +119,13 @@ RunMessages::RunMessages(const Run& run, const NodeOptions& options, bool simula
       camera_moved_(!options.camera_frame.empty() && options.text_row <= 1) {
   const Plan& plan = run.plan();
   if (simulated) Stamps(true).next(plan.timeOfFrame(plan.frames - 1));
-  markers_.markers = {
-      emptyMarker("springs", Marker::LINE_LIST), emptyMarker("particles", Marker::SPHERE_LIST),
-      emptyMarker("anchor", Marker::CUBE), emptyMarker("text", Marker::TEXT_VIEW_FACING),
-      emptyMarker("grid", Marker::LINE_LIST)};
+  for (const Kind& kind : kKinds) {
+    Marker& marker = markers_.markers.emplace_back();
+    marker.ns = kind.name;
+    marker.type = kind.type;
+    marker.pose.orientation.w = 1.0;
+    marker.color = colorOf(0xe6e9ee);  // of the text
+  }
 }
 
 std_msgs::Header RunMessages::header(double simulated_time) {
@@ -132,21 +135,21 @@ std_msgs::Header RunMessages::header(double simulated_time) {
   return header;
 }
 
-void RunMessages::draw(const Run& run, const std_msgs::Header& header) {
+void RunMessages::draw(const Run& run, const std_msgs::Header& header, bool same_camera) {
   const Picture picture{run, options_, view_, drawn_};
   // The other chains keep to the view of the first one.
-  if (run.isFinite() && run.isShown() && options_.text_row <= 1 && !camera_frozen_ &&
+  if (run.isFinite() && run.isShown() && options_.text_row <= 1 && !same_camera &&
       view_.widenFor(run.state())) {
     camera_moved_ = !options_.camera_frame.empty();
   }
-  auto& markers = markers_.markers;
-  for (Marker& marker : markers) marker.header = header;
-  drawSprings(picture, markers[kSprings]);
-  drawParticles(picture, markers[kParticles]);
-  drawAnchor(picture, markers[kAnchor]);
-  drawText(picture, markers[kText]);
-  drawGrid(picture, markers[kGrid]);
-  for (Marker& marker : markers) {  // rviz reports an error for a list without points
+  for (std::size_t i = 0; i < markers_.markers.size(); ++i) {
+    Marker& marker = markers_.markers[i];
+    marker.header = header;
+    kKinds[i].draw(picture, marker);
+    if (run.verdict().kind == VerdictKind::kDiverged) {
+      std::fill(marker.colors.begin(), marker.colors.end(), colorOf(kDivergedColor));
+    }
+    // rviz reports an error for a list without points
     const bool is_list = marker.type == Marker::LINE_LIST || marker.type == Marker::SPHERE_LIST;
     marker.action = is_list && marker.points.size() < 2 ? Marker::DELETE : Marker::ADD;
   }
@@ -172,7 +175,7 @@ std::optional<StateMessages> RunMessages::build(const Run& run, const Showing& s
   StateMessages messages;
   messages.header = header(run.time());
   if (showing.wants_markers) {
-    draw(run, messages.header);
+    draw(run, messages.header, showing.same_camera);
     messages.markers = &markers_;
     if (std::exchange(camera_moved_, false)) messages.camera = camera(messages.header);
   }

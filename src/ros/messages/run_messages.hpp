@@ -24,6 +24,7 @@ void setState(PendulumState& message, const Run& run, const std_msgs::Header& he
 struct Showing {
   bool paused = false;        ///< whether the user has paused the run
   bool due = true;            ///< false: nothing but a changed status
+  bool same_camera = false;   ///< it must not move, for example under the mouse
   bool wants_markers = true;  ///< messages that nobody wants are not built
   bool wants_state = true;
 };
@@ -49,14 +50,12 @@ class RunMessages {
 
   /// Returns the header of the next messages, with a new stamp.
   std_msgs::Header header(double simulated_time);
-  /// Keeps the camera where it is, for example while the mouse drags a particle.
-  void freezeCamera(bool freeze) { camera_frozen_ = freeze; }
 
   /// Returns the messages about the current state; nothing if it is not due and the status is the same.
   std::optional<StateMessages> build(const Run& run, const Showing& showing);
 
  private:
-  void draw(const Run& run, const std_msgs::Header& header);
+  void draw(const Run& run, const std_msgs::Header& header, bool same_camera);
   tf2_msgs::TFMessage camera(const std_msgs::Header& header) const;
 
   NodeOptions options_;
@@ -64,7 +63,6 @@ class RunMessages {
   std::vector<Eigen::Index> drawn_;  ///< indices of the drawn particles
   SceneView view_;
   bool camera_moved_;
-  bool camera_frozen_ = false;
   visualization_msgs::MarkerArray markers_;
   PendulumState state_;  ///< kept, so that its arrays are allocated once
   std::string last_status_;

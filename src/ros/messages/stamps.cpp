@@ -7,13 +7,9 @@
 #include <algorithm>
 
 namespace spring_pendulum {
-namespace {
-
-constexpr double kLatest = 2e9;  // s; a duration of ROS has 31 bits for them
-
-}  // namespace
 
 ros::Time Stamps::next(double simulated_time) {
+  constexpr double kLatest = 2e9;  // s; a duration of ROS has 31 bits for them
   const double more = simulated_time - last_simulated_time_;
   const bool fits = played_.toSec() + more <= kLatest;
   if (!fits && simulated_) {

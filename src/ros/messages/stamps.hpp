@@ -1,5 +1,4 @@
-// The stamps of messages: strictly increasing and never 0, whatever the clock does. And log lines that
-// may repeat.
+// The stamps of messages, strictly increasing and never 0 whatever the clock does; and repeated log lines.
 #pragma once
 
 #include <ros/time.h>
@@ -8,9 +7,6 @@ namespace spring_pendulum {
 
 class Stamps {
  public:
-  /// The stamp of simulated time 0, because 0 is not a valid stamp.
-  static ros::Time simulatedStart() { return {1, 0}; }
-
   /// \param simulated use simulated time instead of ROS time
   explicit Stamps(bool simulated) : simulated_(simulated) {}
 
@@ -22,7 +18,7 @@ class Stamps {
  private:
   bool simulated_;
   double last_simulated_time_ = 0.0;
-  ros::Time played_ = simulatedStart();  ///< simulated time without the jumps back
+  ros::Time played_{1, 0};  ///< simulated time without the jumps back; 0 is not a valid stamp
   ros::Time last_;
 };
 

@@ -1,8 +1,10 @@
 #include "ros/node/node.hpp"
 
 #include "base/numbers.hpp"
+#include "io/files/posix.hpp"
 #include "io/program/program.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/simulation/outcome.hpp>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace spring_pendulum {
@@ -18,22 +21,11 @@ namespace {
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
+constexpr double kLongestSending = 10.0;    // s, at the end, for subscribers that are slower
 constexpr double kPollInterval = 0.01;      // s between two checks for subscribers
-constexpr double kLongestWait = 1e9;        // s; ros::Duration has 32 bits for seconds
 /// A subscriber that comes later than this number of inputs, or bytes of them, misses some.
 constexpr std::uint32_t kMostInputs = 20000;
 constexpr std::size_t kMostBytes = 32'000'000;
-
-/// Whether neither ROS nor a signal has ended the program.
-bool isWanted() {
-  return ros::ok() && interruption() == 0;
-}
-
-/// Unlike ros::Time, it differs for each run, also with use_sim_time.
-ros::Time wallClock() {
-  const ros::WallTime now = ros::WallTime::now();
-  return {now.sec, now.nsec};
-}
 
 }  // namespace
 
@@ -49,7 +41,8 @@ Node::Node(Scenario scenario, NodeOptions options, const Scene& scene)
                                              [this](const ros::SingleSubscriberPublisher& late) {
                                                for (const auto& input : sent_) late.publish(input);
                                              })),
-      input_log_(options_.displayInterval(), wallClock(),
+      // Unlike ros::Time, the wall clock differs for each run, also with use_sim_time.
+      input_log_(options_.displayInterval(), ros::Time().fromNSec(ros::WallTime::now().toNSec()),
                  [this](const PendulumInput& input) { record(input); }),
       driver_(run_, &input_log_),
       frames_(options_.frame_id),
@@ -67,17 +60,16 @@ void Node::record(PendulumInput input) {
   if (sent_.size() < kMostInputs && sent_bytes_ < kMostBytes) sent_.push_back(std::move(input));
 }
 
-void Node::spin() {
+int Node::spin() {
   logStart();
   run_.advance();
   input_log_.started(run_, run_.time());
-  catchInterruptions();  // from now on ROS continues after a signal until the files are closed
   waitForSubscribers();
   pacer_.start(run_.time(), ros::SteadyTime::now());
   finishState();
-  while (isWanted() && !isAtExit()) {
+  while (interruption() == 0 && !(run_.isOver() && options_.at_end == AtEnd::kExit)) {
     serve();
-    if (!isWanted()) break;
+    if (interruption() != 0) break;
     if (isDue()) {
       advance();
     } else if ((run_.isOver() || paused_) && ros::SteadyTime::now() >= show_at_) {
@@ -86,6 +78,7 @@ void Node::spin() {
     }
   }
   end();
+  return run_.verdict().kind == VerdictKind::kDiverged ? kDiverged : kDone;
 }
 
 void Node::waitForSubscribers() {
@@ -97,11 +90,12 @@ void Node::waitForSubscribers() {
   const double timeout = options_.wait_timeout > 0.0 ? options_.wait_timeout : kLongestWait;
   const ros::SteadyTime end =
       ros::SteadyTime::now() + ros::WallDuration(std::min(timeout, kLongestWait));
-  while (isWanted() && publisher_.subscribers() < wanted) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPollInterval));
+  while (interruption() == 0 && publisher_.subscribers() < wanted) {
+    callBack(kPollInterval);
     if (ros::SteadyTime::now() < end) continue;
-    ROS_WARN("only %ld of %ld subscribers after %.6g s (wait_timeout): starting anyway",
-             static_cast<long>(publisher_.subscribers()), static_cast<long>(wanted), timeout);
+    ROS_WARN_STREAM(
+        fmt::format("only {} of {} subscribers after {:.6g} s (wait_timeout): starting anyway",
+                    publisher_.subscribers(), wanted, timeout));
     return;
   }
 }
@@ -111,17 +105,18 @@ void Node::end() {
   input_log_.ended(run_);
   files_.finish();
   // The line of a run that did not reach its end, or continued after it.
-  if (logged_.frames != run_.shownFrames()) logInfo(closingLine());
-  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(kLastMessages);
-  while (isWanted() && ros::SteadyTime::now() < end) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1 * kLastMessages));
-  }
+  if (logged_.frames != run_.shownFrames()) ROS_INFO_STREAM(closingLine());
+  const auto wait = [this](double least, double most) {
+    const int before = interruption();
+    const ros::SteadyTime start = ros::SteadyTime::now();
+    const auto lasts = [&](double s) { return (ros::SteadyTime::now() - start).toSec() < s; };
+    while ((lasts(least) || (publisher_.isSending() && lasts(most))) && interruption() == before) {
+      callBack(kPollInterval);
+    }
+  };
+  if (interruption() == 0) wait(kLastMessages, kLongestSending);
   publisher_.clear();
-  if (ros::ok()) ros::WallDuration(0.2 * kLastMessages).sleep();
-}
-
-bool Node::isAtExit() const {
-  return run_.isOver() && options_.at_end == AtEnd::kExit;
+  wait(0.2 * kLastMessages, kLastMessages);
 }
 
 bool Node::isDue() const {
@@ -131,16 +126,20 @@ bool Node::isDue() const {
 }
 
 void Node::serve() {
-  auto* callbacks = ros::getGlobalCallbackQueue();
-  callbacks->callAvailable();
-  if (isDue() || isAtExit()) return;
-  double wait = kLongestService;
-  if (run_.isOver() || paused_) {
-    wait = std::min(wait, (show_at_ - ros::SteadyTime::now()).toSec());
-  } else {
-    wait = std::min(wait, (pacer_.dueTime(run_.nextTime()) - ros::SteadyTime::now()).toSec());
+  callBack(0.0);
+  if (isDue()) return;
+  const bool stands = run_.isOver() || paused_;
+  const ros::SteadyTime next = stands ? show_at_ : pacer_.dueTime(run_.nextTime());
+  const double wait = (next - ros::SteadyTime::now()).toSec();
+  if (wait > 0.0) callBack(std::min(wait, kLongestService));
+}
+
+void Node::callBack(double wait) {
+  try {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait));
+  } catch (const std::exception& error) {  // of interactive_markers, if the clock is beyond 2^31 s
+    if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }
-  if (wait > 0.0) callbacks->callAvailable(ros::WallDuration(wait));
 }
 
 void Node::advance() {
@@ -196,14 +195,51 @@ void Node::finishState() {
 
 void Node::show() {
   show_at_ = ros::SteadyTime::now() + ros::WallDuration(kShowAgainInterval);
-  publisher_.freezeCamera(handles_.isDragging());  // it must not move under the mouse
   const bool is_due = paused_ || run_.isOver() || pacer_.isShown(run_.time());
-  const auto header = publisher_.publish(run_, {paused_, is_due});
+  const auto header = publisher_.publish(run_, {paused_, is_due, handles_.isDragging()});
   if (header && run_.isFinite()) {
     handles_.show();
     robots_.show(*header);
   }
   logChanges();
+}
+
+void Node::logStart() const {
+  const std::string& method = run_.plan().method.get().name;
+  ROS_INFO_STREAM(method << " on " << fullPath(scenario_.particles) << ", "
+                         << files_.description());
+  const Remarks remarks = remarksOn(run_);
+  if (!remarks.warning.empty()) ROS_WARN_STREAM(remarks.warning);
+  for (const std::string& note : remarks.notes) ROS_INFO_STREAM(note);
+}
+
+std::string Node::closingLine() const {
+  return run_.closingLine(fmt::format("{}, {}", files_.closingText(), publisher_.numbers()));
+}
+
+void Node::logChanges() {
+  const Verdict& verdict = run_.verdict();
+  const std::string& method = run_.plan().method.get().name;
+  if (verdict.kind > logged_.verdict) {
+    logged_.verdict = verdict.kind;
+    if (verdict.kind == VerdictKind::kDiverged) {
+      ROS_ERROR_STREAM(method << ": " << outcomeOf(run_, interruption).lines.front()
+                              << (run_.isChanged() ? "; call ~reset to start again" : ""));
+    } else if (verdict.kind != VerdictKind::kNotChecked) {
+      ROS_WARN_STREAM(method << ": " << verdict.text);
+    }
+  }
+  if (std::string remark = run_.toleranceRemark();
+      remark.size() > logged_.tolerance_remark.size()) {
+    ROS_WARN_STREAM(method << ": " << remark);
+    logged_.tolerance_remark = std::move(remark);
+  }
+  if (!run_.isOver() || logged_.frames != 0) return;
+  logged_.frames = run_.shownFrames();
+  ROS_INFO_STREAM(closingLine());
+  if (options_.at_end == AtEnd::kHold) {
+    ROS_INFO_STREAM(method << ": the last frame stays shown until Ctrl-C (at_end: hold)");
+  }
 }
 
 }  // namespace spring_pendulum

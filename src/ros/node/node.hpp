@@ -15,19 +15,16 @@
 
 namespace spring_pendulum {
 
-/// Logs one line. Once ROS has shut down, its log no longer prints: then on standard error.
-void logInfo(const std::string& text);
-void logFatal(const std::string& text);
-
 class Node {
  public:
   /// Removes the frames of earlier runs.
   /// \throws InputError, FileError before that for a run that is impossible
   Node(Scenario scenario, NodeOptions options, const Scene& scene);
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
 
-  /// Runs until the end of the run, of ROS, or a signal.
-  void spin();
-  const Run& run() const { return run_; }
+  /// Runs until the end of the run, or a signal. \returns the exit status
+  int spin();
 
  private:
   /// What was logged since the start or the last reset.
@@ -53,8 +50,9 @@ class Node {
 
   void waitForSubscribers();
   bool isDue() const;
-  bool isAtExit() const;
   void serve();
+  /// Calls what has come in, or waits this number of seconds for it.
+  void callBack(double wait);
   void advance();
   void change(double next_time, bool paused);
   void goTo(const Scene* to);

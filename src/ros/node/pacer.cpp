@@ -5,8 +5,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kLateness = 0.1;         // s, largest delay that the run makes up for
-constexpr double kLongestDuration = 1e9;  // s; ros::Duration has 32 bits for seconds
+constexpr double kLateness = 0.1;  // s, largest delay that the run makes up for
 
 }  // namespace
 
@@ -18,8 +17,8 @@ void Pacer::start(double simulated_time, ros::SteadyTime now) {
 
 ros::SteadyTime Pacer::dueTime(double simulated_time) const {
   if (factor_ <= 0.0) return start_;
-  return start_ + ros::WallDuration(
-                      std::min((simulated_time - start_simulated_) / factor_, kLongestDuration));
+  return start_ +
+         ros::WallDuration(std::min((simulated_time - start_simulated_) / factor_, kLongestWait));
 }
 
 bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {

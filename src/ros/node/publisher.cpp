@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ros/topic_manager.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
@@ -19,10 +20,19 @@ std::uint32_t queueLength(std::int64_t message_bytes) {
       std::clamp<std::int64_t>(kQueueBytes / message_bytes, 2, kLongestQueue));
 }
 
+/// Publishes a message, and returns its bytes.
+template <typename Message>
+ros::SerializedMessage send(const ros::Publisher& topic, const Message& message) {
+  ros::SerializedMessage bytes;
+  const auto serialize = [&message] { return ros::serialization::serializeMessage(message); };
+  ros::TopicManager::instance()->publish(topic.getTopic(), serialize, bytes);
+  return bytes;
+}
+
 }  // namespace
 
 Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options)
-    : publishes_clock_(options.publish_clock), messages_(run, options, options.publish_clock) {
+    : messages_(run, options, options.publish_clock) {
   const std::int64_t particles = run.chain().size();
   const std::int64_t state_bytes = 1024 + 48 * particles;
   const std::int64_t marker_bytes = 4096 + 128 * std::min(particles, options.display_limit);
@@ -32,7 +42,7 @@ Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& o
   if (!options.camera_frame.empty()) {
     tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
   }
-  if (publishes_clock_) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  if (options.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
 }
 
 std::int64_t Publisher::subscribers() const {
@@ -44,18 +54,18 @@ std::optional<std_msgs::Header> Publisher::publish(const Run& run, Showing showi
   showing.wants_state = isSubscribed(state_);
   const std::optional<StateMessages> messages = messages_.build(run, showing);
   if (!messages) return std::nullopt;
-  if (publishes_clock_) {
+  if (clock_ != nullptr) {
     rosgraph_msgs::Clock clock;
     clock.clock = messages->header.stamp;
     clock_.publish(clock);
   }
   if (messages->camera) tf_static_.publish(*messages->camera);
   if (messages->markers != nullptr) {
-    markers_.publish(*messages->markers);
+    last_markers_ = send(markers_, *messages->markers);
     ++markers_built_;
   }
   if (messages->state != nullptr) {
-    state_.publish(*messages->state);
+    last_state_ = send(state_, *messages->state);
     ++states_built_;
   }
   if (messages->status) status_.publish(*messages->status);
@@ -76,7 +86,7 @@ void Publisher::clear() {
   nothing.markers.resize(1);
   nothing.markers.front().header = messages_.header(0.0);
   nothing.markers.front().action = visualization_msgs::Marker::DELETEALL;
-  markers_.publish(nothing);
+  last_markers_ = send(markers_, nothing);
 }
 
 std::string Publisher::numbers() const {

@@ -19,14 +19,17 @@ class Publisher {
   std::int64_t subscribers() const;
   /// Whether a topic that shows states between the frames has subscribers.
   bool isWatched() const {
-    return publishes_clock_ || isSubscribed(markers_) || isSubscribed(state_);
+    return clock_ != nullptr || isSubscribed(markers_) || isSubscribed(state_);
   }
-  void freezeCamera(bool freeze) { messages_.freezeCamera(freeze); }
   /// Publishes the messages about the current state.
   /// \returns their header; nothing if the state is not due
   std::optional<std_msgs::Header> publish(const Run& run, Showing showing);
   /// Publishes the status of a node that waits for subscribers.
   void publishWaiting(const std::string& text);
+  /// Whether a subscriber has yet to get the last markers or state.
+  bool isSending() const {
+    return last_markers_.buf.use_count() > 1 || last_state_.buf.use_count() > 1;
+  }
   /// Removes the markers from rviz, which keeps them when the node has ended.
   void clear();
   /// Returns for the closing line: "12 marker and 30 state messages built".
@@ -35,10 +38,10 @@ class Publisher {
  private:
   static bool isSubscribed(const ros::Publisher& topic) { return topic.getNumSubscribers() > 0; }
 
-  bool publishes_clock_;
   RunMessages messages_;
   std::int64_t markers_built_ = 0;
   std::int64_t states_built_ = 0;
+  ros::SerializedMessage last_markers_, last_state_;  ///< shared with ROS until they are sent
   ros::Publisher markers_;
   ros::Publisher state_;
   ros::Publisher status_;

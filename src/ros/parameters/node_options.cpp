@@ -1,10 +1,16 @@
 #include "ros/parameters/node_options.hpp"
 
+#include "base/numbers.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <ros/master.h>
 #include <ros/names.h>
+#include <ros/param.h>
+#include <ros/this_node.h>
 
 #include <regex>
 
@@ -19,13 +25,36 @@ bool isColor(std::string_view text) {
   return std::regex_match(std::string(text), std::regex("|#[0-9a-fA-F]{6}"));
 }
 
-}  // namespace
+using XmlRpc::XmlRpcValue;
 
-bool isTopicName(std::string_view text) {
-  std::string reason;
-  const bool is_private = !text.empty() && text.front() == '~';
-  return !is_private && ros::names::validate(std::string(text), reason);
+/// ROS reads 0042 as the number 42: such a value is not the text that was written.
+void refuseGuess(XmlRpcValue& value, const std::string& text, const Option& option,
+                 const std::string& place) {
+  const bool is_text = value.getType() == XmlRpcValue::TypeString;
+  // A particle is a number.
+  if (is_text || !std::holds_alternative<Text>(option.value) || option.key == "held") return;
+  throw InputError(fmt::format(
+      "{}: must be text, but ROS has read it as the {} {}; write _{}:=./NAME for a file, "
+      "type=\"str\" in a launch file, or quotes in YAML",
+      place, value.getType() == XmlRpcValue::TypeBoolean ? "truth value" : "number", text,
+      option.key));
 }
+
+void set(OptionSet& options, XmlRpcValue& parameters, const std::string& node) {
+  for (auto& [key, value] : parameters) {
+    const std::string place = fmt::format("{}: {}", node, key);
+    const Option& option = options.find(key, node);
+    const std::string text = parameterText(value, place);
+    refuseGuess(value, text, option, place);
+    if (key == "output" && text.empty()) {  // a launch file can't omit a parameter
+      options.set(options.find("no_frames", node), "true", place);
+    } else {
+      options.set(option, text, place);
+    }
+  }
+}
+
+}  // namespace
 
 std::vector<Option> displayOptions(NodeOptions& o) {
   return {
@@ -35,8 +64,7 @@ std::vector<Option> displayOptions(NodeOptions& o) {
        "", "tf frame of all messages; the chain moves in its x-z plane"},
       {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
        "states published per second on average, also between frames; the frame files do not "
-       "change; "
-       "0: frames only"},
+       "change; 0: frames only"},
       {"track_dissipation", Flag{&o.track_dissipation}, "",
        "always integrate the dissipated energy; false: only where it is cheap, as in Exercise3"},
       {"color",
@@ -73,6 +101,60 @@ void checkNodeOptions(const NodeOptions& options) {
   if (options.camera_frame == options.frame_id) {
     throw InputError(fmt::format("camera_frame: must not be frame_id, '{}'", options.frame_id));
   }
+}
+
+OptionSet nodeOptions(NodeConfiguration& configuration) {
+  OptionSet options(scenarioOptions(configuration.scenario));
+  options.add(displayOptions(configuration.options));
+  options.add(playOptions(configuration.options));
+  return options;
+}
+
+std::string parameterText(XmlRpcValue& value, const std::string& place) {
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "true" : "false";
+    case XmlRpcValue::TypeInt:
+      return fmt::format("{}", static_cast<int>(value));
+    case XmlRpcValue::TypeDouble:
+      return numberText(static_cast<double>(value));
+    case XmlRpcValue::TypeString:
+      return static_cast<std::string>(value);
+    default:
+      throw InputError(
+          fmt::format("{}: must be a single value, got a list, a map or binary data", place));
+  }
+}
+
+NodeConfiguration readPrivateParameters() {
+  // ros::param::get alone does not tell a node without parameters from a master that is gone.
+  const std::string& node = ros::this_node::getName();
+  XmlRpcValue request, response, exist, parameters;
+  request[0] = request[1] = node;
+  const auto read = [&] {
+    return ros::master::execute("hasParam", request, response, exist, false) &&
+           (!static_cast<bool>(exist) || ros::param::get(node, parameters));
+  };
+  for (int calls = 1; !read(); ++calls) {
+    if (calls < 2) continue;  // a signal interrupts a call; it ends the node later
+    throw FileError(
+        fmt::format("{}: the ROS master at {} did not answer when the parameters were read", node,
+                    ros::master::getURI()));
+  }
+  NodeConfiguration configuration;
+  OptionSet options = nodeOptions(configuration);
+  try {
+    if (parameters.getType() == XmlRpcValue::TypeStruct) set(options, parameters, node);
+    checkScenario(configuration.scenario);
+    checkNodeOptions(configuration.options);
+  } catch (const InputError& error) {  // parameters of an earlier run stay on the ROS master
+    throw InputError(
+        fmt::format("{}. If an earlier run has left this parameter, delete it: rosparam delete {}",
+                    error.what(), node));
+  }
+  configuration.unused =
+      fmt::format("{}", fmt::join(unusedKeys(configuration.scenario, options), ", "));
+  return configuration;
 }
 
 }  // namespace spring_pendulum

@@ -37,9 +37,6 @@ struct NodeOptions {
   }
 };
 
-/// Whether ROS accepts a topic or namespace of this name; it may be empty.
-bool isTopicName(std::string_view text);
-
 /// Display options, which the node and record_bag share. Bound to `options`.
 std::vector<Option> displayOptions(NodeOptions& options);
 
@@ -51,9 +48,7 @@ void checkNodeOptions(const NodeOptions& options);
 
 /// What the private parameters of the node say.
 struct NodeConfiguration {
-  NodeConfiguration() {
-    scenario.output.clear();
-  }  // a node that shows writes frames on request only
+  NodeConfiguration() { scenario.output.clear(); }  ///< frames are written on request only
 
   Scenario scenario;
   NodeOptions options;

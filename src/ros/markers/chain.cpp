@@ -1,3 +1,4 @@
+// The chain: springs, particles and the anchor.
 #include "ros/markers/picture.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
 
@@ -24,6 +25,12 @@ std_msgs::ColorRGBA strainColor(double strain) {
   return mix(colorOf(0xf2f2f2), strain < 0.0 ? colorOf(0x2f7bff) : stretched, std::abs(strain));
 }
 
+std_msgs::ColorRGBA massColor(double mass, double lightest, double heaviest) {
+  const double span = std::log(heaviest / lightest);
+  return mix(colorOf(0xffe28a), colorOf(0xb04bff),
+             span > 0.0 ? std::log(mass / lightest) / span : 0.0);
+}
+
 }  // namespace
 
 void drawSprings(const Picture& picture, Marker& springs) {
@@ -48,7 +55,34 @@ void drawSprings(const Picture& picture, Marker& springs) {
       }
     }
   }
-  if (picture.isDiverged()) springs.colors.assign(springs.points.size(), colorOf(kDivergedColor));
+}
+
+void drawParticles(const Picture& picture, Marker& particles) {
+  const Chain& chain = picture.run.chain();
+  setScale(particles, picture.diameter());
+  particles.pose.position.y = picture.chainsInFront() * picture.depth();
+  if (picture.isDrawable()) {
+    particles.points.clear();
+    particles.colors.clear();
+    const auto moving = chain.masses().tail(chain.size() - 1).array();
+    const double lightest = moving.minCoeff(), heaviest = moving.maxCoeff();
+    for (const Eigen::Index i : picture.drawn) {
+      particles.points.push_back(pointOf(picture.run.state(), i));
+      const double mass = i > 0 ? chain.masses()[i] : lightest;
+      particles.colors.push_back(i > 0 && chain.isHeld(i) ? colorOf(kHeldColor)
+                                 : !picture.options.color.empty()
+                                     ? mix(colorOf(picture.options.color), colorOf(0xffffff), 0.5)
+                                     : massColor(mass, lightest, heaviest));
+    }
+  }
+}
+
+void drawAnchor(const Picture& picture, Marker& anchor) {
+  setScale(anchor, 1.5 * picture.diameter());
+  anchor.scale.y = 0.01 * picture.diameter();  // flat: its underside would be black
+  anchor.color = colorOf(kHeldColor);
+  if (picture.run.isFinite())
+    anchor.pose.position = pointOf(picture.run.state(), 0, -picture.depth());
 }
 
 }  // namespace spring_pendulum
