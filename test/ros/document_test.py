@@ -30,15 +30,6 @@ def names_in_table(heading):
     return {name.replace('~', '/pendulum/') if name[0] in '/~' else '/' + name for name in names}
 
 
-def publish_transforms(places):
-    """Publishes the frames with positions that `places` returns, 50 times per second."""
-    publisher = rospy.Publisher('/tf', TFMessage, queue_size=10)
-
-    def publish(_):
-        publisher.publish(TFMessage([transform(frame, *place) for frame, place in places(rospy.get_time()).items()]))
-    return rospy.Timer(rospy.Duration(0.02), publish)
-
-
 class Document(NodeTest):
 
     def test_it_names_every_topic_and_service(self):
@@ -63,7 +54,9 @@ class Document(NodeTest):
         recipe = re.search('```xml\n(.*?)```', document(), re.S).group(1)
         self.assertLessEqual(recipe.count('\n'), 10)
         wrench = self.listen('held_11/wrench', WrenchStamped)
-        timer = publish_transforms(lambda t: {'left_gripper': (0.3 * math.sin(t), 0.0), 'right_gripper': (8.0, 1.0)})
+        tf = rospy.Publisher('/tf', TFMessage, queue_size=10)
+        timer = rospy.Timer(rospy.Duration(0.02), lambda _: tf.publish(TFMessage([
+            transform('left_gripper', 0.3 * math.sin(rospy.get_time())), transform('right_gripper', 8.0, 1.0)])))
         self.addCleanup(timer.shutdown)
         with Folder() as folder, \
                 running('roslaunch', write(folder + '/cable.launch', recipe), stdout=subprocess.DEVNULL,

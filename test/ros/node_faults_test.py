@@ -20,26 +20,19 @@ from pendulum_process import (HORIZONTAL, SCENE, Folder, Listener, PendulumNode,
                               run_exercise, running, wait_until, write)
 
 
-class MasterBetween:
-    """Passes all calls on to the master, after act(method, *arguments)."""
-
-    def __init__(self, act):
-        self.server = ThreadingXMLRPCServer(('127.0.0.1', 0), False)
-        self.server.register_instance(self)
-        self.act = act
-        self.uri = 'http://127.0.0.1:%d' % self.server.server_address[1]
-
-    def _dispatch(self, method, arguments):
-        self.act(method, *arguments)
+@contextlib.contextmanager
+def master_between(act):
+    """The address of a server that passes all calls on to the master, after act(method, *arguments)."""
+    def pass_on(method, arguments):
+        act(method, *arguments)
         return getattr(ServerProxy(os.environ['ROS_MASTER_URI']), method)(*arguments)
-
-    def __enter__(self):
-        threading.Thread(target=self.server.serve_forever, daemon=True).start()
-        return self.uri
-
-    def __exit__(self, *_):
-        self.server.shutdown()
-        self.server.server_close()
+    with ThreadingXMLRPCServer(('127.0.0.1', 0), False) as server:
+        server._dispatch = pass_on
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            yield 'http://127.0.0.1:%d' % server.server_address[1]
+        finally:
+            server.shutdown()
 
 
 class Node(unittest.TestCase):
@@ -77,7 +70,7 @@ class Node(unittest.TestCase):
             def lose(*call):
                 if call == (lost, '/pendulum', '/pendulum'):
                     raise OSError('lost')
-            with MasterBetween(lose) as uri:
+            with master_between(lose) as uri:
                 node = ended_node(1, frames=2, env={'ROS_MASTER_URI': uri})
                 self.assertEqual(node.lines('FATAL'), ['[FATAL]: /pendulum: the ROS master at %s did not answer when '
                                                        'the parameters were read' % uri])
@@ -89,7 +82,7 @@ class Node(unittest.TestCase):
         def between(*call):
             calls.append(call)
             act(len(calls), wait_until(lambda: nodes, 'the node')[0], *call)
-        with MasterBetween(between) as uri, \
+        with master_between(between) as uri, \
                 PendulumNode(env={'ROS_MASTER_URI': uri}, held='1, last=gripper', **parameters) as node:
             nodes.append(node)
             node.ends()

@@ -3,7 +3,6 @@ import contextlib
 import os
 import re
 import resource
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -33,6 +32,7 @@ def project(path):
 
 SCENE = project('data/particle.txt')
 HORIZONTAL = project('data/horizontal_11.txt')
+Folder = tempfile.TemporaryDirectory  # with Folder() as path
 NO_MASTER = {'ROS_MASTER_URI': 'http://127.0.0.1:1'}
 
 
@@ -59,17 +59,6 @@ def total_computing_time():
     """The computing time of all ended children, s."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
-
-
-class Folder:
-    """A temporary folder: with Folder() as path."""
-
-    def __enter__(self):
-        self.path = tempfile.mkdtemp(prefix='pendulum_')
-        return self.path
-
-    def __exit__(self, *_):
-        shutil.rmtree(self.path)
 
 
 @contextlib.contextmanager
