@@ -5,7 +5,6 @@
 #include <spring_pendulum/simulation/outcome.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
-#include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <fmt/format.h>
 
@@ -170,9 +169,8 @@ py::tuple check(const py::object& particles, const py::dict& options) {
     report = checkStability(scene.chain(), scene.state, scenario, [&] { return interruption(); });
   }
   interruption.raise();
-  return py::make_tuple(report.text, report.tried ? tupleOf(report.verdict) : py::tuple(),
-                        report.tried ? report.position_error.largest : kNan, report.stable.step,
-                        report.accurate_step);
+  return py::make_tuple(report.text, report.verdict ? tupleOf(*report.verdict) : py::tuple(),
+                        report.position_error, report.stable.step, report.accurate_step);
 }
 
 }  // namespace

@@ -130,14 +130,12 @@ std::string word(const std::string& text) {
 std::string commandLine(const Scenario& scenario) {
   Scenario copy = scenario, defaults;
   const std::vector<Option> options = scenarioOptions(copy), by_default = scenarioOptions(defaults);
-  const AppliesTo other =
-      scenario.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
   std::string text =
       fmt::format("Exercise3 {} {}", scenario.method.get().name, word(scenario.particles));
   for (std::size_t i = 0; i < options.size(); ++i) {
     const Option& option = options[i];
-    if (option.key == "method" || option.key == "particles" || option.applies_to == other) continue;
-    if (option.text() == by_default[i].text()) continue;
+    if (option.key == "method" || option.key == "particles") continue;
+    if (!option.isUsedBy(scenario.method) || option.text() == by_default[i].text()) continue;
     std::string name(option.key);
     std::replace(name.begin(), name.end(), '_', '-');
     text += " --" + name + (option.isFlag() ? "" : " " + word(option.text()));

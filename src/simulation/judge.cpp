@@ -20,77 +20,25 @@ constexpr double kPromise = 10.0;
 /// The least energy scale is that of all springs stretched by this share of their length.
 constexpr double kLeastStretch = 1e-6;
 
-/// Returns the first particle that is not finite, counted from 1; 0 if all are finite.
-Eigen::Index firstNotFinite(const State& state) {
+/// Names the particle that is not finite or, if all are, the one with the most kinetic energy, where a
+/// divergence shows first.
+Verdict diverged(const EnergyEntry& entry, const Chain& chain, const State& state) {
+  const double time = entry.time;
   for (Eigen::Index i = 0; i < state.size(); ++i) {
-    if (!state.values().row(i).allFinite()) return i + 1;
+    if (state.values().row(i).allFinite()) continue;
+    return {VerdictKind::kDiverged, time, i + 1,
+            fmt::format("diverged at t = {:.6g} s: particle {} is no longer a finite number", time,
+                        i + 1)};
   }
-  return 0;
-}
-
-/// Returns the particle with the most kinetic energy, where a divergence shows first; counted
-/// from 1.
-Eigen::Index mostEnergetic(const Chain& chain, const State& state) {
   const Eigen::Index moving = chain.size() - 1;
   const auto speeds_squared = state.velocities().bottomRows(moving).rowwise().squaredNorm();
   Eigen::Index most = 0;
   speeds_squared.cwiseProduct(chain.masses().tail(moving)).maxCoeff(&most);
-  return most + 2;
-}
-
-std::string divergedText(const EnergyEntry& entry) {
-  return fmt::format(
-      "diverged at t = {:.6g} s: energy up by {:.3g} J, {:.3g} times the energy scale", entry.time,
-      entry.gain, entry.relative_gain);
-}
-
-/// Names the particle of a divergence.
-void locate(Verdict& verdict, const Chain& chain, const State& state) {
-  verdict.particle = firstNotFinite(state);
-  if (verdict.particle > 0) {
-    verdict.text = fmt::format("diverged at t = {:.6g} s: particle {} is no longer a finite number",
-                               verdict.time, verdict.particle);
-    return;
-  }
-  verdict.particle = mostEnergetic(chain, state);
-  verdict.text += fmt::format(", most of it in particle {}", verdict.particle);
-}
-
-std::string gainedEnergyText(const EnergyEntry& entry) {
-  return fmt::format(
-      "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy scale, "
-      "although {}",
-      entry.gain, entry.time, 100.0 * entry.relative_gain,
-      entry.supplied == 0.0 ? "no force drives the chain"
-                            : "the energy supplied to the chain is counted");
-}
-
-std::string driftText(const EnergyEntry& entry) {
-  return fmt::format(
-      "drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of the energy scale",
-      *entry.residual, entry.time, 100.0 * *entry.relative_residual);
-}
-
-Verdict notMeasured(double time, const ReferenceRun* reference) {
-  if (reference == nullptr) {
-    return {VerdictKind::kNotChecked, time, 0, "not checked: no reference run"};
-  }
-  if (reference->status() == ReferenceRun::Status::kSensitive) {
-    return {VerdictKind::kSensitive, time, 0,
-            fmt::format("sensitive from t = {:.6g} s on: small errors grow so much that the true "
-                        "positions cannot be determined",
-                        time)};
-  }
-  constexpr std::string_view kReasons[] = {
-      "",  // measuring
-      "a reference run would cost more than the run itself",
-      "",  // sensitive
-      "positions are so large that their rounding errors matter; start nearer to the origin",
-      "the reference run diverged",
-      "the chain was driven or changed, and the reference run does not follow"};
-  return {VerdictKind::kNotChecked, time, 0,
-          fmt::format("not checked from t = {:.6g} s on: {}", time,
-                      kReasons[static_cast<int>(reference->status())])};
+  return {
+      VerdictKind::kDiverged, time, most + 2,
+      fmt::format("diverged at t = {:.6g} s: energy up by {:.3g} J, {:.3g} times the energy scale, "
+                  "most of it in particle {}",
+                  time, entry.gain, entry.relative_gain, most + 2)};
 }
 
 }  // namespace
@@ -182,41 +130,40 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference, double supplied) {
   Verdict verdict = energyVerdict(time, state, dissipated, supplied);
-  measure(state, verdict.kind == VerdictKind::kDiverged ? nullptr : reference);
-  if (verdict.kind == VerdictKind::kDrift && hasEnergyOf(reference))
-    verdict.kind = VerdictKind::kOk;
-  if (verdict.kind == VerdictKind::kOk && reference == nullptr &&
-      latest_.kind == VerdictKind::kNotChecked) {
-    latest_.time = time;  // the same text again
-    return latest_;
+  const bool is_measuring = reference != nullptr && reference->isMeasuring();
+  measure(state, is_measuring && verdict.kind != VerdictKind::kDiverged ? reference : nullptr);
+  if (verdict.kind == VerdictKind::kDrift && is_measuring) {
+    // In a stiff transient, the dissipated energy can be wrong although the state is right.
+    const double truth = computeEnergy(chain_, *reference->state()).total();
+    const double error = std::abs(entry_.energy.total() - truth);
+    if (error <= kDriftThreshold * scale(time)) verdict.kind = VerdictKind::kOk;
   }
-  if (verdict.kind == VerdictKind::kOk) verdict = positionVerdict(reference);
-  return remember(std::move(verdict));
+  // What ended the measurement is said once.
+  const bool has_news = is_measuring || worst_.kind == VerdictKind::kOk;
+  if (verdict.kind == VerdictKind::kOk && has_news) verdict = positionVerdict(reference);
+  latest_ = std::move(verdict);
+  if (latest_.kind > worst_.kind || worst_.kind == VerdictKind::kOk) worst_ = latest_;
+  return latest_;
 }
 
 void Judge::measure(const State& state, const ReferenceRun* reference) {
   PositionError& error = position_error_;
   error.now = error.uncertainty = PositionError{}.now;
-  if (reference == nullptr || !reference->isMeasuring()) return;
+  if (reference == nullptr) return;
   error.now = reference->errorOf(state);
   error.uncertainty = reference->uncertainty();
   error.measured_until = entry_.time;
   error.bound = std::fmax(error.bound, error.now + error.uncertainty);
-  noteTolerance(*reference);
+  const double promise = kPromise * options_.tolerance;
+  const bool unknown = error.uncertainty > promise;
+  if (promise > 0.0 && sensitive_time_ == 0.0 && (unknown || !(error.now <= promise))) {
+    const bool is_sensitive = unknown || reference->isSensitive();
+    if (is_sensitive) sensitive_time_ = entry_.time;
+    if (!is_sensitive && exceeded_time_ == 0.0) exceeded_time_ = entry_.time;
+  }
   if (error.now <= error.largest) return;
   error.largest = error.now;
   error.largest_time = entry_.time;
-}
-
-void Judge::noteTolerance(const ReferenceRun& reference) {
-  if (options_.tolerance == 0.0 || sensitive_time_ > 0.0) return;
-  const bool unknown = position_error_.uncertainty > kPromise * options_.tolerance;
-  if (!unknown && position_error_.now <= kPromise * options_.tolerance) return;
-  if (unknown || reference.isSensitive()) {
-    sensitive_time_ = entry_.time;
-  } else if (exceeded_time_ == 0.0) {
-    exceeded_time_ = entry_.time;
-  }
 }
 
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
@@ -227,9 +174,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
   double allowance = tolerated > 0.0 ? tolerated / scale(time) : 0.0;
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
-    Verdict verdict{VerdictKind::kDiverged, time, 0, divergedText(entry_)};
-    locate(verdict, chain_, state);
-    return verdict;
+    return diverged(entry_, chain_, state);
   }
   double gain = entry_.relative_gain;
   double residual = entry_.relative_residual.value_or(0.0);
@@ -246,24 +191,34 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
     allowance += elapsed > 0.0 ? options_.symplectic_step / elapsed : 0.0;
   }
   if (gain > kGainThreshold + allowance) {
-    return {VerdictKind::kGainedEnergy, time, 0, gainedEnergyText(entry_)};
+    return {VerdictKind::kGainedEnergy, time, 0,
+            fmt::format(
+                "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy "
+                "scale, although {}",
+                entry_.gain, time, 100.0 * entry_.relative_gain,
+                supplied == 0.0 ? "no force drives the chain"
+                                : "the energy supplied to the chain is counted")};
   }
   if (!(std::abs(residual) <= kDriftThreshold + allowance)) {
-    return {VerdictKind::kDrift, time, 0, driftText(entry_)};
+    return {
+        VerdictKind::kDrift, time, 0,
+        fmt::format("drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of the "
+                    "energy scale",
+                    *entry_.residual, time, 100.0 * *entry_.relative_residual)};
   }
   return {VerdictKind::kOk, time, 0, "ok"};
 }
 
-// In a stiff transient, the dissipated energy can be wrong although the state is right.
-bool Judge::hasEnergyOf(const ReferenceRun* reference) const {
-  if (reference == nullptr || !reference->isMeasuring()) return false;
-  const double error = entry_.energy.total() - computeEnergy(chain_, *reference->state()).total();
-  return std::abs(error) <= kDriftThreshold * scale(entry_.time);
-}
-
 Verdict Judge::positionVerdict(const ReferenceRun* reference) const {
   const double time = entry_.time;
-  if (reference == nullptr || !reference->isMeasuring()) return notMeasured(time, reference);
+  if (reference == nullptr) {
+    return {VerdictKind::kNotChecked, time, 0, "not checked: no reference run"};
+  }
+  if (!reference->isMeasuring()) {
+    return {reference->verdict(), time, 0,
+            fmt::format("{} from t = {:.6g} s on: {}", toString(reference->verdict()), time,
+                        reference->reason())};
+  }
   const double error = position_error_.now, length = reference->length();
   if (error <= kInaccurateThreshold * length) return {VerdictKind::kOk, time, 0, "ok"};
   return {
@@ -276,12 +231,6 @@ Verdict Judge::positionVerdict(const ReferenceRun* reference) const {
 bool Judge::isShown(bool continues_after_divergence) const {
   return latest_.kind != VerdictKind::kDiverged ||
          (continues_after_divergence && std::isfinite(entry_.energy.total()));
-}
-
-const Verdict& Judge::remember(Verdict verdict) {
-  latest_ = std::move(verdict);
-  if (latest_.kind > worst_.kind || worst_.kind == VerdictKind::kOk) worst_ = latest_;
-  return latest_;
 }
 
 std::string Judge::measurements() const {
@@ -308,12 +257,13 @@ std::string Judge::toleranceRemark() const {
     text = fmt::format("the position error exceeds ten times the tolerance from t = {:.6g} s on",
                        exceeded_time_);
   }
-  if (sensitive_time_ == 0.0) return text;
-  if (!text.empty()) text += "; ";
-  return text + fmt::format(
-                    "sensitive from t = {:.6g} s on: small errors grow so much that no method can "
-                    "promise a tolerance of {:.3g} m",
-                    sensitive_time_, options_.tolerance);
+  if (sensitive_time_ > 0.0) {
+    text += fmt::format(
+        "{}sensitive from t = {:.6g} s on: small errors grow so much that no method can "
+        "promise a tolerance of {:.3g} m",
+        text.empty() ? "" : "; ", sensitive_time_, options_.tolerance);
+  }
+  return text;
 }
 
 }  // namespace spring_pendulum

@@ -83,29 +83,21 @@ class Judge {
   /// The energy balance of the last judged state.
   const EnergyEntry& entry() const { return entry_; }
   const PositionError& positionError() const { return position_error_; }
-  /// Whether the last judged frame may be shown: yes unless the motion has diverged; after a divergence
-  /// only if the run continues and the energy is finite.
+  /// As Run::isShown, for the last judged frame.
   bool isShown(bool continues_after_divergence) const;
   /// The first of the most severe verdicts so far: the verdict on the run.
   const Verdict& worst() const { return worst_; }
 
-  /// What was measured: "largest position error 0.00024 m at t = 9.8 s, energy balance not checked".
-  std::string measurements() const;
-  /// A line if the position error of an error-controlled method exceeds ten tolerances or cannot be
-  /// known to that; else empty.
-  std::string toleranceRemark() const;
+  std::string measurements() const;     ///< as Run::measurements
+  std::string toleranceRemark() const;  ///< as Run::toleranceRemark
 
  private:
   /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
   Energy energyOf(const State& state) const;
   void widenScale(const State& start, double energy);
   void measure(const State& state, const ReferenceRun* reference);
-  void noteTolerance(const ReferenceRun& reference);
   Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
-  /// Whether the last judged state has the energy of the reference.
-  bool hasEnergyOf(const ReferenceRun* reference) const;
   Verdict positionVerdict(const ReferenceRun* reference) const;
-  const Verdict& remember(Verdict verdict);
 
   Chain chain_;
   JudgeOptions options_;

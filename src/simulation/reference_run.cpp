@@ -32,6 +32,8 @@ constexpr double kRounding = 3e-14;
 /// scenes with tolerances above 1e-10 m: at most 0.34 while perturbations had grown up to 100 times; at
 /// least 0.3 in 99 % of 1031 runs that were over ten tolerances off after they had grown more.
 constexpr double kSensitiveError = 0.3;
+/// An uncertainty above this share of the length ends the measurement.
+constexpr double kBelieved = 1e-3;
 /// Least length to which errors are related, relative to the largest length of the chain so far.
 constexpr double kShareOfLength = 0.01;
 /// Growth of rounding errors above which the motion and not the rounding is to blame.
@@ -41,6 +43,8 @@ constexpr double kSensitiveGrowth = 100.0;
 constexpr double kFreeWork = 0.12;
 /// Longer chains are measured only on request, because a reference run would need much memory.
 constexpr Eigen::Index kMostParticles = 100'000;
+
+constexpr std::string_view kCostTooMuch = "a reference run would cost more than the run itself";
 
 /// Damping rates in 1/s above which stability can limit the steps of an explicit method, and above
 /// which an implicit method is cheaper.
@@ -86,38 +90,31 @@ double roundingOf(const State& state, double length) {
   return kRounding * std::max(state.positions().cwiseAbs().maxCoeff(), length);
 }
 
-ReferenceScales scalesOf(const Chain& chain, const State& start, double run_tolerance) {
-  const double length = chainLength(chain, start);
-  const double rounding = roundingOf(start, length);
-  double tolerance = std::min(kTolerance, kRelativeTolerance * length);
-  if (run_tolerance > 0.0) tolerance = std::min(tolerance, kToleranceShare * run_tolerance);
-  return {length, rounding, std::max(tolerance, rounding)};
-}
-
 }  // namespace
 
-ReferenceRun::ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options)
+ReferenceRun::ReferenceRun(const Chain& chain, const State& start, double run_tolerance,
+                           bool always)
     : chain_(chain),
-      scales_(scalesOf(chain, start, options.tolerance)),
-      free_work_(options.always ? std::numeric_limits<double>::infinity() : kFreeWork),
+      length_(chainLength(chain, start)),
+      rounding_(roundingOf(start, length_)),
+      tolerance_(std::min(kTolerance, kRelativeTolerance * length_)),
+      free_work_(always ? std::numeric_limits<double>::infinity() : kFreeWork),
       allowed_work_(free_work_),
-      uncertainty_(scales_.rounding) {
-  if (start.size() <= kMostParticles || options.always) {
-    start_ = start;
-  } else {
-    stop(Status::kCostTooMuch);
-  }
+      uncertainty_(rounding_) {
+  if (run_tolerance > 0.0) tolerance_ = std::min(tolerance_, kToleranceShare * run_tolerance);
+  tolerance_ = std::max(tolerance_, rounding_);
+  if (start.size() > kMostParticles && !always) stop(kCostTooMuch);
+  if (isMeasuring()) start_ = start;
 }
 
 bool ReferenceRun::advance(double time_step, std::int64_t steps,
                            const std::function<bool()>& stop) {
   if (!isMeasuring() || gave_up_ || chain_.size() < 2) return true;
   if (trajectories_.empty()) {
-    trajectories_.push_back(
-        {makeIntegrator("Auto", chain_, {scales_.tolerance, false, 1}), start_});
+    trajectories_.push_back({makeIntegrator("Auto", chain_, {tolerance_, false, 1}), start_});
     trajectories_.push_back({makeIntegrator(companionMethod(chain_), chain_,
-                                            {kCompanionTolerance * scales_.tolerance, false, 1}),
-                             moved(chain_, start_, scales_.rounding)});
+                                            {kCompanionTolerance * tolerance_, false, 1}),
+                             moved(chain_, start_, rounding_)});
   }
   bool stopped = false;
   const auto ends = [&] { return work() >= allowed_work_ || (stopped = stop && stop()); };
@@ -138,22 +135,26 @@ double ReferenceRun::work() const {
 // `advance` gave up inside the frame. So the parts do not matter.
 void ReferenceRun::measure(double run_work) {
   if (!isMeasuring() || trajectories_.empty()) return;
-  if (gave_up_ || work() >= allowed_work_) return stop(Status::kCostTooMuch);
+  if (gave_up_ || work() >= allowed_work_) return stop(kCostTooMuch);
   allowed_work_ = std::max(free_work_, run_work);
   distance_ = largestDistance(trajectories_[0].state, trajectories_[1].state);
-  if (std::isnan(distance_)) return stop(Status::kFailed);
-  scales_.length =
-      std::max(scales_.length, kShareOfLength * springLengths(*state(), 0, chain_.size() - 1));
-  scales_.rounding = std::max(scales_.rounding, roundingOf(*state(), scales_.length));
-  uncertainty_ = kSafety * distance_ + scales_.rounding;
-  const double believed = kBelieved * scales_.length;
+  if (std::isnan(distance_)) return stop("the reference run diverged");
+  length_ = std::max(length_, kShareOfLength * springLengths(*state(), 0, chain_.size() - 1));
+  rounding_ = std::max(rounding_, roundingOf(*state(), length_));
+  uncertainty_ = kSafety * distance_ + rounding_;
+  const double believed = kBelieved * length_;
   if (uncertainty_ <= believed) return;
-  stop(kSensitiveGrowth * scales_.rounding > believed ? Status::kRounded : Status::kSensitive);
+  if (kSensitiveGrowth * rounding_ > believed) {
+    return stop(
+        "positions are so large that their rounding errors matter; start nearer to the origin");
+  }
+  stop("small errors grow so much that the true positions cannot be determined",
+       VerdictKind::kSensitive);
 }
 
 bool ReferenceRun::isSensitive() const {
   // The start and the tolerance do not tell of coordinates that grow during the motion.
-  const double tolerance = std::max(scales_.tolerance, scales_.rounding);
+  const double tolerance = std::max(tolerance_, rounding_);
   return distance_ > kSensitiveError * kCompanionTolerance * tolerance;
 }
 
@@ -169,8 +170,9 @@ double ReferenceRun::errorOf(const State& state) const {
                               : largestDistance(state, *reference);
 }
 
-void ReferenceRun::stop(Status status) {
-  status_ = status;
+void ReferenceRun::stop(std::string_view reason, VerdictKind verdict) {
+  verdict_ = verdict;
+  reason_ = reason;
   uncertainty_ = std::numeric_limits<double>::quiet_NaN();
   work_at_stop_ = work();
   trajectories_.clear();

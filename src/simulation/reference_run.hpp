@@ -13,46 +13,25 @@
 #include <spring_pendulum/integration/integrator.hpp>
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
+#include <spring_pendulum/simulation/verdict.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace spring_pendulum {
 
-/// What the errors of a reference run are measured in, m.
-struct ReferenceScales {
-  double length;     ///< to which position errors are related
-  double rounding;   ///< smallest distance that can be resolved
-  double tolerance;  ///< of the reference
-};
-
-struct ReferenceOptions {
-  /// Tolerance in m of the measured run; 0 for a fixed-step method. The tolerance of the reference is
-  /// a thousandth of this, at most 1e-10 m.
-  double tolerance = 0.0;
-  /// Measure to the end, whatever the cost.
-  bool always = false;
-};
-
 class ReferenceRun {
  public:
-  enum class Status {
-    kMeasuring,
-    kCostTooMuch,  ///< stopped: the allowed work is used up
-    kSensitive,    ///< stopped: the trajectories separated, the true motion is not known
-    kRounded,      ///< stopped: the positions are too large to be resolved
-    kFailed,       ///< stopped: a trajectory diverged
-    kChanged       ///< stopped: the measured run was changed
-  };
-
-  /// An uncertainty above this share of `length()` ends the measurement.
-  static constexpr double kBelieved = 1e-3;
-
   /// Allocates the trajectories in the first `advance`.
+  /// \param run_tolerance of the measured run, m; 0 for a fixed-step method. The tolerance of the
+  ///   reference is a thousandth of this, at most 1e-10 m.
+  /// \param always measure to the end, whatever the cost
   /// \throws InputError if the size of the start is not that of the chain
-  ReferenceRun(const Chain& chain, const State& start, const ReferenceOptions& options = {});
+  ReferenceRun(const Chain& chain, const State& start, double run_tolerance = 0.0,
+               bool always = false);
 
   /// Advances the reference to the next frame or, in several calls, through parts of it; see
   /// Integrator::advance. Does nothing once the measurement has stopped.
@@ -70,18 +49,21 @@ class ReferenceRun {
   /// Work so far, s, see Integrator::work.
   double work() const;
 
-  /// Stops measuring, because the measured run is no longer that of the same chain.
-  void stopAtChange() { stop(Status::kChanged); }
+  /// Stops measuring.
+  void stop(std::string_view reason, VerdictKind verdict = VerdictKind::kNotChecked);
 
-  Status status() const { return status_; }
-  bool isMeasuring() const { return status_ == Status::kMeasuring; }
+  bool isMeasuring() const { return verdict_ == VerdictKind::kOk; }
+  /// After the measurement has stopped: `kSensitive` if the true motion is not known, else `kNotChecked`.
+  VerdictKind verdict() const { return verdict_; }
+  /// Why the measurement has stopped.
+  std::string_view reason() const { return reason_; }
 
   /// State of the reference at the time that `advance` has reached; null if it is not known.
   const State* state() const;
 
   /// Length to which position errors are related, m: `chainLength`, but at least a hundredth of the
   /// largest length of the reference at the measured frames (for particles that start close together).
-  double length() const { return scales_.length; }
+  double length() const { return length_; }
 
   /// Bound on the position error of the reference at the last frame, m; NaN after the measurement has
   /// stopped.
@@ -102,20 +84,20 @@ class ReferenceRun {
     State state;
   };
 
-  void stop(Status status);
-
   Chain chain_;
   State start_;
-  ReferenceScales scales_;  ///< at the last frame
-  double free_work_;        ///< s
-  double allowed_work_;     ///< until the next frame, s
-  bool gave_up_ = false;    ///< inside a frame
-  Status status_ = Status::kMeasuring;
-  double distance_ = 0.0;      ///< of the companion from the reference, m
-  double uncertainty_;         ///< m
-  double work_at_stop_ = 0.0;  ///< s
-  std::vector<Trajectory>
-      trajectories_;  ///< reference and companion; empty: not started or stopped
+  double length_;         ///< at the last frame, m
+  double rounding_;       ///< smallest distance that can be resolved at the last frame, m
+  double tolerance_;      ///< of the reference, m
+  double free_work_;      ///< s
+  double allowed_work_;   ///< until the next frame, s
+  bool gave_up_ = false;  ///< inside a frame
+  VerdictKind verdict_ = VerdictKind::kOk;
+  std::string_view reason_;
+  double distance_ = 0.0;                 ///< of the companion from the reference, m
+  double uncertainty_;                    ///< m
+  double work_at_stop_ = 0.0;             ///< s
+  std::vector<Trajectory> trajectories_;  ///< reference and companion; empty: not running
 };
 
 }  // namespace spring_pendulum

@@ -1,7 +1,9 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
 #include "base/stopwatch.hpp"
-#include "simulation/expected_cost.hpp"
+#include "integration/work.hpp"
+#include "model/chain_modes.hpp"
+#include "simulation/expected_memory.hpp"
 #include "simulation/judge.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
@@ -12,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace spring_pendulum {
 namespace {
@@ -28,8 +29,15 @@ constexpr std::int64_t kMostThreads = 1024;
 
 bool dissipationIsCheap(const Chain& chain, const Plan& plan) {
   const Method& method = plan.method;
-  if (method.hasFixedStep() && method.tableau != nullptr && chain.size() >= kLongChain) return true;
-  return expectedWork(plan, chain) <= kCheapWork;
+  const double evaluations =
+      static_cast<double>(plan.frames - 1) * static_cast<double>(plan.steps()) * method.stages;
+  if (method.hasFixedStep()) {
+    return (method.tableau != nullptr && chain.size() >= kLongChain) ||
+           evaluations * kFixedStepTime.of(chain.size()) <= kCheapWork;
+  }
+  // About twenty steps per second, and more if springs vibrate or stability limits the step size.
+  const double rate = 20.0 + 0.5 * fastestVibration(chain) + 0.1 * largestDampingRate(chain);
+  return rate * plan.step() * evaluations * kTaylorTime.of(chain.size()) <= kCheapWork;
 }
 
 /// Tolerance of an error-controlled method, m; 0 for fixed steps.
@@ -65,12 +73,6 @@ void keepFrames(Plan& plan, double interval) {
   plan.time_step = interval / static_cast<double>(plan.steps_per_frame);
 }
 
-const Plan& checked(const Plan& plan, std::int64_t first_frame) {
-  checkPlan(plan);
-  checkFirstFrame(plan, first_frame);
-  return plan;
-}
-
 /// Whether the speed of every particle is at most `tolerance` m/s, and its current acceleration
 /// changes the velocity by at most this in `duration` s, so that none is at a turning point.
 bool isAtRest(const Chain& chain, const State& state, double duration, double tolerance) {
@@ -79,14 +81,13 @@ bool isAtRest(const Chain& chain, const State& state, double duration, double to
   };
   PlaneVector<double> left{};
   for (Eigen::Index i = 0; i < state.size(); ++i) {
-    const bool free_end = i + 1 == state.size();
-    const auto right = free_end ? PlaneVector<double>{} : springForceOn(chain, state, i);
-    if (i > 0) {
-      const double gain = duration * chain.inverseMasses()[i];
-      const double gain_x = (right.x - left.x) * gain;
-      const double gain_y = (right.y - left.y) * gain - duration * chain.gravity();
-      if (exceeds(state.vx()[i], state.vy()[i]) || exceeds(gain_x, gain_y)) return false;
-    }
+    const auto right =
+        i + 1 == state.size() ? PlaneVector<double>{} : springForceOn(chain, state, i);
+    const double gain = duration * chain.inverseMasses()[i];
+    const double rise = (right.y - left.y) * gain - duration * chain.gravity();
+    const bool moves =
+        exceeds(state.vx()[i], state.vy()[i]) || exceeds((right.x - left.x) * gain, rise);
+    if (i > 0 && moves) return false;
     left = right;
   }
   return true;
@@ -95,7 +96,7 @@ bool isAtRest(const Chain& chain, const State& state, double duration, double to
 }  // namespace
 
 Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
-    : plan_(checked(plan, scene.frame)),
+    : plan_(plan),
       options_(options),
       chain_(scene.chain()),
       start_(scene.state),
@@ -103,6 +104,8 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
       state_(start_),
       track_dissipation_(chain_.isDissipative() &&
                          (options.track_dissipation || dissipationIsCheap(chain_, plan))) {
+  checkPlan(plan);
+  checkFirstFrame(plan, first_frame_);
   checkMemory(plan, chain_.size());
   if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
   divideFrames();
@@ -124,14 +127,6 @@ void Run::makeIntegrator() {
   const int threads = static_cast<int>(std::min(plan_.threads, kMostThreads));
   integrator_ = spring_pendulum::makeIntegrator(plan_.method, chain_,
                                                 {plan_.tolerance, track_dissipation_, threads});
-}
-
-bool Run::advance() {
-  return advanceTo(parts_);
-}
-
-bool Run::advancePart() {
-  return advanceTo(part_ + 1);
 }
 
 bool Run::advanceTo(std::int64_t part) {
@@ -166,17 +161,14 @@ bool Run::integrate(std::int64_t steps) {
 }
 
 bool Run::sleeps() {
-  if (isAtRest(chain_, state_, plan_.timeOfFrame(1), plan_.sleep)) {
-    asleep_ = true;
-    return true;
-  }
-  if (asleep_) {
+  const bool was_asleep = asleep_;
+  asleep_ = isAtRest(chain_, state_, plan_.timeOfFrame(1), plan_.sleep);
+  if (was_asleep && !asleep_) {
     // The integrator keeps data from before the sleep. Its restart also clears the dissipated energy.
     dissipated_before_ += integrator_->dissipatedEnergy();
     integrator_->restart();
-    asleep_ = false;
   }
-  return false;
+  return asleep_;
 }
 
 bool Run::advanceReference(std::int64_t steps) {
@@ -205,8 +197,8 @@ void Run::goTo(std::int64_t frame, const State& state) {
 void Run::begin(std::int64_t frame, const State& state) {
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_, frame));
   if (plan_.reference != ReferenceUse::kNever) {
-    const ReferenceOptions options{toleranceOf(plan_), plan_.reference == ReferenceUse::kAlways};
-    reference_ = std::make_unique<ReferenceRun>(chain_, state, options);
+    reference_ = std::make_unique<ReferenceRun>(chain_, state, toleranceOf(plan_),
+                                                plan_.reference == ReferenceUse::kAlways);
   }
   integrator_->restart();
   state_ = state;
@@ -247,7 +239,9 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   track_dissipation_ = knows_dissipation;
   changed_ = true;
   *judge_ = std::move(judge);
-  if (reference_) reference_->stopAtChange();
+  if (reference_) {
+    reference_->stop("the chain was driven or changed, and the reference run does not follow");
+  }
   if (other_control) divideFrames();
   dissipated_before_ = dissipated_;
   supplied_before_ = supplied_ = supplied;
@@ -287,8 +281,7 @@ EnergyEntry Run::energyEntry() const {
 
 PositionError Run::positionError() const {
   PositionError error = judge_->positionError();
-  if (isAtFrame()) return error;
-  error.now = reference_ ? reference_->errorOf(state_) : std::numeric_limits<double>::quiet_NaN();
+  if (!isAtFrame()) error.now = reference_ ? reference_->errorOf(state_) : PositionError{}.now;
   return error;
 }
 
@@ -313,9 +306,7 @@ std::string Run::closingLine(const std::string& output) const {
 
 std::int64_t Run::stepOfPart(std::int64_t part) const {
   // part * steps / parts without overflow of the product.
-  const std::int64_t quotient = steps_ / parts_;
-  const std::int64_t remainder = steps_ % parts_;
-  return part * quotient + part * remainder / parts_;
+  return part * (steps_ / parts_) + part * (steps_ % parts_) / parts_;
 }
 
 double Run::timeOfPart(std::int64_t part) const {

@@ -4,7 +4,7 @@
 #include "base/spelling.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
-#include <spring_pendulum/simulation/stability_advice.hpp>
+#include <spring_pendulum/simulation/outcome.hpp>
 
 #include <fmt/format.h>
 

@@ -79,15 +79,10 @@ int describe(const Scenario& scenario) {
 /// Sets a numeric option.
 /// \returns false if the option is no number
 bool assign(const Option& option, double number, std::int64_t count) {
-  if (const auto* value = std::get_if<Number>(&option.value)) {
-    *value->value = number;
-    return true;
-  }
-  if (const auto* value = std::get_if<Count>(&option.value)) {
-    *value->value = count;
-    return true;
-  }
-  return false;
+  const auto& variable = option.value.variable;
+  if (option.is<double>()) *std::get<double*>(variable) = number;
+  if (option.is<std::int64_t>()) *std::get<std::int64_t*>(variable) = count;
+  return option.isNumber();
 }
 
 TEST(ExtremeValues, OfEveryFieldOfAScenario) {

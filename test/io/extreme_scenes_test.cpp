@@ -37,13 +37,10 @@ TEST(ExtremeScenes, AreRefusedBeforeTheRun) {
                                                              {"frames", "3"}};
     Scenario defaults;
     for (const Option& option : scenarioOptions(defaults)) {
-      const bool is_other =
-          option.applies_to ==
-          (method.hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep);
-      if (is_other || random() % 4 != 0) continue;
-      if (std::holds_alternative<Number>(option.value)) {
+      if (!option.isUsedBy(method) || random() % 4 != 0) continue;
+      if (option.is<double>()) {
         options.emplace_back(option.key, pick(kNumbers));
-      } else if (std::holds_alternative<Count>(option.value)) {
+      } else if (option.is<std::int64_t>()) {
         options.emplace_back(option.key, pick(kCounts));
       }
     }

@@ -1,5 +1,5 @@
 // The memory that Exercise3 takes is what it says before the run.
-#include "simulation/expected_cost.hpp"
+#include "simulation/expected_memory.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 

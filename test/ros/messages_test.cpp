@@ -1,7 +1,7 @@
 // Markers and state of chosen scenes, bags through the rosbag library, parameters.
 #include "ros/messages/run_messages.hpp"
 #include "ros/parameters/node_options.hpp"
-#include "simulation/options/option_set.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,7 @@
-// Held particles, applied forces and changes of a run, against solutions with 113 bits.
+// Held particles, applied forces, changes of a run and air drag, against solutions with 113 bits.
+#include "model/chain_modes.hpp"
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/model/energy.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>
 
@@ -292,6 +294,55 @@ TEST(DrivenRun, RefusesWhatAChainCannotDo) {
   scenario.constants.spring.stiffness = -1.0;
   EXPECT_THROW(pair.run.change(scenario, scenario.constants, {}, scene.start), InputError);
   EXPECT_EQ(pair.run.chain().spring().stiffness, scene.chain.spring().stiffness);
+}
+
+TEST(AirDrag, KeepsTheTolerance) {
+  // Light particles: the air damps them with 50/s, and strongly: with 2000/s.
+  for (const auto& [mass, damping, air_drag] :
+       {std::tuple{1.0, 1.0, 0.5}, {1.0, 0.0, 0.2}, {1e-3, 1.0, 0.05}, {1e-3, 0.1, 2.0}}) {
+    Scene scene = test::horizontalChain("in air", 7, mass, {50.0, damping, 1.0});
+    scene.chain = test::inAir(scene.chain, air_drag);
+    PreciseMotion precise(scene);
+    for (int frame = 0; frame < 60; ++frame) precise.advance(kInterval);
+    for (const std::string& method : errorControlled()) {
+      SCOPED_TRACE(method + " " + std::to_string(mass) + " " + std::to_string(air_drag));
+      for (const double tolerance : {1e-5, 1e-8}) {
+        Scenario scenario = scenarioOf(method, scene);
+        scenario.frames = 61;
+        scenario.tolerance = tolerance;
+        spring_pendulum::Run run(makeScene(scenario, {scene.chain.masses(), scene.start}), scenario,
+                                 {true});
+        while (run.advance()) continue;
+        EXPECT_FALSE(isBad(run.verdict().kind)) << run.verdict().text;
+        EXPECT_LE(precise.errorOf(run.state()), 10.0 * tolerance);
+        EXPECT_GT(precise.errorOf(run.state()), 0.0);
+        EXPECT_LE(std::abs(run.energyEntry().relative_residual.value()),
+                  std::max(10.0 * tolerance, 1e-6));
+      }
+    }
+  }
+}
+
+TEST(AirDrag, LimitsTheSpeedOfAFall) {
+  const double mass = 0.5, drag = 0.7, time = 2.0;
+  const Chain chain(Eigen::VectorXd::Constant(2, mass), {{0.0, 0.0, 1.0}, 9.81, drag});
+  const double speed = 9.81 * mass / drag * (1.0 - std::exp(-drag / mass * time));
+  for (const Method& method : methodTable()) {
+    State state = test::straightLine(2, 1.0, 0.0);
+    makeIntegrator(method, chain, {1e-9})->advance(state, 1e-3, 2000);
+    EXPECT_NEAR(state.vy()[1], -speed, method.order == 1 ? 1e-2 : 1e-5) << method.name;
+  }
+}
+
+TEST(AirDrag, EntersPowerAndRates) {
+  const double drag = 0.6;
+  const Chain chain(Eigen::VectorXd::Constant(3, 2.0), {{0.0, 0.0, 1.0}, 9.81, drag});
+  State state = test::straightLine(3, 1.0, 0.0);
+  state.vx()[1] = 3.0;
+  state.vy()[2] = 4.0;
+  EXPECT_DOUBLE_EQ(dissipatedPower(chain, state), drag * 25.0);
+  EXPECT_DOUBLE_EQ(dissipatedPower(chain.drivenBy({{{2, {}}}, {}}), state), drag * 9.0);
+  EXPECT_DOUBLE_EQ(largestDampingRate(chain), drag / 2.0);
 }
 
 }  // namespace

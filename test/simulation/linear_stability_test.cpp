@@ -1,6 +1,6 @@
 #include "simulation/advice/linear_stability.hpp"
 
-#include <spring_pendulum/simulation/stability_advice.hpp>
+#include <spring_pendulum/simulation/outcome.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

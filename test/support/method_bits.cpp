@@ -48,7 +48,7 @@ std::uint64_t hashOfRuns(const Method& method) {
       const auto integrator = method.make(method, chain, {kTolerance, true, 1});
       State state = zigzag(size);
       const double tolerance = method.hasFixedStep() ? 0.0 : kTolerance;
-      ReferenceRun reference(chain, state, {tolerance, true});
+      ReferenceRun reference(chain, state, tolerance, true);
       Judge judge(chain, state, {true, method.symplectic ? kTimeStep : 0.0, tolerance});
       for (int frame = 1; frame <= 3; ++frame) {
         integrator->advance(state, kTimeStep, kSteps);

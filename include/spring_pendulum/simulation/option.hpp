@@ -7,10 +7,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -27,8 +26,8 @@ class Range {
   static Range between(double least, double most) { return {least, true, most}; }
 
   bool contains(double value) const;
-  /// "above 0", "of at least 1", "from 2 to 100", or "" for any number.
-  std::string text() const;
+  /// "a number above 0", "a number of at least 1", "a number from 2 to 100" or "a finite number".
+  std::string text(std::string_view noun) const;
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -40,76 +39,30 @@ class Range {
   double most_;
 };
 
-/// References to the variable of an option, one type per kind of value. Each has the members
-///   assign(text)   stores the value; false, and nothing stored, if the text is out of range
-///   text()         the value as text that `assign` accepts
-///   range()        the accepted values in words
-///   placeholder()  placeholder for the value in the help text; empty for an option without value
-template <typename Value>
-struct Ranged {
-  Value* value;
-  Range accepted;
-
-  bool assign(std::string_view text) const;
-  std::string text() const;
-  std::string range() const;
-  static std::string placeholder() { return std::is_same_v<Value, double> ? "X" : "N"; }
-};
-using Number = Ranged<double>;
-using Count = Ranged<std::int64_t>;
-
-struct Flag {
-  bool* value;
-
-  bool assign(std::string_view text) const;
-  std::string text() const { return *value ? "true" : "false"; }
-  static std::string range() { return "true or false"; }
-  /// `--flag` turns a flag on. A flag that is on by default takes a value, so that it can be turned
-  /// off.
-  std::string placeholder() const { return *value ? "true|false" : ""; }
+/// How an option reads and writes its variable. The kinds of values are the types derived from it.
+struct OptionValue {
+  /// The variable; none for a Choice.
+  std::variant<std::monostate, double*, std::int64_t*, bool*, std::string*,
+               std::reference_wrapper<const Method>*>
+      variable;
+  std::string range;        ///< the accepted values in words
+  std::string placeholder;  ///< for the value in the help text; empty for an option without value
+  /// Stores the value; false, and nothing stored, if the text is out of range.
+  std::function<bool(std::string_view)> assign;
+  std::function<std::string()> text;  ///< the value as text that `assign` accepts
 };
 
-struct Text {
-  std::string* value;
-  std::string_view name;      ///< placeholder: "FILE"
-  std::string_view accepted;  ///< accepted values in words
-  bool (*accepts)(std::string_view) = [](std::string_view text) { return !text.empty(); };
-
-  bool assign(std::string_view text) const;
-  std::string text() const { return *value; }
-  std::string range() const { return std::string(accepted); }
-  std::string placeholder() const { return std::string(name); }
+struct Number : OptionValue {
+  Number(double* value, const Range& accepted);
 };
 
-/// A row of the method table, given by its name.
-struct MethodName {
-  std::reference_wrapper<const Method>* value;
-
-  /// \throws InputError that lists the known names if there is no such method
-  bool assign(std::string_view text) const;
-  std::string text() const { return value->get().name; }
-  static std::string range() { return "the name of a method"; }
-  static std::string placeholder() { return "METHOD"; }
+struct Count : OptionValue {
+  Count(std::int64_t* value, const Range& accepted);
 };
 
-/// One of several words, which denote the values 0, 1, ... of an enum.
-class Choice {
- public:
-  template <typename Enum>
-  Choice(Enum* value, std::vector<std::string_view> words)
-      : words_(std::move(words)),
-        read_([value] { return static_cast<std::size_t>(*value); }),
-        store_([value](std::size_t index) { *value = static_cast<Enum>(index); }) {}
-
-  bool assign(std::string_view text) const;
-  std::string text() const { return std::string(words_.at(read_())); }
-  std::string range() const;
-  std::string placeholder() const;
-
- private:
-  std::vector<std::string_view> words_;
-  std::function<std::size_t()> read_;
-  std::function<void(std::size_t)> store_;
+/// `--flag` turns a flag on. A flag that is on by default takes a value, so that it can be turned off.
+struct Flag : OptionValue {
+  explicit Flag(bool* value);
 };
 
 /// Accepts any text, also empty text.
@@ -117,29 +70,58 @@ inline bool anyText(std::string_view) {
   return true;
 }
 
-/// The methods that use an option.
-enum class AppliesTo { kAllMethods, kFixedStep, kErrorControlled };
+struct Text : OptionValue {
+  /// \param name     placeholder: "FILE"
+  /// \param accepted accepted values in words
+  Text(
+      std::string* value, std::string_view name, std::string_view accepted,
+      bool (*accepts)(std::string_view) = [](std::string_view given) { return !given.empty(); });
+};
+
+/// A row of the method table, given by its name.
+struct MethodName : OptionValue {
+  explicit MethodName(std::reference_wrapper<const Method>* value);
+};
+
+/// One of several words, which denote the values 0, 1, ... of an enum.
+struct Choice : OptionValue {
+  template <typename Enum>
+  Choice(Enum* value, const std::vector<std::string_view>& words)
+      : Choice(
+            words, [value] { return static_cast<std::size_t>(*value); },
+            [value](std::size_t index) { *value = static_cast<Enum>(index); }) {}
+
+ private:
+  Choice(const std::vector<std::string_view>& words, const std::function<std::size_t()>& read,
+         const std::function<void(std::size_t)>& store);
+};
 
 /// One option: `time_step` in YAML, `--time-step` on the command line, `_time_step` in ROS.
 struct Option {
   std::string_view key;
-  std::variant<Number, Count, Flag, Text, MethodName, Choice> value;
-  std::string_view unit;     ///< empty: none
-  std::string_view meaning;  ///< one line
-  AppliesTo applies_to = AppliesTo::kAllMethods;
+  OptionValue value;
+  std::string_view unit;                       ///< empty: none
+  std::string_view meaning;                    ///< one line
+  std::optional<StepControl> applies_to = {};  ///< the methods that use it; none: all
 
   /// \throws InputError without a place: "must be a number above 0 s, got '-1'"
   void assign(std::string_view text) const;
-  std::string text() const;
+  std::string text() const { return value.text(); }
   /// The accepted values and their unit in words: "a number above 0 s".
   std::string range() const;
   std::string placeholder() const;
+  bool isUsedBy(const Method& method) const { return !applies_to || applies_to == method.control; }
   /// "fixed-step methods", for example; empty: all methods.
   std::string_view users() const;
-  bool isFlag() const { return std::holds_alternative<Flag>(value); }
-  bool isCount() const { return std::holds_alternative<Count>(value); }
+  /// Whether the variable is of a type.
+  template <typename Variable>
+  bool is() const {
+    return std::holds_alternative<Variable*>(value.variable);
+  }
+  bool isFlag() const { return is<bool>(); }
+  bool isNumber() const { return is<double>() || is<std::int64_t>(); }
   /// Whether YAML may put the value in quotes.
-  bool isText() const;
+  bool isText() const { return !isFlag() && !isNumber(); }
 };
 
 }  // namespace spring_pendulum

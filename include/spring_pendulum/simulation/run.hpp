@@ -55,11 +55,10 @@ class Run {
   /// Advances to the next frame and judges it. The first call stays at the start.
   /// \returns whether this frame may be shown and written. If not, the run is over: the last frame
   ///   was reached before, the motion has diverged, or `RunOptions::stop` has stopped the run.
-  bool advance();
+  bool advance() { return advanceTo(parts_); }
 
-  /// Like `advance`, but stops at the end of the next part of the frame; see
-  /// `RunOptions::display_interval`.
-  bool advancePart();
+  /// Like `advance`, but stops at the end of the next part of the frame; see `RunOptions::display_interval`.
+  bool advancePart() { return advanceTo(part_ + 1); }
 
   /// Returns to the start, as before the first call of `advance`, and discards the verdict. The closing
   /// line counts the work of all rounds. Changed constants and the drive stay.

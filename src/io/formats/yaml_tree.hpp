@@ -1,7 +1,7 @@
 // YAML files: a tree of a few nested levels with the lines for error messages, and options.
 #pragma once
 
-#include "simulation/options/option_set.hpp"
+#include "simulation/options/scenario_options.hpp"
 
 #include <string>
 #include <string_view>

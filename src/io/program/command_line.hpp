@@ -2,7 +2,7 @@
 // each key of the option table, and switches.
 #pragma once
 
-#include "simulation/options/option_set.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <boost/program_options/option.hpp>

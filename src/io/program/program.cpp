@@ -4,7 +4,6 @@
 #include "io/files/posix.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/simulation/outcome.hpp>
-#include <spring_pendulum/simulation/stability_advice.hpp>
 
 #include <atomic>
 #include <cerrno>

@@ -2,7 +2,6 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
-#include "simulation/options/option_set.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>

@@ -2,7 +2,6 @@
 
 #include "base/numbers.hpp"
 #include "io/files/posix.hpp"
-#include "simulation/options/option_set.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
@@ -21,9 +20,7 @@ namespace {
 
 /// Whether the frames depend on an option besides the start: the method, all numbers, and where a run ends.
 bool isRecorded(const Option& option) {
-  return option.key == "on_divergence" || std::holds_alternative<Number>(option.value) ||
-         std::holds_alternative<Count>(option.value) ||
-         std::holds_alternative<MethodName>(option.value);
+  return option.key == "on_divergence" || option.key == "method" || option.isNumber();
 }
 
 void addState(PendulumInput& message, const State& state, Eigen::Index i) {

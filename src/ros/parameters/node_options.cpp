@@ -32,7 +32,7 @@ void refuseGuess(XmlRpcValue& value, const std::string& text, const Option& opti
                  const std::string& place) {
   const bool is_text = value.getType() == XmlRpcValue::TypeString;
   // A particle is a number.
-  if (is_text || !std::holds_alternative<Text>(option.value) || option.key == "held") return;
+  if (is_text || !option.is<std::string>() || option.key == "held") return;
   throw InputError(fmt::format(
       "{}: must be text, but ROS has read it as the {} {}; write _{}:=./NAME for a file, "
       "type=\"str\" in a launch file, or quotes in YAML",

@@ -1,7 +1,7 @@
 // The ROS options besides the scenario: display, timing and publishing; and the parameters of the node.
 #pragma once
 
-#include "simulation/options/option_set.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <XmlRpcValue.h>

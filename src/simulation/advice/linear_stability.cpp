@@ -5,7 +5,7 @@
 #include "integration/taylor/stabilized_polynomials.hpp"
 #include "model/chain_modes.hpp"
 #include "simulation/judge.hpp"
-#include <spring_pendulum/simulation/stability_advice.hpp>
+#include <spring_pendulum/simulation/outcome.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -99,18 +99,15 @@ double springStepLimit(const Method& method, const Chain& chain, double duration
 bool isClearlyUnstable(const Method& method, const Chain& chain, double time_step,
                        double duration) {
   // The limits of a registered method without a tableau may be too small.
-  constexpr double kClearGrowth = 1e8;
-  constexpr double kClearSteps = 500.0;
-  constexpr double kClearShare = 0.6;
   if (chain.airDrag() != 0.0) return false;  // it may damp the spring more or less than others
   const double mode = stiffestSpring(chain);
   const double frequency = std::sqrt(chain.spring().stiffness * mode);
   const double damping = chain.spring().damping * mode;
   if (!std::isfinite(frequency) || !std::isfinite(damping)) return false;
-  const double step = kClearShare * time_step;
+  const double step = 0.6 * time_step;
   const double growth = growthPerStep(method, step * frequency, step * damping);
   // Not a number if |R|² exceeds the range of double.
-  return !(std::min(duration / time_step, kClearSteps) * growth < std::log(kClearGrowth));
+  return !(std::min(duration / time_step, 500.0) * growth < std::log(1e8));
 }
 
 double linearStepLimit(const Method& method, const Chain& chain, double duration) {
@@ -118,8 +115,8 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
   if (!method.hasFixedStep() || stiffestSpring(chain) == 0.0) return kUnlimited;
   // Transverse motion is undamped. The tension acts as a stiffness below k_s; for methods that are
   // unstable on the imaginary axis, the slowest mode, which has most of the energy, counts.
-  const bool stable = method.imaginary_stability_limit > 0.0;
-  const double swing = stable ? fastestVibration(chain) : slowSwing(chain);
+  const double swing =
+      method.imaginary_stability_limit > 0.0 ? fastestVibration(chain) : slowSwing(chain);
   constexpr double kMargin = 0.25;  // measured: 0.35 is too much for Euler with mixed masses
   return kMargin * std::min(springStepLimit(method, chain, duration),
                             stepForMode(method, swing, 0.0, duration));

@@ -1,17 +1,250 @@
-#include "simulation/expected_cost.hpp"
+#include "base/checks.hpp"
+#include "base/numbers.hpp"
+#include "integration/kernels/chain_kernels.hpp"
+#include "simulation/advice/linear_stability.hpp"
+#include "simulation/expected_memory.hpp"
+#include "simulation/judge.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
+#include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/simulation/outcome.hpp>
-#include <spring_pendulum/simulation/stability_advice.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 namespace spring_pendulum {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Ratio of the step sizes between which a search ends.
+constexpr double kPrecision = 1.02;
+/// Work in s allowed for a trial, without its reference run.
+constexpr double kTrialWork = 0.1;
+/// Work allowed for all trials with their reference runs, in trials.
+constexpr double kMostTrials = 30.0;
+/// Nominal time in s of judging a frame, per particle, and of an evaluation in code without a fast
+/// kernel, beyond what the integrator counts. Measured: 25 ns, and 320 to 470 ns for 6 particles.
+constexpr double kFrameTime = 2.5e-8;
+constexpr double kPlainTime = 4e-7;
+
+/// Rounds down to three significant digits; `largestSpringMode` is 1e-4 too large at most.
+double roundedDown(double step) {
+  const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
+  return std::isnormal(unit) ? std::floor(step / unit * (1.0 + 1e-4)) * unit : step;
+}
+
+/// Simulated time of a run, s.
+double durationOf(const Plan& plan) {
+  return std::clamp(plan.timeOfFrame(plan.frames - 1), plan.step(), 1e300);
+}
+
+/// Trial runs of a scene.
+class Trials {
+ public:
+  Trials(const Chain& chain, const State& start, const Plan& plan, std::function<bool()> stop)
+      : plan_(plan), scene_{chain.masses(), start, 0, chain.constants()}, stop_(std::move(stop)) {
+    requireSize(chain.size(), start.size());
+    checkPlan(plan);
+    const Method& method = plan.method;
+    const bool has_kernel = method.tableau != nullptr && chain.isPlain() &&
+                            findAdvanceKernel(fastestChainKernels(), *method.tableau) != nullptr;
+    evaluation_time_ = method.hasFixedStep() && !has_kernel ? kPlainTime : 0.0;
+  }
+
+  /// Runs a variant of the plan until the verdict is `enough` or worse. Measures the position error if it
+  /// matters.
+  /// \returns the run at its end, which must not go on; nothing if the allowed work was used up, or the trial was stopped
+  std::optional<Run> run(Plan plan, VerdictKind enough) {
+    if (total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_())) return {};
+    plan.on_divergence = OnDivergence::kStop;
+    plan.threads = 1;
+    plan.sleep = 0.0;
+    plan.reference = measures(enough) ? ReferenceUse::kAuto : ReferenceUse::kNever;
+    const Run* counted = nullptr;
+    const auto work = [&] {
+      const Integrator& integrator = counted->integrator();
+      return integrator.work() +
+             evaluation_time_ * static_cast<double>(integrator.forceEvaluations()) +
+             static_cast<double>(counted->frame() * (scene_.state.size() + 10)) * kFrameTime;
+    };
+    // The negated comparison also ends a method whose work is not a number.
+    Run run(scene_, plan,
+            {false, 0.0, [&] { return !(work() < kTrialWork) || (stop_ && stop_()); }});
+    counted = &run;
+    while (run.advance() && run.verdict().kind < enough) continue;
+    total_work_ += work() + run.referenceWork();
+    if (run.wasStopped()) return {};
+    return run;
+  }
+
+  /// A run with another step size, with frames at about the same times.
+  std::optional<Run> runWithStep(double step, VerdictKind enough) {
+    constexpr double kMostFrames = 2000.0;
+    constexpr double kMostSteps = 1e9;
+    const double duration = durationOf(plan_);
+    if (duration / step > kMostSteps) return {};
+    const double interval = std::clamp(plan_.timeOfFrame(1), duration / kMostFrames, duration);
+    Plan plan = plan_;
+    plan.time_step = step;
+    plan.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
+    plan.frames = std::max<std::int64_t>(1, std::llround(duration / plan.timeOfFrame(1))) + 1;
+    return run(plan, enough);
+  }
+
+  /// Returns the largest step size up to `most` with a verdict better than `bad`, with three digits: `first` if
+  /// its verdict is better and that of a 2 % larger one is not, else within 2 % by bisection.
+  /// \param failed known to have a bad verdict
+  /// \returns infinity for `most`; 0 if no step size can be tried, NaN if no reference run can
+  double largestStep(double first, double most, VerdictKind bad, double failed = kInfinity) {
+    double found = 0.0;
+    double low = 0.0;  // better or takes too long
+    double step = roundedDown(std::min({first, most, failed / kPrecision}));
+    for (double ratio = kPrecision; low < step && step < failed;
+         ratio = std::min(ratio * ratio, 2.0)) {
+      const auto trial = runWithStep(step, bad);
+      if (!trial && std::isinf(failed)) break;
+      const VerdictKind kind = trial ? trial->verdict().kind : VerdictKind::kOk;
+      if (kind == VerdictKind::kNotChecked && measures(bad))
+        return std::numeric_limits<double>::quiet_NaN();
+      (kind < bad ? low : failed) = step;
+      if (trial && kind < bad) found = step;
+      if (found >= roundedDown(most)) return kInfinity;
+      if (failed <= kPrecision * low) {
+        // Nearly undamped chains have narrow intervals of unstable step sizes.
+        const auto smaller = runWithStep(0.9 * low, bad);
+        if (!smaller || smaller->verdict().kind < bad) break;
+        failed = 0.9 * low;
+        found = low = 0.0;
+      }
+      step = roundedDown(low == 0.0           ? failed / ratio
+                         : std::isinf(failed) ? std::min(ratio * low, most)
+                                              : std::sqrt(low * failed));
+    }
+    return found;
+  }
+
+ private:
+  /// Whether trials that end at a verdict need the position error.
+  static bool measures(VerdictKind enough) { return enough != VerdictKind::kGainedEnergy; }
+
+  Plan plan_;
+  Scene scene_;
+  std::function<bool()> stop_;
+  double evaluation_time_;   ///< in addition to what the integrator counts, s
+  double total_work_ = 0.0;  ///< s
+};
+
+StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
+  const Method& method = plan.method;
+  if (!method.hasFixedStep()) return {};
+  const double duration = durationOf(plan);
+  // Without damping, some methods gain energy with every step size: only trials tell how much.
+  const bool has_limit = method.imaginary_stability_limit > 0.0 || chain.isDissipative();
+  const double found =
+      trials.largestStep(has_limit ? springStepLimit(method, chain, duration) : duration, duration,
+                         VerdictKind::kGainedEnergy);
+  if (found > 0.0) return {found, false};
+  const double limit = linearStepLimit(method, chain, duration);
+  return {std::isfinite(limit) ? roundedDown(limit) : limit, true};
+}
+
+std::string stepText(double step, bool is_estimate = false) {
+  if (std::isnan(step)) return "unknown, as a reference run would take too long";
+  if (step == 0.0) return "unknown, as runs take too long to be tried";
+  const std::string text = std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", step);
+  return text + (is_estimate ? " (linear estimate)" : "");
+}
+
+}  // namespace
+
+StableStep largestStableStep(const Chain& chain, const State& start, const Plan& plan,
+                             const std::function<bool()>& stop) {
+  Trials trials(chain, start, plan, stop);
+  return stableStep(trials, chain, plan);
+}
+
+StabilityReport checkStability(const Chain& chain, const State& start, const Plan& plan,
+                               const std::function<bool()>& stop) {
+  Trials trials(chain, start, plan, stop);
+  const Method& method = plan.method;
+  const bool fixed = method.hasFixedStep();
+  StabilityReport report;
+  const auto trial = trials.run(plan, VerdictKind::kDiverged);
+  report.text = fmt::format("{}: takes too long to try\n", method.name);
+  if (trial) {
+    report.verdict = trial->verdict();
+    report.position_error = trial->positionError().largest;
+    report.text = fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
+                              fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
+                                          numberText(fixed ? plan.time_step : plan.tolerance)),
+                              durationOf(plan), trial->verdict().text, trial->measurements());
+  }
+  if (!fixed) return report;
+  report.stable = stableStep(trials, chain, plan);
+  report.text += fmt::format("largest stable step size: {}\n",
+                             stepText(report.stable.step, report.stable.is_estimate));
+  if (!trial) return report;
+  // The error grows with a power of the step size: the order of the method.
+  const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
+  const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
+  double failed = kInfinity;
+  if (isBad(report.verdict->kind)) failed = plan.time_step;
+  report.accurate_step = trials.largestStep(plan.time_step * (std::isnan(factor) ? 1.0 : factor),
+                                            std::min(report.stable.step, durationOf(plan)),
+                                            VerdictKind::kInaccurate, failed);
+  if (std::isinf(report.accurate_step)) report.accurate_step = report.stable.step;
+  report.text += fmt::format("largest accurate step size: {}\n", stepText(report.accurate_step));
+  return report;
+}
+
+std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan) {
+  const Method& method = plan.method;
+  if (!method.hasFixedStep() || plan.frames < 2) return {};
+  checkPlan(plan);
+  if (!isClearlyUnstable(method, chain, plan.time_step, durationOf(plan))) return {};
+  return fmt::format("{} may be unstable with a time step of {} s; {}", method.name,
+                     numberText(plan.time_step), remedyForDivergence(chain, start, plan));
+}
+
+std::string remedyForDivergence(const Chain& chain, const State& start, const Plan& plan,
+                                const std::function<bool()>& stop) {
+  Trials trials(chain, start, plan, stop);
+  const Method& method = plan.method;
+  const StableStep stable = stableStep(trials, chain, plan);
+  std::string text = fmt::format("largest stable step for {}: {}", method.name,
+                                 stepText(stable.step, stable.is_estimate));
+  if (!method.hasFixedStep()) {
+    text = fmt::format("try a tolerance below {} m", numberText(plan.tolerance));
+  } else if (stable.step > plan.time_step) {
+    // The equations of an implicit method may have no solution for this step, and one for larger steps.
+    text = fmt::format("try a step below {} s", numberText(plan.time_step));
+  }
+  if (method.name != "Auto") {
+    Plan other = plan;
+    other.method = findMethod("Auto");
+    other.frame_interval = std::clamp(plan.timeOfFrame(1), 1e-300, 1e6);
+    other.tolerance = std::max(method.hasFixedStep() ? Plan{}.tolerance : plan.tolerance,
+                               smallestTolerance(chain, start));
+    const auto trial = trials.run(other, VerdictKind::kGainedEnergy);
+    if (trial && trial->verdict().kind < VerdictKind::kGainedEnergy) text += "; or use Auto";
+  }
+  return stop && stop() ? "" : text;
+}
 
 Remarks remarksOn(const Run& run) {
   Remarks remarks;
-  for (const std::string& note :
-       {memoryRemark(run.plan(), run.chain().size()), remarkOn(run.chain().constants())}) {
-    if (!note.empty()) remarks.notes.push_back(note);
+  const std::string memory = memoryRemark(run.plan(), run.chain().size());
+  if (!memory.empty()) remarks.notes.push_back(memory);
+  const double gravity = run.chain().gravity();
+  if (gravity < 0.0) {
+    remarks.notes.push_back(
+        fmt::format("gravity of {} m/s² points up: the chain falls upwards", numberText(gravity)));
   }
   remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan());
   return remarks;

@@ -20,6 +20,17 @@ bool hasDecimalComma(std::string_view text) {
   return with_point != text && parseNumber(with_point).has_value();
 }
 
+template <typename Value>
+std::function<bool(std::string_view)> assignment(Value* value, const Range& accepted,
+                                                 std::optional<Value> (*parse)(std::string_view)) {
+  return [=](std::string_view text) {
+    const std::optional<Value> number = parse(text);
+    if (!number || !accepted.contains(static_cast<double>(*number))) return false;
+    *value = *number;
+    return true;
+  };
+}
+
 }  // namespace
 
 bool Range::contains(double value) const {
@@ -27,111 +38,89 @@ bool Range::contains(double value) const {
   return std::isfinite(value) && is_above && value <= most_;
 }
 
-std::string Range::text() const {
-  if (std::isfinite(most_)) return fmt::format("from {:g} to {:g}", least_, most_);
-  if (!std::isfinite(least_)) return "";
-  return fmt::format("{} {:g}", least_allowed_ ? "of at least" : "above", least_);
+std::string Range::text(std::string_view noun) const {
+  if (std::isfinite(most_)) return fmt::format("a {} from {:g} to {:g}", noun, least_, most_);
+  if (!std::isfinite(least_)) return fmt::format("a finite {}", noun);
+  return fmt::format("a {} {} {:g}", noun, least_allowed_ ? "of at least" : "above", least_);
 }
 
-template <typename Value>
-bool Ranged<Value>::assign(std::string_view text) const {
-  std::optional<Value> number;
-  if constexpr (std::is_same_v<Value, double>) {
-    number = parseNumber(text);
-  } else {
-    number = parseInteger(text);
-  }
-  if (!number || !accepted.contains(static_cast<double>(*number))) return false;
-  *value = *number;
-  return true;
-}
+Number::Number(double* value, const Range& accepted)
+    : OptionValue{value, accepted.text("number"), "X", assignment(value, accepted, parseNumber),
+                  [value] { return numberText(*value); }} {}
 
-template <typename Value>
-std::string Ranged<Value>::text() const {
-  return std::is_same_v<Value, double> ? numberText(static_cast<double>(*value))
-                                       : std::to_string(*value);
-}
+Count::Count(std::int64_t* value, const Range& accepted)
+    : OptionValue{value, accepted.text("whole number"), "N",
+                  assignment(value, accepted, parseInteger),
+                  [value] { return std::to_string(*value); }} {}
 
-template <typename Value>
-std::string Ranged<Value>::range() const {
-  const std::string noun = std::is_same_v<Value, double> ? "number" : "whole number";
-  const std::string limits = accepted.text();
-  return limits.empty() ? "a finite " + noun : fmt::format("a {} {}", noun, limits);
-}
+Flag::Flag(bool* value)
+    : OptionValue{value, "true or false", *value ? "true|false" : "",
+                  [value](std::string_view given) {
+                    const bool is_true = given == "true";
+                    if (!is_true && given != "false") return false;
+                    *value = is_true;
+                    return true;
+                  },
+                  [value] { return *value ? "true" : "false"; }} {}
 
-template struct Ranged<double>;
-template struct Ranged<std::int64_t>;
+Text::Text(std::string* value, std::string_view name, std::string_view accepted,
+           bool (*accepts)(std::string_view))
+    : OptionValue{value, std::string(accepted), std::string(name),
+                  [=](std::string_view given) {
+                    if (given.find('\0') != std::string_view::npos || !accepts(given)) return false;
+                    *value = given;
+                    return true;
+                  },
+                  [value] { return *value; }} {}
 
-bool Flag::assign(std::string_view text) const {
-  if (text != "true" && text != "false") return false;
-  *value = text == "true";
-  return true;
-}
+MethodName::MethodName(std::reference_wrapper<const Method>* value)
+    : OptionValue{value, "the name of a method", "METHOD",
+                  [value](std::string_view given) {
+                    if (given.empty()) return false;
+                    *value = findMethod(given);
+                    return true;
+                  },
+                  [value] { return value->get().name; }} {}
 
-bool Text::assign(std::string_view text) const {
-  if (text.find('\0') != std::string_view::npos || !accepts(text)) return false;
-  *value = text;
-  return true;
-}
-
-bool MethodName::assign(std::string_view text) const {
-  if (text.empty()) return false;
-  *value = findMethod(text);
-  return true;
-}
-
-bool Choice::assign(std::string_view text) const {
-  const auto word = std::find(words_.begin(), words_.end(), text);
-  if (word == words_.end()) return false;
-  store_(static_cast<std::size_t>(word - words_.begin()));
-  return true;
-}
-
-std::string Choice::range() const {
-  std::string text(words_.front());
-  for (std::size_t i = 1; i < words_.size(); ++i) {
-    text += fmt::format("{}{}", i + 1 == words_.size() ? " or " : ", ", words_[i]);
-  }
-  return text;
-}
-
-std::string Choice::placeholder() const {
-  return fmt::format("{}", fmt::join(words_, "|"));
+Choice::Choice(const std::vector<std::string_view>& words, const std::function<std::size_t()>& read,
+               const std::function<void(std::size_t)>& store)
+    : OptionValue{{},
+                  "",
+                  fmt::format("{}", fmt::join(words, "|")),
+                  [=](std::string_view given) {
+                    const auto word = std::find(words.begin(), words.end(), given);
+                    if (word == words.end()) return false;
+                    store(static_cast<std::size_t>(word - words.begin()));
+                    return true;
+                  },
+                  [=] { return std::string(words.at(read())); }} {
+  const auto last = words.end() - 1;
+  range = fmt::format("{} or {}", fmt::join(words.begin(), last, ", "), *last);
 }
 
 void Option::assign(std::string_view text) const {
-  if (std::visit([&](const auto& kind) { return kind.assign(text); }, value)) return;
+  if (value.assign(text)) return;
   if (!isText() && hasDecimalComma(text)) {
     throw InputError(fmt::format("{} is not a number; use a decimal point", inQuotes(text)));
   }
   throw InputError(fmt::format("must be {}, got {}", range(), inQuotes(text)));
 }
 
-std::string Option::text() const {
-  return std::visit([](const auto& kind) { return kind.text(); }, value);
-}
-
 std::string Option::range() const {
-  std::string accepted = std::visit([](const auto& kind) { return kind.range(); }, value);
-  if (unit.empty()) return accepted;
-  const bool ends_with_limit = accepted.back() >= '0' && accepted.back() <= '9';
-  return fmt::format("{} {}{}", accepted, ends_with_limit ? "" : "in ", unit);
+  if (unit.empty()) return value.range;
+  const bool ends_with_limit = value.range.back() >= '0' && value.range.back() <= '9';
+  return fmt::format("{} {}{}", value.range, ends_with_limit ? "" : "in ", unit);
 }
 
 std::string Option::placeholder() const {
   if (unit == "s") return "SECONDS";
   if (unit == "m") return "METRES";
-  return std::visit([](const auto& kind) { return kind.placeholder(); }, value);
+  return value.placeholder;
 }
 
 std::string_view Option::users() const {
-  if (applies_to == AppliesTo::kAllMethods) return "";
-  return applies_to == AppliesTo::kFixedStep ? "fixed-step methods" : "error-controlled methods";
-}
-
-bool Option::isText() const {
-  return std::holds_alternative<Text>(value) || std::holds_alternative<MethodName>(value) ||
-         std::holds_alternative<Choice>(value);
+  if (!applies_to) return "";
+  return applies_to == StepControl::kFixed ? "fixed-step methods" : "error-controlled methods";
 }
 
 }  // namespace spring_pendulum

@@ -1,44 +1,50 @@
 #include "simulation/options/scenario_options.hpp"
 
 #include "base/numbers.hpp"
+#include "base/spelling.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <variant>
 
 namespace spring_pendulum {
-namespace {
-
-bool isUnused(const Option& option, const Plan& plan) {
-  const AppliesTo other =
-      plan.method.get().hasFixedStep() ? AppliesTo::kErrorControlled : AppliesTo::kFixedStep;
-  return option.applies_to == other;
+void OptionSet::add(std::vector<Option> options) {
+  std::move(options.begin(), options.end(), std::back_inserter(options_));
 }
 
-/// Checks the numbers that the method uses.
-void checkRanges(const std::vector<Option>& options, const Plan& plan) {
-  for (const Option& option : options) {
-    const bool is_number = std::holds_alternative<Number>(option.value) || option.isCount();
-    if (!is_number || isUnused(option, plan)) continue;
-    try {
-      option.assign(option.text());
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", option.key, error.what()));
-    }
+const Option& OptionSet::find(std::string_view key, std::string_view place,
+                              std::string_view kind) const {
+  std::vector<std::string> known;
+  for (const Option& option : options_) {
+    if (option.key == key) return option;
+    known.emplace_back(option.key);
   }
+  const std::string text = unknownName(kind, key, known);
+  throw InputError(place.empty() ? text : fmt::format("{}: {}", place, text));
 }
 
-}  // namespace
+void OptionSet::set(const Option& option, std::string_view text, const std::string& place) {
+  try {
+    option.assign(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place, error.what()));
+  }
+  given_[option.key] = place;
+}
+
+std::string OptionSet::placeOf(std::string_view key) const {
+  const auto given = given_.find(key);
+  return given == given_.end() ? "" : given->second;
+}
 
 std::vector<Option> scenarioOptions(Scenario& s) {
-  constexpr auto kFixedStep = AppliesTo::kFixedStep;
-  constexpr auto kErrorControlled = AppliesTo::kErrorControlled;
+  constexpr auto kFixedStep = StepControl::kFixed;
+  constexpr auto kErrorControlled = StepControl::kErrorControlled;
   SpringLaw& spring = s.constants.spring;
   return {
       {"method", MethodName{&s.method}, "", "integration method, one of Exercise3 --list-methods"},
@@ -55,8 +61,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
        "CSV file for the energy balance, one row per frame; its folder is created if absent"},
       {"save_state", Text{&s.save_state, "FILE", "a file", anyText}, "",
        "file for the state at the last frame, a particle file to resume from; its folder is "
-       "created "
-       "if absent"},
+       "created if absent"},
       {"start", Choice(&s.start, {"file", "at_rest"}), "",
        "start: as the particle file says, or hanging at rest from its first particle"},
       {"on_divergence", Choice(&s.on_divergence, {"stop", "continue"}), "",
@@ -117,7 +122,11 @@ void checkPlan(const Plan& plan) {
 
 void checkScenario(const Scenario& scenario) {
   Scenario copy = scenario;
-  checkRanges(scenarioOptions(copy), scenario);
+  OptionSet options(scenarioOptions(copy));
+  for (const Option& option : options.options()) {
+    if (!option.isNumber() || !option.isUsedBy(scenario.method)) continue;
+    options.set(option, option.text(), std::string(option.key));
+  }
   if (scenario.resume && scenario.start == Start::kAtRest) {
     throw InputError(
         "start: at_rest and resume exclude each other: a resumed run goes on from its saved state");
@@ -141,16 +150,10 @@ void checkFirstFrame(const Plan& plan, std::int64_t frame) {
                   frame, plan.frames));
 }
 
-std::string remarkOn(const Constants& constants) {
-  if (constants.gravity >= 0.0) return "";
-  return fmt::format("gravity of {} m/s² points up: the chain falls upwards",
-                     numberText(constants.gravity));
-}
-
 std::vector<std::string_view> unusedKeys(const Plan& plan, const OptionSet& options) {
   std::vector<std::string_view> keys;
   for (const Option& option : options.options()) {
-    if (isUnused(option, plan) && options.isGiven(option.key)) keys.push_back(option.key);
+    if (!option.isUsedBy(plan.method) && options.isGiven(option.key)) keys.push_back(option.key);
   }
   return keys;
 }

@@ -1,15 +1,45 @@
-// Checks that involve several options of a run.
+// The options of a program, and checks that involve several options of a run.
 #pragma once
 
-#include "simulation/options/option_set.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace spring_pendulum {
+
+/// The options of a program, set from one or more sources. Later sources override earlier ones.
+class OptionSet {
+ public:
+  /// \param options bound to variables that must outlive this set
+  explicit OptionSet(std::vector<Option> options) : options_(std::move(options)) {}
+
+  void add(std::vector<Option> options);
+  const std::vector<Option>& options() const { return options_; }
+
+  /// \param place prefix of error messages: "pendulum.yaml:3"; empty: none
+  /// \param kind  what the user calls an option
+  /// \throws InputError that lists the known keys if there is no such option
+  const Option& find(std::string_view key, std::string_view place,
+                     std::string_view kind = "parameter") const;
+
+  /// Sets one option from text.
+  /// \param place prefix of error messages: "--time-step", "pendulum.yaml:3: time_step"
+  /// \throws InputError with place, range and text
+  void set(const Option& option, std::string_view text, const std::string& place);
+
+  bool isGiven(std::string_view key) const { return given_.count(key) > 0; }
+  /// Where an option was last set; empty if it was not set.
+  std::string placeOf(std::string_view key) const;
+
+ private:
+  std::vector<Option> options_;
+  std::map<std::string_view, std::string> given_;  ///< key and place
+};
 
 /// \throws InputError if a number is out of the range of its option, the steps of the run can't be
 ///   counted in 64 bits, or the run would not end at a finite time
@@ -21,9 +51,6 @@ void checkScenario(const Scenario& scenario);
 /// Checks that a run can start at a frame.
 /// \throws InputError if it is not one of the frames of the plan
 void checkFirstFrame(const Plan& plan, std::int64_t frame);
-
-/// Returns a remark on values that are allowed but hardly meant; empty if there are none.
-std::string remarkOn(const Constants& constants);
 
 /// Returns the given options that the method does not use: options for error-controlled methods if
 /// the method has a fixed step, and the reverse.

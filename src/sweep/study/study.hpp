@@ -5,7 +5,7 @@
 // scenes.
 #pragma once
 
-#include "simulation/options/option_set.hpp"
+#include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/simulation/scenario.hpp>
 
 #include <cstdint>

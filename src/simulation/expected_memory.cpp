@@ -1,7 +1,6 @@
-#include "simulation/expected_cost.hpp"
+#include "simulation/expected_memory.hpp"
 
-#include "integration/work.hpp"
-#include "model/chain_modes.hpp"
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <fmt/format.h>
 
@@ -36,17 +35,6 @@ double usableMemory() {
 }
 
 }  // namespace
-
-double expectedWork(const Plan& plan, const Chain& chain) {
-  const Method& method = plan.method;
-  const double intervals = static_cast<double>(plan.frames - 1) * static_cast<double>(plan.steps());
-  if (method.hasFixedStep()) {
-    return intervals * method.stages * kFixedStepTime.of(chain.size());
-  }
-  // About twenty steps per second, and more if springs vibrate or stability limits the step size.
-  const double rate = 20.0 + 0.5 * fastestVibration(chain) + 0.1 * largestDampingRate(chain);
-  return rate * intervals * plan.step() * method.stages * kTaylorTime.of(chain.size());
-}
 
 double expectedMemory(const Plan& plan, Eigen::Index particles) {
   const double reference = plan.reference == ReferenceUse::kAlways ? kBytesOfReference : 0.0;

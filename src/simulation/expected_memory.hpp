@@ -1,7 +1,6 @@
-// Estimates the memory and the work of a run before it starts.
+// Estimates the memory of a run before it starts.
 #pragma once
 
-#include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/simulation/plan.hpp>
 
 #include <Eigen/Core>
@@ -9,9 +8,6 @@
 #include <string>
 
 namespace spring_pendulum {
-
-/// Returns the expected work of a run without its reference run, s; see Integrator::work.
-double expectedWork(const Plan& plan, const Chain& chain);
 
 /// Returns an upper estimate of the memory of a run, B. Measured with Exercise3; the messages of
 /// the node and a bag need more.

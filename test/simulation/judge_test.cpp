@@ -1,0 +1,213 @@
+// Verdicts, the energy scale and balance that they rest on, and a recorded coarse map of stability: the
+// verdict by step size and properties of the chain.
+#include "simulation/judge.hpp"
+
+#include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "support/verdict_of_run.hpp"
+
+namespace spring_pendulum {
+namespace {
+
+using testing::HasSubstr;
+
+State horizontal(Eigen::Index particles, double spacing = 1.0) {
+  return test::straightLine(particles, spacing, 0.0);
+}
+
+TEST(Verdict, IsDivergedWhileAllIsFinite) {
+  const test::Scene light = test::horizontalChain("", 11, 0.01);
+  const Verdict verdict = test::verdictOfRun(light, findMethod("Runge-Kutta-4"), 0.01, 5.0, true);
+  EXPECT_EQ(verdict.kind, VerdictKind::kDiverged);
+  EXPECT_THAT(verdict.text, HasSubstr("diverged at t = 0.3 s: energy up by "));
+  EXPECT_GE(verdict.particle, 2);
+  EXPECT_LE(verdict.particle, 11);
+}
+
+TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
+  const Chain chain(Eigen::VectorXd::Ones(5), SpringLaw{}, 9.81);
+  const State start = horizontal(5);
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()}) {
+    for (const Eigen::Index column : {0, 1, 2, 3}) {
+      State state = start;
+      state.values()(3, column) = bad;
+      Judge judge(chain, start, JudgeOptions{false});
+      EXPECT_EQ(judge.judge(0.5, state, 0.0, nullptr).kind, VerdictKind::kDiverged);
+      EXPECT_EQ(judge.worst().particle, 4);
+      EXPECT_EQ(judge.worst().text,
+                "diverged at t = 0.5 s: particle 4 is no longer a finite number");
+    }
+  }
+}
+
+TEST(Verdict, FindsANumberThatIsNotFiniteWithoutSpringsAndGravity) {
+  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{0.0, 0.0, 0.0}, 0.0);
+  State state = horizontal(3);
+  Judge judge(chain, state, JudgeOptions{false});
+  EXPECT_EQ(judge.judge(0.0, state, 0.0, nullptr).kind, VerdictKind::kNotChecked);
+  state.y()[2] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(judge.judge(0.1, state, 0.0, nullptr).kind, VerdictKind::kDiverged);
+  EXPECT_EQ(judge.worst().particle, 3);
+}
+
+TEST(Verdict, IsDriftIfTheDissipatedEnergyIsNotANumber) {
+  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
+  const State start = horizontal(3);
+  Judge judge(chain, start, JudgeOptions{true});
+  EXPECT_EQ(judge.judge(0.0, start, 0.0, nullptr).kind, VerdictKind::kNotChecked);
+  EXPECT_EQ(judge.judge(0.1, start, std::nan(""), nullptr).kind, VerdictKind::kDrift);
+}
+
+TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
+  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
+  const State start = horizontal(3);
+  Judge judge(chain, start, JudgeOptions{false});
+  judge.judge(0.0, start, 0.0, nullptr);
+  State raised = start;
+  raised.y()[2] = 0.2;  // 2 J up
+  judge.judge(1.0, raised, 0.0, nullptr);
+  judge.judge(2.0, raised, 0.0, nullptr);
+  EXPECT_FALSE(isBad(judge.judge(3.0, start, 0.0, nullptr).kind));
+  EXPECT_EQ(judge.worst().kind, VerdictKind::kGainedEnergy);
+  EXPECT_EQ(judge.worst().time, 1.0);
+}
+
+TEST(Verdict, IsOkForTheFixedParticleAlone) {
+  const Chain chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
+  Judge judge(chain, State(1), JudgeOptions{false});
+  EXPECT_EQ(judge.judge(1.0, State(1), 0.0, nullptr).kind, VerdictKind::kNotChecked);
+  EXPECT_EQ(judge.entry().relative_gain, 0.0);
+}
+
+Chain uniform(Eigen::Index particles, const SpringLaw& spring, double gravity) {
+  return {Eigen::VectorXd::Ones(particles), spring, gravity};
+}
+
+double scaleOf(const Chain& chain, const State& start) {
+  return Judge(chain, start, {false}).scale(0.0);
+}
+
+TEST(EnergyScale, IsTheDepthOfTheHangingChainForAStartWithoutEnergy) {
+  // Two springs carry 2 m g and m g: E_min = -(3 m g L_0 + 5 (m g)²/(2 k_s)).
+  const double depth = 3.0 * 9.81 + 5.0 * 9.81 * 9.81 / 100.0;
+  const Judge balance(uniform(3, SpringLaw{}, 9.81), horizontal(3), {false});
+  EXPECT_NEAR(balance.scale(0.0), depth, 1e-12);
+  EXPECT_EQ(balance.scale(100.0), balance.scale(0.0));
+}
+
+TEST(EnergyScale, AddsTheEnergyOfAStartAboveTheAnchorsLevel) {
+  const State stretched = horizontal(3, 3.0);  // 2 k_s (3 - 1)²/2 = 200 J
+  const Chain chain = uniform(3, SpringLaw{}, 9.81);
+  EXPECT_NEAR(scaleOf(chain, stretched), scaleOf(chain, horizontal(3)) + 200.0, 1e-10);
+}
+
+TEST(EnergyScale, IsTheSameForGravityUpwards) {
+  EXPECT_EQ(scaleOf(uniform(5, SpringLaw{}, -9.81), horizontal(5)),
+            scaleOf(uniform(5, SpringLaw{}, 9.81), horizontal(5)));
+}
+
+TEST(EnergyScale, StaysAboveZeroWhereNothingMoves) {
+  EXPECT_GT(scaleOf(uniform(3, SpringLaw{}, 0.0), horizontal(3)), 0.0);
+  EXPECT_GT(scaleOf(uniform(3, {50.0, 1.0, 0.0}, 0.0), horizontal(3)), 0.0);
+}
+
+TEST(EnergyScale, FollowsTheFreeFallOfAChainWithoutStiffness) {
+  const Judge balance(uniform(3, {0.0, 0.0, 1.0}, 10.0), horizontal(3), {false});
+  EXPECT_DOUBLE_EQ(balance.scale(2.0) - balance.scale(0.0), 2.0 * 100.0 * 4.0 / 2.0);
+}
+
+TEST(EnergyScale, RefusesEnergiesBeyondADouble) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Constant(3, 1e300);
+  EXPECT_THROW(scaleOf(Chain(masses, SpringLaw{}, 9.81), horizontal(3)), InputError);
+  const SpringLaw stiff{1e300, 0.0, 1.0};
+  EXPECT_THROW(scaleOf(uniform(3, stiff, 0.0), horizontal(3, 1e10)), InputError);
+  const SpringLaw none{0.0, 0.0, 0.0};
+  EXPECT_THROW(scaleOf(uniform(3, none, 1e160), horizontal(3)), InputError);
+}
+
+TEST(EnergyBalance, ClosesWithTheOrderOfTheMethod) {
+  // Halving the step divides the residual by 2^order; measured 2.01 (Euler), 4.10 (Runge-Kutta-2),
+  // 15.9 (Runge-Kutta-4).
+  const Chain chain = uniform(4, SpringLaw{}, 9.81);
+  for (const Method& method : methodTable()) {
+    if (!method.hasFixedStep()) continue;
+    double residual[2];
+    for (const int refined : {0, 1}) {
+      State state = horizontal(4, 1.1);
+      const Judge balance(chain, state, {true});
+      const auto integrator = makeIntegrator(method, chain, {1e-6, true});
+      const std::int64_t steps = refined == 0 ? 1000 : 2000;
+      integrator->advance(state, 1.0 / static_cast<double>(steps), steps);
+      residual[refined] = *balance.balanceOf(1.0, state, integrator->dissipatedEnergy()).residual;
+    }
+    const double ratio = residual[0] / residual[1];
+    const double expected = std::pow(2.0, method.order);
+    EXPECT_GT(ratio, 0.9 * expected) << method.name;
+    EXPECT_LT(ratio, 1.1 * expected) << method.name;
+  }
+}
+
+TEST(EnergyBalance, LeavesTheResidualOpenOnlyIfDampingIsNotTracked) {
+  const State start = horizontal(3);
+  EXPECT_FALSE(
+      Judge(uniform(3, SpringLaw{}, 9.81), start, {false}).balanceOf(0.0, start, 0.0).residual);
+  const auto undamped =
+      Judge(uniform(3, {50.0, 0.0, 1.0}, 9.81), start, {false}).balanceOf(0.0, start, 0.0);
+  EXPECT_EQ(undamped.dissipated, 0.0);
+  EXPECT_EQ(undamped.residual, 0.0);
+}
+
+/// A word a step, the largest first; a letter a value. `.` ok, `d` drift, `g` gained energy,
+/// `X` diverged. Values lie between the borders, so that the map does not hang on rounding.
+std::string mapOf(const char* method, const std::vector<double>& values,
+                  const std::function<test::Scene(double)>& scene) {
+  std::string map;
+  for (const double step : {0.5, 0.15, 0.05, 0.015, 0.005, 0.0015}) {
+    if (!map.empty()) map += " ";
+    for (const double value : values) {
+      const Verdict verdict = test::verdictOfRun(scene(value), findMethod(method), step, 5.0, true);
+      map += "....dgX"[static_cast<int>(verdict.kind)];
+    }
+  }
+  return map;
+}
+
+test::Scene withMass(double mass) {
+  return test::horizontalChain("", 11, mass);
+}
+
+test::Scene withDamping(double damping) {
+  return test::horizontalChain("", 11, 1.0, {50.0, damping, 1.0});
+}
+
+const std::vector<double> kMasses{1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0};
+const std::vector<double> kDampings{0.0, 0.1, 1.0, 10.0, 100.0, 1000.0};
+
+TEST(StabilityMap, OfStepAgainstMass) {
+  EXPECT_EQ(mapOf("Euler", kMasses, withMass), "XXXXXg XXXXXd XXXXg. XXXXd. XXgd.. Xgdd..");
+  EXPECT_EQ(mapOf("Runge-Kutta-2", kMasses, withMass), "XXXXX. XXXX.. XXXd.. XX.... X..... X.....");
+  EXPECT_EQ(mapOf("Runge-Kutta-4", kMasses, withMass), "XXXX.. XXXd.. XXd... XX.... X..... X.....");
+}
+
+TEST(StabilityMap, OfStepAgainstDamping) {
+  EXPECT_EQ(mapOf("Euler", kDampings, withDamping), "XXXXXX XXXXXX XXXXXX XXXdXX ggdddX gddd.X");
+  EXPECT_EQ(mapOf("Runge-Kutta-2", kDampings, withDamping),
+            "XXXXXX XXXXXX ggddXX ....XX .....X .....X");
+  EXPECT_EQ(mapOf("Runge-Kutta-4", kDampings, withDamping),
+            "XXXXXX dddXXX ....XX ....XX .....X .....X");
+}
+
+}  // namespace
+}  // namespace spring_pendulum
