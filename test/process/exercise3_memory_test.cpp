@@ -61,6 +61,14 @@ TEST_F(Exercise3Memory, OfAutoIsThatOfTwoMethodsAlsoWhereItTriesAll) {
   EXPECT_LT(peakMemory(folder_, "Auto", "light.txt", 0.005), 1.1 * expectedMemory(scenario, kLong));
 }
 
+TEST_F(Exercise3Memory, OfCheckIsThatOfOneRunAtATime) {
+  const std::string run_once = "Euler long.txt --frames 2 --no-frames --reference always";
+  const Result once = run(exercise3(folder_, wordsOf(run_once)));
+  const Result check = run(exercise3(folder_, wordsOf(run_once + " --check")));
+  EXPECT_EQ(check.status, 0) << check.errors;
+  EXPECT_LT(check.peak_memory, 1.5 * once.peak_memory);  // 1.1 times; two runs: 2.05
+}
+
 TEST_F(Exercise3Memory, IsSaidBeforeARunThatIsNotRefused) {
   Scenario scenario;
   scenario.reference = ReferenceUse::kAlways;  // takes its memory after frame 0

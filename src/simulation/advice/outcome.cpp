@@ -83,8 +83,8 @@ class Trials {
     return run;
   }
 
-  /// A run with another step size, with frames at about the same times.
-  std::optional<Run> runWithStep(double step, VerdictKind enough) {
+  /// The verdict on a run with another step size, with frames at about the same times.
+  std::optional<VerdictKind> verdictWithStep(double step, VerdictKind enough) {
     constexpr double kMostFrames = 2000.0;
     constexpr double kMostSteps = 1e9;
     const double duration = durationOf(plan_);
@@ -94,7 +94,8 @@ class Trials {
     plan.time_step = step;
     plan.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
     plan.frames = std::max<std::int64_t>(1, std::llround(duration / plan.timeOfFrame(1))) + 1;
-    return run(plan, enough);
+    const auto trial = run(plan, enough);
+    return trial ? std::optional(trial->verdict().kind) : std::nullopt;
   }
 
   /// Returns the largest step size up to `most` with a verdict better than `bad`, with three digits: `first` if
@@ -107,18 +108,17 @@ class Trials {
     double step = roundedDown(std::min({first, most, failed / kPrecision}));
     for (double ratio = kPrecision; low < step && step < failed;
          ratio = std::min(ratio * ratio, 2.0)) {
-      const auto trial = runWithStep(step, bad);
-      if (!trial && std::isinf(failed)) break;
-      const VerdictKind kind = trial ? trial->verdict().kind : VerdictKind::kOk;
+      const auto tried = verdictWithStep(step, bad);
+      if (!tried && std::isinf(failed)) break;
+      const VerdictKind kind = tried.value_or(VerdictKind::kOk);
       if (kind == VerdictKind::kNotChecked && measures(bad))
         return std::numeric_limits<double>::quiet_NaN();
       (kind < bad ? low : failed) = step;
-      if (trial && kind < bad) found = step;
+      if (tried && kind < bad) found = step;
       if (found >= roundedDown(most)) return kInfinity;
       if (failed <= kPrecision * low) {
         // Nearly undamped chains have narrow intervals of unstable step sizes.
-        const auto smaller = runWithStep(0.9 * low, bad);
-        if (!smaller || smaller->verdict().kind < bad) break;
+        if (verdictWithStep(0.9 * low, bad).value_or(VerdictKind::kOk) < bad) break;
         failed = 0.9 * low;
         found = low = 0.0;
       }
@@ -175,9 +175,8 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   const Method& method = plan.method;
   const bool fixed = method.hasFixedStep();
   StabilityReport report;
-  const auto trial = trials.run(plan, VerdictKind::kDiverged);
   report.text = fmt::format("{}: takes too long to try\n", method.name);
-  if (trial) {
+  if (const auto trial = trials.run(plan, VerdictKind::kDiverged)) {
     report.verdict = trial->verdict();
     report.position_error = trial->positionError().largest;
     report.text = fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
@@ -189,7 +188,7 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   report.stable = stableStep(trials, chain, plan);
   report.text += fmt::format("largest stable step size: {}\n",
                              stepText(report.stable.step, report.stable.is_estimate));
-  if (!trial) return report;
+  if (!report.verdict) return report;
   // The error grows with a power of the step size: the order of the method.
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
   const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
