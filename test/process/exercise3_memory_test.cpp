@@ -15,16 +15,9 @@ namespace {
 // The memory of this test counts until it becomes Exercise3, so that the short run must need more.
 constexpr int kShort = 50000, kLong = 100000;
 
-/// Peak memory of a run, B.
-double peakMemory(const TemporaryFolder& folder, const std::string& method,
-                  const std::string& particles, double interval) {
-  Command command = exercise3(folder, {method, "--no-frames", "--frames", "2", "--particles",
-                                       particles, "--reference", "never"});
-  if (findMethod(method).control == StepControl::kErrorControlled) {
-    command.arguments.insert(command.arguments.end(),
-                             {"--frame-interval", std::to_string(interval)});
-  }
-  const Result result = run(command);
+/// Peak memory of a run over one frame interval, B.
+double peakMemory(const TemporaryFolder& folder, const std::string& options) {
+  const Result result = run(exercise3(folder, wordsOf(options + " --no-frames --frames 2")));
   EXPECT_EQ(result.status, 0) << result.errors;
   return result.peak_memory;
 }
@@ -46,8 +39,10 @@ TEST_F(Exercise3Memory, IsThatOfTheTableOfMethods) {
   Scenario scenario;
   for (const Method& method : methodTable()) {
     scenario.method = method;
-    const double measured = peakMemory(folder_, method.name, "long.txt", 1e-3) -
-                            peakMemory(folder_, method.name, "short.txt", 1e-3);
+    const std::string interval = method.hasFixedStep() ? "" : " --frame-interval 1e-3";
+    const std::string options = method.name + interval + " --reference never -p ";
+    const double measured =
+        peakMemory(folder_, options + "long.txt") - peakMemory(folder_, options + "short.txt");
     const double expected = expectedMemory(scenario, kLong) - expectedMemory(scenario, kShort);
     EXPECT_LT(measured, 1.3 * expected) << method.name;
     if (method.name == "Auto") continue;  // needs the memory of one method or of two
@@ -58,15 +53,14 @@ TEST_F(Exercise3Memory, IsThatOfTheTableOfMethods) {
 TEST_F(Exercise3Memory, OfAutoIsThatOfTwoMethodsAlsoWhereItTriesAll) {
   Scenario scenario;
   scenario.method = findMethod("Auto");
-  EXPECT_LT(peakMemory(folder_, "Auto", "light.txt", 0.005), 1.1 * expectedMemory(scenario, kLong));
+  EXPECT_LT(peakMemory(folder_, "Auto light.txt --frame-interval 0.005 --reference never"),
+            1.1 * expectedMemory(scenario, kLong));
 }
 
 TEST_F(Exercise3Memory, OfCheckIsThatOfOneRunAtATime) {
-  const std::string run_once = "Euler long.txt --frames 2 --no-frames --reference always";
-  const Result once = run(exercise3(folder_, wordsOf(run_once)));
-  const Result check = run(exercise3(folder_, wordsOf(run_once + " --check")));
-  EXPECT_EQ(check.status, 0) << check.errors;
-  EXPECT_LT(check.peak_memory, 1.5 * once.peak_memory);  // 1.1 times; two runs: 2.05
+  const std::string options = "Euler long.txt --reference always";
+  EXPECT_LT(peakMemory(folder_, options + " --check"),
+            1.5 * peakMemory(folder_, options));  // 1.1 times; two runs: 2.05
 }
 
 TEST_F(Exercise3Memory, IsSaidBeforeARunThatIsNotRefused) {
