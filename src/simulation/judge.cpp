@@ -60,9 +60,8 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
 double Judge::change(const Chain& chain, const State& before, const State& after,
                      const JudgeOptions& options, double supplied) {
   const double energy_before = energyOf(before).total();
-  const double start_time = options_.start_time;
+  const double start_time = std::exchange(options_, options).start_time;
   chain_ = chain;
-  options_ = options;
   options_.start_time = start_time;
   changed_ = true;
   const double energy_after = energyOf(after).total();

@@ -227,10 +227,12 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
     throw InputError("fixed steps and error control alternate at frames only");
   Chain chain = Chain(chain_.masses(), constants).drivenBy(drive);
   checkState(state);
-  if (!fixed_step) checkTolerance(next.tolerance, chain, state);
+  // A chain that has grown since can still be driven: else its held particles would run away.
+  if (!fixed_step && (other_control || next.tolerance != plan_.tolerance))
+    checkTolerance(next.tolerance, chain, state);
   const bool knows_dissipation = track_dissipation_ || (!chain_.isDissipative() && !changed_);
   Judge judge = *judge_;
-  const double supplied = judge.change(
+  supplied_before_ = supplied_ = judge.change(
       chain, state_, state, judgeOptions(next, knows_dissipation, first_frame_), supplied_);
 
   chain_ = std::move(chain);
@@ -244,7 +246,6 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   }
   if (other_control) divideFrames();
   dissipated_before_ = dissipated_;
-  supplied_before_ = supplied_ = supplied;
   evaluations_before_ += integrator_->forceEvaluations();
   work_at_start_ -= integrator_->work();
   asleep_ = false;

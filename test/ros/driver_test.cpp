@@ -60,6 +60,16 @@ TEST(Driver, BringAParticleToRestAtItsTarget) {
   EXPECT_FALSE(isBad(live.run.verdict().kind)) << live.run.verdict().text;
 }
 
+TEST(Driver, BringAParticleBeyondThePositionsThatBoundedTheTolerance) {
+  Scenario wanted;
+  wanted.method = findMethod("Auto");
+  wanted.tolerance = 4e-13;  // for a gravity of 9.8 m/s², that is, 9.8 m
+  Live live(wanted);
+  live.driver.on(Hold{5, Target{{12.0, 0.0}, {}}});
+  live.go(2.0);
+  EXPECT_NEAR(live.run.state().x()[5], 12.0, 1e-3);
+}
+
 TEST(Driver, LeaveAFreeRunAlone) {
   Live live;
   live.go(2.0);
@@ -214,12 +224,14 @@ TEST(Follower, IsWithItsHolderOnACircle) {
 
 TEST(Follower, ComesBackSlowlyAfterASilence) {
   std::string said;
-  Follower follower("odom", 10.0, [&said](const std::string& text) { said = text; });
+  Follower follower("odom", 1e20, [&said](const std::string& text) { said = text; });
   for (double t = 0.0; t < 1.0; t += 0.03) follower.take({{0.0, 0.0}, {}, {}}, true, t, t);
   EXPECT_LT(std::hypot(follower.targetAt(1.0, {0.0, 0.0}, 0.03)->position.x, 0.0), 1e-12);
   follower.take({{4.0, 0.0}, {}, {}}, true, 3.0, 3.0);
   EXPECT_NEAR(follower.targetAt(3.0, {0.0, 0.0}, 0.03)->position.x, 0.06, 1e-12);
   EXPECT_EQ(said, "odom: the particle comes to it from 4 m away");
+  follower.take({{1e17, 0.0}, {}, {}}, true, 3.1, 3.1);
+  EXPECT_NEAR(follower.targetAt(3.1, {0.0, 0.0}, 0.03)->position.x, 0.06, 1e-12);
 }
 
 TEST(Robots, ParseHeldParticles) {

@@ -140,9 +140,9 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
   }
   const double step = 2.0 * kApproachSpeed * std::max(interval, 1e-3);
   if (distance <= step) return;
-  const double left = 1.0 - step / distance;
-  target.position.x -= left * (target.position.x - here.x);
-  target.position.y -= left * (target.position.y - here.y);
+  const double share = step / distance;
+  target.position.x = here.x + share * (target.position.x - here.x);
+  target.position.y = here.y + share * (target.position.y - here.y);
 }
 
 bool Follower::isSilent(double now) const {
