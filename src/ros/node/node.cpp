@@ -188,7 +188,7 @@ void Node::finishState() {
     last_frame_number_ = run_.frame();
   }
   files_.write(run_);
-  if (run_.isOver()) files_.finish();
+  if (run_.isOver() && run_.isShown()) files_.finish();  // after a divergence, more may follow
   show();
   show_at_ = now;
 }
