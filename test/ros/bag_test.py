@@ -48,8 +48,7 @@ class Bag(unittest.TestCase):
             self.assertEqual([(p.x, p.z) for p in message.positions],
                              [tuple(map(float, line.split())) for line in lines])
         self.assertEqual(len(states), 1498)  # 3 states a frame at 30 Hz
-        self.assertEqual([m.header.stamp for m, _ in states],
-                         [m.markers[0].header.stamp for m, _ in markers])
+        self.assertEqual([m.header.stamp for m, _ in states], [m.markers[0].header.stamp for m, _ in markers])
         for message, stamp in states:
             self.assertEqual(message.header.stamp, stamp)
             self.assertAlmostEqual(stamp.to_sec(), 1.0 + message.time, places=6)
@@ -79,8 +78,7 @@ class Bag(unittest.TestCase):
             record(folder, 'all.bag', '--namespace', 'euler', '--frames', '5', method='Euler')
             path, _ = record(folder, 'all.bag', '--namespace', '/rk4/', '--append', '--frames', '5')
             self.assertEqual({m.method for m, _ in contents(path, '/euler/state')}, {'Euler'})
-            self.assertEqual({m.method for m, _ in contents(path, '/rk4/state')},
-                             {'Runge-Kutta-4'})
+            self.assertEqual({m.method for m, _ in contents(path, '/rk4/state')}, {'Runge-Kutta-4'})
 
     def test_appends_only_to_a_complete_bag(self):
         with Folder() as folder:

@@ -195,8 +195,7 @@ class Faults(unittest.TestCase):
             with master(port):
                 node.stop()
             frames = read_frames(folder)
-            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', HORIZONTAL,
-                                    '--frames', str(len(frames)))
+            expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', HORIZONTAL, '--frames', len(frames))
             self.assertEqual(frames, expected)
 
     def test_a_subscriber_that_stops_does_not_stop_the_node_or_make_it_grow(self):

@@ -206,8 +206,7 @@ def connected(topic, kind):
 
 def feedback(particle, event, x=0.0, z=0.0, frame='world'):
     """What rviz says about the mouse."""
-    message = InteractiveMarkerFeedback(client_id='test', marker_name='particle_%d' % particle,
-                                        event_type=event)
+    message = InteractiveMarkerFeedback(client_id='test', marker_name='particle_%d' % particle, event_type=event)
     message.header.frame_id = frame
     message.pose.position.x, message.pose.position.z = x, z
     message.pose.orientation.w = 1.0

@@ -32,8 +32,7 @@ class Topics(NodeTest):
             self.assertEqual(len(listener.wait_for(count)), count)
         status.wait_for_any(lambda m: m.code == PendulumStatus.FINISHED)
         self.assertEqual(state.messages[0].time, 0.0)
-        self.assertEqual([m.frame for m in state.messages if m.at_frame and m.frame < 19],
-                         list(range(19)))
+        self.assertEqual([m.frame for m in state.messages if m.at_frame and m.frame < 19], list(range(19)))
         self.assertEqual(state.messages[-1].frame, 19)
         self.assert_increasing(state.messages)
         self.assertEqual(stamps(state.messages), [m.markers[0].header.stamp.to_nsec()
@@ -43,8 +42,7 @@ class Topics(NodeTest):
         self.assertEqual(state.messages[0].header.frame_id, 'base')
         # Whether the node had to wait depends on who was faster.
         started = [m for m in status.messages if m.code != PendulumStatus.WAITING]
-        self.assertEqual([m.code for m in started],
-                         [PendulumStatus.RUNNING, PendulumStatus.FINISHED])
+        self.assertEqual([m.code for m in started], [PendulumStatus.RUNNING, PendulumStatus.FINISHED])
         self.assertTrue({m.header.stamp.to_nsec() for m in started}
                         <= set(stamps(state.messages)))
 
