@@ -74,12 +74,12 @@ class Launch(unittest.TestCase):
     def test_compare(self):
         with Folder() as folder, Folder() as expected_folder:
             output = launch('compare.launch', 'rviz:=false', 'at_end:=exit', 'frames:=6',
-                            'output:=' + folder, 'real_time_factor:=4.0')
+                            'output:=0042', 'real_time_factor:=4.0', cwd=folder)
             self.assertEqual(output.count('verdict: ok'), 3, output)
             for method, name in (('Euler', 'euler'), ('Runge-Kutta-2', 'runge_kutta_2'),
                                  ('Runge-Kutta-4', 'runge_kutta_4')):
                 expected = run_exercise(expected_folder, method, '--particles', SCENE, '--frames', '6')
-                self.assertEqual(read_frames(os.path.join(folder, name)), expected)
+                self.assertEqual(read_frames(os.path.join(folder, '0042', name)), expected)
 
     def test_record_loses_nothing_and_closes_the_bag(self):
         with Folder() as folder:
