@@ -97,8 +97,7 @@ class Bag(unittest.TestCase):
     def test_rosbag_info_and_play(self):
         with Folder() as folder:
             path, _ = record(folder, 'one.bag', '--frames', '11', '--display-rate', '0')
-            info = subprocess.run(['rosbag', 'info', '-y', path], capture_output=True, text=True,
-                                  check=True).stdout
+            info = subprocess.run(['rosbag', 'info', '-y', path], capture_output=True, text=True, check=True).stdout
             self.assertIn('messages: 25', info)  # 11 markers, 11 states, 2 status, the camera
             state, markers = Listener('/state', PendulumState), Listener('/markers', MarkerArray)
             status, camera = Listener('/status', PendulumStatus), Listener('/tf_static', TFMessage)

@@ -12,12 +12,13 @@ import unittest
 from xmlrpc.client import ServerProxy
 
 import rosgraph
+from geometry_msgs.msg import PoseStamped
 from rosgraph.xmlrpc import ThreadingXMLRPCServer
 from spring_pendulum.msg import PendulumState, PendulumStatus
 
 from fault_injection import INJECTION, check_faults
-from pendulum_process import (HORIZONTAL, SCENE, Folder, Listener, PendulumNode, case, ended_node, program, read_frames,
-                              run_exercise, running, wait_until, write)
+from pendulum_process import (HORIZONTAL, SCENE, Folder, Listener, PendulumNode, case, connected, ended_node, pose,
+                              program, read_frames, run_exercise, running, wait_until, write)
 
 
 @contextlib.contextmanager
@@ -107,8 +108,7 @@ class Node(unittest.TestCase):
     def test_names_a_log_folder_that_cannot_be_created(self):
         with Folder() as folder:
             open(folder + '/file', 'w').close()
-            status, output = self.fail_to_start(
-                {'HOME': folder + '/file', 'ROS_HOME': None, 'ROS_LOG_DIR': None})
+            status, output = self.fail_to_start({'HOME': folder + '/file', 'ROS_HOME': None, 'ROS_LOG_DIR': None})
             self.assertEqual(status, 1)
             self.assertRegex(output, r'^%s/file/.ros/?: the log folder of ROS could not be created: '
                              r'Not a directory.*; set ROS_HOME to a writable folder\n$' % folder)
@@ -218,6 +218,14 @@ class Faults(unittest.TestCase):
                 self.assertLess(largest - start, 120e6)
                 node.ends()
             status.close()
+
+    def test_a_holder_is_met_while_nobody_looks(self):
+        with PendulumNode(particles=HORIZONTAL, frames=100000, real_time_factor=1.0, held='last') as node:
+            robot = connected('held_11/pose', PoseStamped)
+            for k in range(180):
+                robot.publish(pose(11.0 + 0.08 * k, 0.0))
+                time.sleep(0.03)
+            self.assertNotIn('has not been met', node.output())
 
     def test_subscribers_that_come_and_go(self):
         with PendulumNode(particles=HORIZONTAL, frames=100000, real_time_factor=1.0) as node:

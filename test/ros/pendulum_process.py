@@ -233,8 +233,7 @@ def transform(child, x=0.0, z=0.0, stamp=None):
 
 class NodeTest(unittest.TestCase):
     """Tests of a node at /pendulum, which plays for hours unless told otherwise."""
-    PARAMETERS = dict(particles=HORIZONTAL, frames=100000, real_time_factor=1.0,
-                      at_end='hold', wait_for_subscribers=1)
+    PARAMETERS = dict(particles=HORIZONTAL, frames=100000, real_time_factor=1.0, at_end='hold', wait_for_subscribers=1)
 
     def setUp(self):
         self.listeners = []

@@ -155,8 +155,7 @@ def pixel_of(point, camera):
 class Rviz(NodeTest):
 
     def test_the_running_node_and_the_next_one(self):
-        with Display() as display, \
-                Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer:
+        with Display() as display, Viewer(display, 'view.launch', 'rviz_args:=--fullscreen') as viewer:
             self.check_running_node(viewer)
             self.check_next_node(viewer)
 
@@ -211,8 +210,7 @@ class Rviz(NodeTest):
             def mouse(*arguments):
                 subprocess.run(['xdotool', *map(str, arguments)], env=display.environment, check=True)
             column, row = pixel_of(rest, now())
-            viewer.wait_for_picture('hand_before.png',
-                                    lambda p: p.near(column, row, is_yellow), 'the tip')
+            viewer.wait_for_picture('hand_before.png', lambda p: p.near(column, row, is_yellow), 'the tip')
 
             def grabbed():
                 """Moves the mouse to the tip and a little to the right of it."""
@@ -273,8 +271,7 @@ class Rviz(NodeTest):
     def test_the_comparison(self):
         colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61),
                   'Runge-Kutta-4': (63, 182, 255)}
-        with Display() as display, \
-                Viewer(display, 'compare.launch', 'frames:=600') as viewer:
+        with Display() as display, Viewer(display, 'compare.launch', 'frames:=600') as viewer:
             def all_shown(picture):
                 # The chain of Runge-Kutta-2 hides behind the one of Runge-Kutta-4; its text does not.
                 return (picture.count(is_like(colors['Runge-Kutta-4'])) > 150 and

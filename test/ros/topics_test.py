@@ -111,8 +111,7 @@ class Topics(NodeTest):
         self.assertEqual([(p.x, p.z) for p in last.positions], [tuple(map(float, line.split())) for line in lines])
         self.assertEqual({p.y for p in last.positions}, {0.0})
         self.assertEqual((last.tip_position.x, last.tip_position.z), (last.positions[-1].x, last.positions[-1].z))
-        self.assertAlmostEqual(last.tip_speed, math.hypot(last.velocities[-1].x,
-                                                          last.velocities[-1].z))
+        self.assertAlmostEqual(last.tip_speed, math.hypot(last.velocities[-1].x, last.velocities[-1].z))
         _, when, kinetic, gravity, spring, _, dissipated, residual = map(float, row[:8])
         self.assertEqual((last.time, last.kinetic_energy, last.gravity_energy, last.spring_energy,
                           last.dissipated_energy),

@@ -136,8 +136,7 @@ class LabTest(unittest.TestCase):
         options = options or {}
         switches = [f'--{key.replace("_", "-")}={value}' for key, value in options.items()]
         expected = self.exercise3(method, scene, *switches)
-        answer = self.call('return pendulumLab.run(given[0])',
-                           {'method': method, 'particles': scene, **options})
+        answer = self.call('return pendulumLab.run(given[0])', {'method': method, 'particles': scene, **options})
         for key, value in expected.items():
             self.assertEqual(value, answer[key], f'{key} of {method} {options}')
         self.assertGreater(len(answer['frames']) + len(answer['messages']), 0)

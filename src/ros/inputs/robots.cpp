@@ -142,14 +142,14 @@ void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_ms
   }
 }
 
-void Robots::follow(double real_time_factor) {
+void Robots::follow(double real_time_factor, double next_time) {
   const double now = ros::SteadyTime::now().toSec();
   const double share = real_time_factor > 0.0 ? 1.0 / real_time_factor : 0.0;
   for (Robot& robot : robots_) {
     if (!robot.frame.empty()) lookUp(robot, now);
     const PlaneVector<double> here{run_.state().x()[robot.particle],
                                    run_.state().y()[robot.particle]};
-    auto target = robot.follower.targetAt(now, here, share * (run_.nextTime() - run_.time()));
+    auto target = robot.follower.targetAt(now, here, share * (next_time - run_.time()));
     if (!target) continue;
     // From seconds to simulated seconds.
     target->velocity = {share * target->velocity.x, share * target->velocity.y};

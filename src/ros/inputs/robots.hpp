@@ -92,7 +92,8 @@ class Robots {
 
   /// Reads tf and stops particles whose input is silent. Must be called before every state.
   /// \param real_time_factor simulated seconds per second; 0: unknown
-  void follow(double real_time_factor);
+  /// \param next_time        of the next state, s
+  void follow(double real_time_factor, double next_time);
   /// Publishes the forces on the holders.
   void show(const std_msgs::Header& header);
   /// Holds the particles where they are, after a reset.

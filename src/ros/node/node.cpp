@@ -159,7 +159,7 @@ void Node::advance() {
 
 void Node::change(double next_time, bool paused) {
   handles_.releaseSilent();
-  robots_.follow(options_.real_time_factor);
+  robots_.follow(options_.real_time_factor, next_time);
   try {
     driver_.apply(run_, next_time, paused);
   } catch (const InputError& error) {
