@@ -27,9 +27,9 @@ bool isBelow(const AlignedNumbers::ConstView& inverse, double bound) {
 double largestSpringMode(const Chain& chain) {
   if (chain.size() < 2) return 0.0;
   double least = stiffestSpring(chain);
-  double most = 2.0 * least;
+  double most = std::min(2.0 * least, std::numeric_limits<double>::max());
   while (most - least > kPrecision * least) {
-    const double middle = 0.5 * (least + most);
+    const double middle = 0.5 * least + 0.5 * most;  // the sum could overflow
     (isBelow(chain.inverseMasses(), middle) ? most : least) = middle;
   }
   return most;

@@ -50,6 +50,7 @@ TEST(ChainModes, StiffestSpringJoinsTheLightestPair) {
   EXPECT_DOUBLE_EQ(stiffestSpring(chain), 1.0 / 2.0 + 1.0 / 0.5);
   const Chain short_chain((Eigen::VectorXd(2) << 0.001, 2.0).finished(), SpringLaw{}, 9.81);
   EXPECT_DOUBLE_EQ(stiffestSpring(short_chain), 0.5);  // the first particle is fixed
+  EXPECT_GE(largestSpringMode(Chain(Eigen::Vector2d(1, 1e-308), SpringLaw{}, 9.81)), 1e308);
 }
 
 TEST(ChainModes, UniformChainHasTheClosedForm) {
