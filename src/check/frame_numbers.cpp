@@ -102,16 +102,16 @@ bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
 }
 
 void noteMissingFrames(AllFrames& all) {
-  std::int64_t last = all.start - 1, first = all.start;
+  std::int64_t last = all.start - 1, there = 0;  // in a row from the start
   for (const FrameNumbers& frame : all.frames) {
     if (frame.index == last) throw FileError(fmt::format("frame {} is there twice", last));
-    if (frame.index == first) ++first;
+    if (frame.index - all.start == there) ++there;
     last = frame.index;
   }
-  const auto count = last + 1 - all.start - static_cast<std::int64_t>(all.frames.size());
+  const auto count = last - all.start - static_cast<std::int64_t>(all.frames.size()) + 1;
   if (count == 0) return;
   all.notes.push_back(
-      fmt::format("{}, the first is frame {}", counted(count, "missing frame"), first));
+      fmt::format("{}, the first is frame {}", counted(count, "missing frame"), all.start + there));
 }
 
 }  // namespace
