@@ -77,8 +77,10 @@ configure "$folder" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_BUILD_TYPE=Re
   -DSPRING_PENDULUM_TESTS=OFF -DSPRING_PENDULUM_BENCHMARKS=ON
 compile "$folder"
 mkdir -p "$results"
-SPRING_PENDULUM_COMMIT=$(git -c safe.directory="$project" -C "$project" describe --always --dirty \
-  2> /dev/null || echo unknown)
+git() { command git -c safe.directory="$project" -C "$project" "$@" 2> /dev/null; }
+SPRING_PENDULUM_COMMIT=$(git describe --always || echo unknown)
+# Results do not change what is measured.
+git diff --quiet HEAD -- . ':!benchmark/results' ':!docs' || SPRING_PENDULUM_COMMIT+=-dirty
 export SPRING_PENDULUM_COMMIT
 for benchmark in $wanted; do "$benchmark" "$@"; done
 say "results: $results"
