@@ -44,6 +44,13 @@ double durationOf(const Plan& plan) {
   return std::clamp(plan.timeOfFrame(plan.frames - 1), plan.step(), 1e300);
 }
 
+/// What is asked of a trial run.
+struct Trial {
+  Verdict verdict;
+  double position_error;  ///< the largest, m
+  std::string measurements;
+};
+
 /// Trial runs of a scene.
 class Trials {
  public:
@@ -59,60 +66,55 @@ class Trials {
 
   /// Runs a variant of the plan until the verdict is `enough` or worse. Measures the position error if it
   /// matters.
-  /// \returns the run at its end, which must not go on; nothing if the allowed work was used up, or the trial was stopped
-  std::optional<Run> run(Plan plan, VerdictKind enough) {
+  /// \returns nothing if the allowed work was used up or the trial was stopped
+  std::optional<Trial> run(Plan plan, VerdictKind enough) {
     if (total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_())) return {};
     plan.on_divergence = OnDivergence::kStop;
     plan.threads = 1;
     plan.sleep = 0.0;
     plan.reference = measures(enough) ? ReferenceUse::kAuto : ReferenceUse::kNever;
-    const Run* counted = nullptr;
+    std::optional<Run> run;
     const auto work = [&] {
-      const Integrator& integrator = counted->integrator();
+      const Integrator& integrator = run->integrator();
       return integrator.work() +
              evaluation_time_ * static_cast<double>(integrator.forceEvaluations()) +
-             static_cast<double>(counted->frame() * (scene_.state.size() + 10)) * kFrameTime;
+             static_cast<double>(run->frame() * (scene_.state.size() + 10)) * kFrameTime;
     };
     // The negated comparison also ends a method whose work is not a number.
-    Run run(scene_, plan,
-            {false, 0.0, [&] { return !(work() < kTrialWork) || (stop_ && stop_()); }});
-    counted = &run;
-    while (run.advance() && run.verdict().kind < enough) continue;
-    total_work_ += work() + run.referenceWork();
-    if (run.wasStopped()) return {};
-    return run;
+    const auto ends = [&] { return !(work() < kTrialWork) || (stop_ && stop_()); };
+    run.emplace(scene_, plan, RunOptions{false, 0.0, ends});
+    while (run->advance() && run->verdict().kind < enough) continue;
+    total_work_ += work() + run->referenceWork();
+    if (run->wasStopped()) return {};
+    return Trial{run->verdict(), run->positionError().largest, run->measurements()};
   }
 
   /// The verdict on a run with another step size, with frames at about the same times.
   std::optional<VerdictKind> verdictWithStep(double step, VerdictKind enough) {
-    constexpr double kMostFrames = 2000.0;
-    constexpr double kMostSteps = 1e9;
     const double duration = durationOf(plan_);
-    if (duration / step > kMostSteps) return {};
-    const double interval = std::clamp(plan_.timeOfFrame(1), duration / kMostFrames, duration);
+    if (duration / step > 1e9) return {};  // would take too long
+    const double interval = std::clamp(plan_.timeOfFrame(1), duration / 2000.0, duration);
     Plan plan = plan_;
     plan.time_step = step;
     plan.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
     plan.frames = std::max<std::int64_t>(1, std::llround(duration / plan.timeOfFrame(1))) + 1;
     const auto trial = run(plan, enough);
-    return trial ? std::optional(trial->verdict().kind) : std::nullopt;
+    return trial ? std::optional(trial->verdict.kind) : std::nullopt;
   }
 
-  /// Returns the largest step size up to `most` with a verdict better than `bad`, with three digits: `first` if
-  /// its verdict is better and that of a 2 % larger one is not, else within 2 % by bisection.
-  /// \param failed known to have a bad verdict
-  /// \returns infinity for `most`; 0 if no step size can be tried, NaN if no reference run can
+  /// Searches from `first` for the largest step size up to `most` whose verdict is better than `bad`, while
+  /// one at most 2 % larger is bad.
+  /// \param failed a step size known to be bad
+  /// \returns three digits; infinity for `most`, 0 if no run can be tried, NaN if no reference run can
   double largestStep(double first, double most, VerdictKind bad, double failed = kInfinity) {
-    double found = 0.0;
-    double low = 0.0;  // better or takes too long
+    double found = 0.0, low = 0.0;  // verdicts are better; or at `low`, a run takes too long
     double step = roundedDown(std::min({first, most, failed / kPrecision}));
     for (double ratio = kPrecision; low < step && step < failed;
          ratio = std::min(ratio * ratio, 2.0)) {
       const auto tried = verdictWithStep(step, bad);
       if (!tried && std::isinf(failed)) break;
       const VerdictKind kind = tried.value_or(VerdictKind::kOk);
-      if (kind == VerdictKind::kNotChecked && measures(bad))
-        return std::numeric_limits<double>::quiet_NaN();
+      if (kind == VerdictKind::kNotChecked && measures(bad)) return std::nan("");
       (kind < bad ? low : failed) = step;
       if (tried && kind < bad) found = step;
       if (found >= roundedDown(most)) return kInfinity;
@@ -177,12 +179,12 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   StabilityReport report;
   report.text = fmt::format("{}: takes too long to try\n", method.name);
   if (const auto trial = trials.run(plan, VerdictKind::kDiverged)) {
-    report.verdict = trial->verdict();
-    report.position_error = trial->positionError().largest;
+    report.verdict = trial->verdict;
+    report.position_error = trial->position_error;
     report.text = fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
                               fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
                                           numberText(fixed ? plan.time_step : plan.tolerance)),
-                              durationOf(plan), trial->verdict().text, trial->measurements());
+                              durationOf(plan), trial->verdict.text, trial->measurements);
   }
   if (!fixed) return report;
   report.stable = stableStep(trials, chain, plan);
@@ -192,8 +194,7 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   // The error grows with a power of the step size: the order of the method.
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
   const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
-  double failed = kInfinity;
-  if (isBad(report.verdict->kind)) failed = plan.time_step;
+  const double failed = isBad(report.verdict->kind) ? plan.time_step : kInfinity;
   report.accurate_step = trials.largestStep(plan.time_step * (std::isnan(factor) ? 1.0 : factor),
                                             std::min(report.stable.step, durationOf(plan)),
                                             VerdictKind::kInaccurate, failed);
@@ -231,7 +232,7 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Pl
     other.tolerance = std::max(method.hasFixedStep() ? Plan{}.tolerance : plan.tolerance,
                                smallestTolerance(chain, start));
     const auto trial = trials.run(other, VerdictKind::kGainedEnergy);
-    if (trial && trial->verdict().kind < VerdictKind::kGainedEnergy) text += "; or use Auto";
+    if (trial && trial->verdict.kind < VerdictKind::kGainedEnergy) text += "; or use Auto";
   }
   return stop && stop() ? "" : text;
 }
@@ -240,8 +241,7 @@ Remarks remarksOn(const Run& run) {
   Remarks remarks;
   const std::string memory = memoryRemark(run.plan(), run.chain().size());
   if (!memory.empty()) remarks.notes.push_back(memory);
-  const double gravity = run.chain().gravity();
-  if (gravity < 0.0) {
+  if (const double gravity = run.chain().gravity(); gravity < 0.0) {
     remarks.notes.push_back(
         fmt::format("gravity of {} m/s² points up: the chain falls upwards", numberText(gravity)));
   }

@@ -13,6 +13,7 @@
 #include <limits>
 
 namespace spring_pendulum {
+
 void OptionSet::add(std::vector<Option> options) {
   std::move(options.begin(), options.end(), std::back_inserter(options_));
 }
