@@ -1,4 +1,5 @@
 #include "base/checks.hpp"
+#include "model/block_sums.hpp"
 #include <spring_pendulum/model/dynamics.hpp>
 #include <spring_pendulum/model/energy.hpp>
 

@@ -4,20 +4,12 @@
 #include <spring_pendulum/model/chain.hpp>
 #include <spring_pendulum/model/state.hpp>
 
-#include <algorithm>
-#include <cstddef>
 #include <optional>
 
 #pragma GCC visibility push(default)
 namespace spring_pendulum {
 
-/// Returns the number of springs per block, a multiple of 8. Sums over springs have a fixed order, so the
-/// bits are the same on every machine: over the springs of a block from left to right, then over the blocks.
-inline std::ptrdiff_t sumBlockSize(std::ptrdiff_t springs) {
-  return std::max<std::ptrdiff_t>(64, (springs / (1 << 16) + 8) / 8 * 8);
-}
-
-/// Energies of one state, J.
+/// Energies of one state, J. Each sum has a fixed order, so the bits are the same on every machine.
 struct Energy {
   double kinetic = 0.0;  ///< sum of m v²/2; held particles count as massless here and below
   double gravity = 0.0;  ///< sum of m g (y - y_1): 0 at the height of the fixed particle

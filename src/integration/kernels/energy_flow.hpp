@@ -4,8 +4,8 @@
 
 #include "integration/kernels/chain_kernels.hpp"
 #include "integration/kernels/kernel_data.hpp"
+#include "model/block_sums.hpp"
 #include <spring_pendulum/model/chain.hpp>
-#include <spring_pendulum/model/energy.hpp>
 
 #include <algorithm>
 #include <array>
