@@ -68,9 +68,11 @@ std::string helpText(const OptionSet& options) {
   return text;
 }
 
-/// Ends a program that starts: ROS may wait for its master. Once it has begun to, it must be shut down.
+/// Ends a program that a signal stops while it starts. Once ROS has begun to wait for its master, only a
+/// shutdown of ROS ends the wait.
 void stopStarting() {
-  ros::isStarted() ? ros::requestShutdown() : std::_Exit(kDone);
+  if (!ros::isStarted()) std::_Exit(kDone);
+  ros::requestShutdown();
 }
 
 /// Ends the run when the master asks for it. ROS itself would shut down at once, before the files are

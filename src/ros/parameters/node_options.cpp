@@ -135,8 +135,8 @@ NodeConfiguration readPrivateParameters() {
     return ros::master::execute("hasParam", request, response, exist, false) &&
            (!static_cast<bool>(exist) || ros::param::get(node, parameters));
   };
-  for (int calls = 1; !read(); ++calls) {
-    if (calls < 2) continue;  // a signal interrupts a call; it ends the node later
+  // The second try is for a signal, which interrupts one call and ends the node later.
+  if (!read() && !read()) {
     throw FileError(
         fmt::format("{}: the ROS master at {} did not answer when the parameters were read", node,
                     ros::master::getURI()));
