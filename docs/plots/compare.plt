@@ -10,7 +10,7 @@ frame_name(method, n) = sprintf("%s/frame_%04d.txt", method, n)
 frames(method) = int(system("ls " . method . " | wc -l"))
 
 
-set terminal gif animate delay 5 loop 0 optimize size 840,560 font "sans,12"
+set terminal gif animate delay 5 loop 0 optimize size 630,420 font "sans,10"
 set output "compare.gif"
 set border linecolor "#a0a0a0"
 set tics scale 0.4 nomirror
