@@ -135,8 +135,9 @@ NodeConfiguration readPrivateParameters() {
     return ros::master::execute("hasParam", request, response, exist, false) &&
            (!static_cast<bool>(exist) || ros::param::get(node, parameters));
   };
-  // The second try is for a signal, which interrupts one call and ends the node later.
-  if (!read() && !read()) {
+  bool answered = read();
+  if (!answered) answered = read();  // a signal interrupts one call, and ends the node later
+  if (!answered) {
     throw FileError(
         fmt::format("{}: the ROS master at {} did not answer when the parameters were read", node,
                     ros::master::getURI()));
