@@ -172,12 +172,12 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
       static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
   double allowance = tolerated > 0.0 ? tolerated / scale(time) : 0.0;
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
+  double residual = entry_.relative_residual.value_or(0.0);
+  worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
     return diverged(entry_, chain_, state);
   }
   double gain = entry_.relative_gain;
-  double residual = entry_.relative_residual.value_or(0.0);
-  worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t.
