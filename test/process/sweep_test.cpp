@@ -372,6 +372,7 @@ TEST_F(Sweep, RefusesBadArguments) {
       {{"--outptu", "x"}, "did you mean '--output'?"},
       {{"-o", "chain.txt"}, "is an input of this run"},
       {{"-o", "study.png", "--plot"}, "choose another file"},
+      {{"-o", "."}, "is the folder of another output"},
   };
   Command ranks = sweep({});
   ranks.environment = {{"SLURM_STEP_NUM_TASKS", "4"}};  // MPI does not know of them

@@ -51,8 +51,9 @@ void checkPair(const Touched& a, const Touched& b) {
         fmt::format("{}: has the name of a frame; choose another folder for the frames", b.shown));
   }
   if (a.use == Touched::kFrames && b.use != Touched::kOutput) return;
-  const bool needs_folder = a.use == Touched::kOutput && b.use >= Touched::kOutput;
-  if (!areSame(a.path, b.path) && !(needs_folder && isInside(b.path, a.path))) return;
+  const bool is_folder =
+      a.use == Touched::kOutput && b.use >= Touched::kOutput && isInside(b.path, a.path);
+  if (!areSame(a.path, b.path) && !is_folder) return;
   if (b.use == Touched::kInput) {
     throw InputError(a.shown +
                      ": is an input of this run and would be overwritten; choose another file");
@@ -61,7 +62,8 @@ void checkPair(const Touched& a, const Touched& b) {
   if (b.use == Touched::kStream) {
     throw FileError(a.shown + ": is a standard stream of this program; give another file");
   }
-  throw InputError(a.shown + ": is given for two outputs; choose another file");
+  throw InputError(a.shown + (is_folder ? ": is the folder of another output; give a file"
+                                        : ": is given for two outputs; choose another file"));
 }
 
 }  // namespace
