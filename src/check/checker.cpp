@@ -62,8 +62,13 @@ class Checker {
       Plan plan = scenario_;
       plan.method = *method;
       WorkLimit work{left / 2.0, search_limit_.stop};
-      const Agreement agreement = compare(frames_, *motionOf(plan, chain, particles_),
-                                          *motionOf(plan, chain, particles_), work, &chain);
+      const auto make = [&] { return motionOf(plan, chain, particles_); };
+      Agreement agreement = compare(frames_, make, work);
+      if (agreement.departure && kindOf(*method) != 0) {  // a plain program may come nearer
+        const StudentProgram right(*method, scenario_);
+        const Agreement plain = agreementWith(right, work);
+        if (plain.frames > agreement.frames) agreement = plain;
+      }
       left -= work.done;
       if (work.isStopped()) return;
       if (agreement.complete) {
@@ -126,12 +131,12 @@ class Checker {
 
   /// Tries, by level, a mistake, a wrong number, float, two mistakes, or a mistake and a wrong number.
   void tryMistakes(StudentProgram right, int level) {
-    constexpr int kDigitsOfFloat = 9;  // more digits show whether the numbers are floats
-    const StudentProgram in_float = right.with(table_.back());
+    StudentProgram in_float = right.with(table_.back());
     if (frames_.are_floats) right = in_float;
     if (level == 0 && frames_.are_floats && explains(right)) return;
     if (level < 2) tryChanges(right, 0, level == 1);
-    if (level == 2 && !frames_.are_floats && frames_.digits <= kDigitsOfFloat) explains(in_float);
+    in_float.sentences.back() += ", or its errors are as small as those of float";
+    if (level == 2 && frames_.digits <= AllFrames::kDigitsOfFloat) explains(in_float);
     for (std::size_t i = 0; level > 2 && i + 1 < table_.size(); ++i) {
       if (right.canMake(table_[i])) tryChanges(right.with(table_[i]), i + 1, level == 4);
     }
@@ -150,9 +155,9 @@ class Checker {
     }
   }
 
-  Agreement agreementWith(const StudentProgram& program) {
-    return compare(frames_, *motionOf(program, particles_), *motionOf(program, particles_),
-                   search_limit_);
+  Agreement agreementWith(const StudentProgram& program, WorkLimit& limit) const {
+    return compare(
+        frames_, [&] { return motionOf(program, particles_); }, limit);
   }
 
   bool isExplanation(const Agreement& agreement) const {
@@ -160,7 +165,7 @@ class Checker {
   }
 
   bool explains(StudentProgram program) {
-    const Agreement agreement = agreementWith(program);
+    const Agreement agreement = agreementWith(program, search_limit_);
     program.last_frame = agreement.last_frame;
     if (isExplanation(agreement)) found_.push_back(program);
     return isExplanation(agreement);
@@ -194,23 +199,34 @@ class Checker {
   bool fit(StudentProgram program, const Constant& constant, double factor = 1.0) {
     constexpr double kSmallestMistake = 1e-5;  // relative; smaller ones are rounding errors
     constexpr int kMostDigits = 15;
-    const std::vector<FrameNumbers>& frames = frames_.frames;
+    constexpr int kDigitsOnTheWay = 6;  // a number as a student writes it may reproduce all frames
+    StudentProgram asked(program.method, scenario_);
     double& value = constant.in(program);
     const double right = value;
+    if (right != constant.in(asked)) return false;  // would take back a mistake
     value *= factor;
-    Agreement agreement = agreementWith(program);
+    Agreement agreement = agreementWith(program, search_limit_);
+    const auto round = [&](int most_digits) {
+      const double fitted = value;
+      for (int digits = 1; digits <= most_digits; ++digits) {
+        value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
+        const Agreement rounded = agreementWith(program, search_limit_);
+        if (!rounded.complete) continue;
+        agreement = rounded;
+        return;
+      }
+      value = fitted;
+    };
     while (!agreement.complete && !search_limit_.isOver()) {
       const std::size_t before = agreement.frames;
-      improve(program, constant, frames[std::min(frames.size() - 1, before + before / 2)]);
-      agreement = agreementWith(program);
+      const std::size_t next = std::min(frames_.frames.size() - 1, before + before / 2);
+      improve(program, constant, frames_.frames[next]);
+      agreement = agreementWith(program, search_limit_);
+      if (!agreement.complete) round(kDigitsOnTheWay);
       if (!agreement.complete && agreement.frames <= before) return false;
     }
     if (!isExplanation(agreement)) return false;
-    const double fitted = value;
-    for (int digits = 1; digits <= kMostDigits; ++digits) {
-      value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
-      if (isExplanation(agreementWith(program))) break;
-    }
+    round(kMostDigits);
     const double scale = right == 0.0 ? 1.0 : std::abs(right);
     if (std::abs(value - right) <= kSmallestMistake * scale) return false;
     std::string sentence(constant.sentence);
@@ -253,7 +269,7 @@ class Checker {
   }
 
   FrameCheck different() {
-    const Programs found = departure_->is_compared ? explain() : Programs();
+    const Programs found = explain();
     const double time = nearest_.timeOfFrame(departure_->frame);
     std::vector<std::string> lines{
         "", fmt::format("depart from {} at frame {}, t = {} s, {}", nearest_.method.get().name,

@@ -86,19 +86,18 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 }
 
 /// Whether a program in float wrote the frames: they begin with the start rounded to float, or have enough
-/// digits to show that the last frame has only floats.
+/// digits to show that all later frames have only floats.
 bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
-  constexpr int kDigitsOfFloat = 9;
-  const auto rounded = [](const Eigen::ArrayX2d& numbers) -> Eigen::ArrayX2d {
-    return numbers.cast<float>().cast<double>();
-  };
-  const Eigen::ArrayX2d& last = all.frames.back().positions;
-  if (all.digits > kDigitsOfFloat && (last != start).any() && (last == rounded(last)).all())
-    return true;
-  const FrameNumbers& first = all.frames.front();
   constexpr double kRounded = 0.51;  // units of the last digit
-  return first.index == all.start && !first.equals(start, kRounded) &&
-         first.equals(rounded(start), kRounded);
+  const auto isRounded = [](const FrameNumbers& frame, const Eigen::ArrayX2d& numbers) {
+    return frame.equals(numbers.cast<float>().cast<double>(), kRounded);
+  };
+  const FrameNumbers& first = all.frames.front();
+  if (first.index == all.start && !first.equals(start, kRounded) && isRounded(first, start))
+    return true;
+  return all.digits > AllFrames::kDigitsOfFloat && (all.frames.back().positions != start).any() &&
+         std::all_of(all.frames.begin() + 1, all.frames.end(),
+                     [&](const auto& frame) { return isRounded(frame, frame.positions); });
 }
 
 void noteMissingFrames(AllFrames& all) {
@@ -130,8 +129,14 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles
   Format format;
   AllFrames all;
   all.start = particles.frame;
+  const Eigen::ArrayX2d start = particles.state.positions();
   for (const FrameText& text : texts) {
-    if (text.index >= all.start) all.frames.push_back(read(text, particles.state.size(), format));
+    if (text.index < all.start) continue;
+    Format with_frame = format;
+    all.frames.push_back(read(text, particles.state.size(), with_frame));
+    // The start may be a copy of the particle file, with more digits than the other frames.
+    const bool is_copy = text.index == all.start && (all.frames.back().positions == start).all();
+    if (!is_copy || texts.size() == 1) format = with_frame;
   }
   if (all.frames.empty())
     throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
@@ -140,7 +145,7 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles
   for (FrameNumbers& frame : all.frames)
     frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
   all.digits = format.digits;
-  all.are_floats = areFloats(all, particles.state.positions());
+  all.are_floats = areFloats(all, start);
   noteMissingFrames(all);
   return all;
 }

@@ -104,6 +104,7 @@ const std::vector<Mistake>& knownMistakes() {
       {"weights", kFour, "weights the slopes 1, 1, 2, 2 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 6, 1, 1, 2, 2); }},
       {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 8) instead of dividing by 6", [](P& p) { fourth(p, 8, 1, 2, 2, 1); }},
       {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 3) instead of dividing by 6", [](P& p) { fourth(p, 3, 1, 2, 2, 1); }},
+      {"three_eighths", kFour, "uses the 3/8 rule, another method of fourth order", [](P& p) { stage(p, 2, 1.0 / 3); stage(p, 3, -1.0 / 3, 1); stage(p, 4, 1, -1, 1); fourth(p, 8, 1, 3, 3, 1); }},
       {"stage_slope", kFour, "starts the third stage with the first slope instead of the second", [](P& p) { stage(p, 3, 0.5); }},
       {"stage_slope", kFour, "starts the fourth stage with the second slope instead of the third", [](P& p) { stage(p, 4, 0, 1); }},
       {"stage_slope", kFour, "starts the fourth stage with the first slope instead of the third", [](P& p) { stage(p, 4, 1); }},

@@ -1,12 +1,12 @@
 #include "check/motion.hpp"
 
 #include "base/numbers.hpp"
-#include <spring_pendulum/model/energy.hpp>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -239,13 +239,6 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
   return std::nullopt;
 }
 
-/// Potential energy, J.
-double energyOf(const Chain& chain, const Eigen::ArrayX2d& positions) {
-  State state(chain.size());
-  state.positions() = positions.matrix();
-  return computeEnergy(chain, state).total();
-}
-
 }  // namespace
 
 Motion::Motion(const Plan& plan, const Scene& particles)
@@ -279,52 +272,36 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
   return std::make_unique<ProgramMotion>(program, particles);
 }
 
-Agreement compare(const AllFrames& frames, Motion& motion, Motion& companion, WorkLimit& limit,
-                  const Chain* chain) {
-  constexpr double kWorkOfNumbers = 1e-7;  // s, to compare one
-  constexpr double kMargin = 1.1;
+Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
+                  WorkLimit& limit) {
   constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
-  double least_energy = std::numeric_limits<double>::infinity();  // J
-  double most_energy = -least_energy;
-  std::mt19937 random(1);  // the same on every machine
+  std::mt19937 random(1);               // the same on every machine
+  const auto motion = make();
+  // One alone may hardly move in the direction in which errors grow.
+  const std::array companions{make(), make()};
+  for (const auto& companion : companions) companion->disturb(random);
   Agreement agreement;
-  bool is_comparable = true;
   double rounding = 0.0;  // m
   double scale = 0.0;     // largest coordinate, m
-  companion.disturb(random);
   std::int64_t index = frames.start;
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
-    if (limit.isOver() || !motion.advanceTo(index, limit)) break;
-    limit.done += kWorkOfNumbers * static_cast<double>(frame->positions.size());
-    const Eigen::ArrayX2d positions = motion.positions();
-    if (chain != nullptr && positions.allFinite()) {
-      least_energy = std::min(least_energy, energyOf(*chain, positions));
-      most_energy = std::max(most_energy, energyOf(*chain, positions));
-    }
-    if (is_comparable) {
-      if (!companion.advanceTo(index, limit)) break;
-      const Eigen::ArrayX2d spread = (positions - companion.positions()).abs();
+    if (limit.isOver() || !motion->advanceTo(index, limit)) break;
+    limit.done += 1e-7 * static_cast<double>(frame->positions.size());  // s, to compare the numbers
+    const Eigen::ArrayX2d positions = motion->positions();
+    scale = std::max(scale, positions.isFinite().select(positions.abs(), 0.0).maxCoeff());
+    for (const auto& companion : companions) {
+      if (!companion->advanceTo(index, limit)) break;
+      const Eigen::ArrayX2d spread = (positions - companion->positions()).abs();
       rounding = std::max(rounding, spread.maxCoeff());
-      scale = std::max(scale, positions.isFinite().select(positions.abs(), 0.0).maxCoeff());
-      is_comparable = spread.allFinite() && (rounding <= kComparable * scale || scale == 0.0);
-      if (motion.tolerance() == 0.0) companion.disturb(random);
+      if (!spread.allFinite()) rounding = std::numeric_limits<double>::infinity();
+      if (motion->tolerance() == 0.0) companion->disturb(random);
     }
-    if (!is_comparable && chain == nullptr) break;
+    if (limit.isOver() || !(rounding <= kComparable * scale)) break;
     if (index < frame->index) continue;  // missing
-    if (is_comparable) {
-      agreement.departure = departureOf(*frame, positions, scale, rounding + motion.tolerance());
-      if (agreement.departure) return agreement;
-      ++agreement.frames;
-      agreement.last_frame = index;
-    } else if (positions.allFinite()) {
-      const double most = least_energy + kMargin * (most_energy - least_energy);
-      if (!(energyOf(*chain, frame->positions) <= most)) {  // also if it is not a number
-        agreement.departure = Departure{
-            index, 0.0, "which has a number that is not finite, or more energy than any before",
-            false};
-        return agreement;
-      }
-    }
+    agreement.departure = departureOf(*frame, positions, scale, rounding + motion->tolerance());
+    if (agreement.departure) return agreement;
+    ++agreement.frames;
+    agreement.last_frame = index;
     ++frame;
   }
   agreement.complete = agreement.frames > 0 && !limit.isStopped();

@@ -1,6 +1,6 @@
 // Frames, and the motions that they are compared with: methods of the table, and programs of students.
-// What counts as equal follows from the digits printed and from a companion of the motion: the same motion,
-// disturbed by more rounding errors than there are.
+// What counts as equal follows from the digits printed and from two companions of the motion: the same
+// motion, disturbed by more rounding errors than there are.
 #pragma once
 
 #include "io/files/frame_folder.hpp"
@@ -34,6 +34,8 @@ struct FrameNumbers {
 };
 
 struct AllFrames {
+  static constexpr int kDigitsOfFloat = 8;  ///< more show whether the numbers are floats
+
   std::vector<FrameNumbers> frames;  ///< by increasing index
   int digits = 0;                    ///< largest number of significant digits
   bool are_floats = false;           ///< whether a program in float has written them
@@ -204,9 +206,8 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
 /// Where frames depart from a motion.
 struct Departure {
   std::int64_t frame;
-  double distance;          ///< m; not finite if a number is not, or too large
-  std::string text;         ///< "particle 2, by 6.9e-06 m along its spring"
-  bool is_compared = true;  ///< else, the frame is too late to be compared, but impossible
+  double distance;   ///< m; not finite if a number is not, or too large
+  std::string text;  ///< "particle 2, by 6.9e-06 m along its spring"
 };
 
 struct Agreement {
@@ -218,10 +219,8 @@ struct Agreement {
 
 /// Compares until the first frame that differs, or until rounding errors have grown to a thousandth
 /// of the size of the motion, after which nothing can be compared, or until the limit is reached.
-/// \param companion the same motion
-/// \param chain of the motion: later frames must be finite, and must not have much more potential energy
-///   than any state of the motion before. Null: they are not looked at.
-Agreement compare(const AllFrames& frames, Motion& motion, Motion& companion, WorkLimit& limit,
-                  const Chain* chain = nullptr);
+/// \param make  makes the motion, also for its companions
+Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
+                  WorkLimit& limit);
 
 }  // namespace spring_pendulum

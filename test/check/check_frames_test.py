@@ -70,6 +70,7 @@ def single_mistakes(rng):
         ('mass_of_neighbour', wrong('mass_of_neighbour')),
         ('gravity_on_last', wrong('gravity_on_last')),
         ('damping_absolute', wrong('damping_absolute')),
+        ('three_eighths', tableau([(), (1 / 3,), (-1 / 3, 1), (1, -1, 1)], (1 / 8, 3 / 8, 3 / 8, 1 / 8))),
         ('length_squared', wrong('length_squared')),
         ('length_integer', wrong('length_integer')),
         ('degrees', wrong('degrees')),
@@ -235,7 +236,7 @@ def garbage_is_not_equal(lab):
             'the first half': (good[:150], {5}),
             'junk from frame 20 on': (good[:20] + junk[20:], {4}),
             'junk at the end': (good[:298] + junk[298:], {4} if damping else {4, 5}),
-            'nan at the end': (good[:299] + [np.full_like(good[0], np.nan)], {4}),
+            'nan at the end': (good[:299] + [np.full_like(good[0], np.nan)], {4} if damping else {4, 5}),
             'huge numbers': ([np.full_like(good[0], 1e308)] * 300, {4}),
             'noise': ([frame * (1 + 1e-3 * noise) for frame, noise in zip(good, junk)], {4}),
             'g off by 1e-6': (student.frames(scene, count=300, k_d=damping, g=9.81 * (1 + 1e-6)), {4}),
@@ -272,6 +273,12 @@ def other_courses_are_judged(lab):
         (dict(implicit, k_s=40), '6f', 0, ('Backward-Euler',), 4, ['k_s']),
         (dict(implicit, wrong=['no_damping']), '6f', 0, ('Backward-Euler',), 4, ['no_damping']),
         (implicit, '6f', 0, ('Euler',), 4, 'Backward-Euler'),
+        (dict(k_s=45), '6g', 0, ('Runge-Kutta-4',), 4, ['k_s']),
+        (dict(L_0=0.9), '6g', 0, ('Runge-Kutta-4',), 4, ['L_0']),
+        (dict(g=9), '7g', 0, ('Runge-Kutta-4',), 4, ['g']),
+        # Errors as small as those of float, in double: nothing that has been tried.
+        (dict(g=9.81 * (1 + 1e-6)), '9g', 0, ('Runge-Kutta-4',), 4, []),
+        (dict(g=9.81 * (1 + 1e-6)), '17g', 0, ('Runge-Kutta-4',), 4, []),
         # The fewest mistakes first: Runge-Kutta-4 with two mistakes reproduces these frames, too.
         (dict(method='Runge-Kutta-2', wrong=['single_precision']), '8g', 0, (None,), 4, ['single_precision']),
     ]
@@ -284,6 +291,15 @@ def other_courses_are_judged(lab):
             print('course:', program, form, first, asked, options, status, verdict)
             good = False
     return good
+
+
+def start_may_be_a_copy(lab):
+    """Whether frames are accepted whose start is the particle file, with more digits than the others."""
+    scene, path = lab.scene('random')
+    lab.verdict(student.frames(scene, count=40), '6g', path, 'Runge-Kutta-4')
+    folder = lab.folder / f'frames_{lab.count}'
+    np.savetxt(folder / 'frame_0000.txt', scene[:, :2], fmt='%.17g')
+    return subprocess.call([lab.check, folder, '--particles', path, '--frames', '40'], stdout=subprocess.DEVNULL) == 0
 
 
 def resumed_run_is_equal(lab, method):
@@ -342,6 +358,7 @@ def main(check, exercise, frames=60, seed=1, number_wrong=40, number_right=40):
         assert garbage_is_not_equal(lab)
         assert other_courses_are_judged(lab)
         assert resumed_run_is_equal(lab, 'Runge-Kutta-4') and resumed_run_is_equal(lab, 'Auto')
+        assert start_may_be_a_copy(lab)
         assert stops_inside_a_frame(lab)
         assert misuse_is_refused(lab)
         assert 'it takes too long' in endless.communicate()[0] and endless.returncode == 5
