@@ -6,7 +6,7 @@
 #   smoke          a few points of everything, in seconds, into the build folder, to check that it runs
 #   options        of a benchmark, for example: accuracy --scene light_100 --passes 3
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 what=${1:-all}
 [ $# -gt 0 ] && shift

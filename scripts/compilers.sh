@@ -4,7 +4,7 @@
 # Usage: scripts/compilers.sh [--integration] [COMPILER:CONFIGURATION ...]   (default: clang++:Release)
 # --integration: only the methods and their tests, whose bits depend on the compiler most.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 targets=() tests=()
 if [ "${1:-}" = --integration ]; then

@@ -4,7 +4,7 @@
 # Usage: scripts/coverage.sh [LEAST]   (required percentage of lines, default 95)
 # The kernels do not count: they are compiled for every instruction set, and a processor has only some.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 least=${1:-95}
 folder=$build-coverage

@@ -3,7 +3,7 @@
 # validation of parameters, and the frames of students.
 # Usage: scripts/fuzz.sh [RUNS]   (per target, default 16000)
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 runs=${1:-16000}
 folder=$build-fuzz

@@ -3,7 +3,7 @@
 # without network. Installs missing packages first.
 # Usage: scripts/lab.sh [--test]     --test also runs the tests in a browser
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 [ $# -eq 0 ] || [ "$*" = --test ] || die "unexpected '$*': scripts/lab.sh [--test]"
 "$project/scripts/setup.sh" lab

@@ -4,7 +4,7 @@
 # clang-tidy checks the sources that changed since BASE (a commit; default: where this branch left
 # origin/main, on main itself the last commit); with --all it checks every source.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 "$project/scripts/setup.sh" core mpi python ros test-ros benchmark lint
 cd "$project"

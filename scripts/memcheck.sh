@@ -3,7 +3,7 @@
 # leaves the kernels out (cmake/instruction_sets.cmake).
 # Usage: scripts/memcheck.sh [arguments of the test programs, for example --gtest_filter=*Short*]
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 "$project/scripts/setup.sh" core test sanitize
 tests=(integration_{kernels_chain_kernels,kernels_instruction_sets,fixed_step_explicit_runge_kutta}_test

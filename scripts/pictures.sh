@@ -4,7 +4,7 @@
 # docs/pull.gif and docs/rviz_window.png need a virtual display: scripts/pictures.sh rviz
 # docs/run_time_error.png is drawn from the results of scripts/benchmark.sh accuracy, if there are any.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 "$project/scripts/setup.sh" core python ros
 configure "$build"

@@ -4,7 +4,7 @@
 # Usage: scripts/release.sh [--try]      --try: also installs the package in a bare Debian, made by
 #                                        debootstrap (needs root), and runs it there
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 [ $# -eq 0 ] || [ "$*" = --try ] || die "unexpected '$*': scripts/release.sh [--try]"
 "$project/scripts/setup.sh" core python lab releases

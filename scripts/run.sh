@@ -3,7 +3,7 @@
 # bag. With a display, opens rviz on the running node.
 # Usage: scripts/run.sh [METHOD [FILE]] [options of Exercise3]
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 method=Runge-Kutta-4
 if [ $# -gt 0 ] && [[ $1 != -* ]]; then method=$1; shift; fi

@@ -4,7 +4,7 @@
 # unit tests, sweep, and with ROS the node.
 # Usage: scripts/sanitize.sh address,undefined | thread   [arguments of ctest]
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 sanitizers=${1:?which sanitizers? address,undefined or thread}
 shift

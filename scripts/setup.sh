@@ -17,7 +17,7 @@
 #   arm64      a cross compiler for 64-bit ARM, and qemu
 #   benchmark  solvers to compare with, all optional
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 packages_of() {
   case $1 in

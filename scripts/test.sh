@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and runs every test. Arguments go to ctest (-R NAME, -V, ...).
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 "$project/scripts/setup.sh" core mpi python test film lab ros rviz test-ros
 say "building into $build"

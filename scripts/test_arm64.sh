@@ -2,7 +2,7 @@
 # Compiles the model and all methods for 64-bit ARM, runs them under qemu, and compares the bits of
 # every method with the native build. Needs scripts/setup.sh arm64.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 "$project/scripts/setup.sh" core arm64
 folder=$project/build-arm64

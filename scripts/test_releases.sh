@@ -7,7 +7,7 @@
 #                             (default: ~/.cache/spring_pendulum_releases)
 #   RELEASE_MIRROR            where packages come from (default: the one debootstrap knows)
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 releases=${SPRING_PENDULUM_RELEASES:-${XDG_CACHE_HOME:-$HOME/.cache}/spring_pendulum_releases}
 [ "$(id -u)" = 0 ] || die "must run as root, for chroot"
