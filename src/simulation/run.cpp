@@ -105,8 +105,8 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
       track_dissipation_(chain_.isDissipative() &&
                          (options.track_dissipation || dissipationIsCheap(chain_, plan))) {
   checkPlan(plan);
-  checkFirstFrame(plan, first_frame_);
   checkMemory(plan, chain_.size());
+  if (!(options.display_interval >= 0.0)) throw InputError("display_interval must be at least 0 s");
   if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
   divideFrames();
   makeIntegrator();
@@ -188,13 +188,13 @@ void Run::reset() {
 }
 
 void Run::goTo(std::int64_t frame, const State& state) {
-  checkFirstFrame(plan_, frame);
-  checkState(state);
   begin(frame, state);
   changed_ = true;
 }
 
 void Run::begin(std::int64_t frame, const State& state) {
+  checkFirstFrame(plan_, frame);
+  checkState(state);
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_, frame));
   if (plan_.reference != ReferenceUse::kNever) {
     reference_ = std::make_unique<ReferenceRun>(chain_, state, toleranceOf(plan_),
@@ -211,7 +211,9 @@ void Run::begin(std::int64_t frame, const State& state) {
 
 void Run::checkState(const State& state) const {
   requireSize(chain_.size(), state.size());
-  if (!state.values().allFinite()) throw InputError("the state has numbers that are not finite");
+  for (Eigen::Index i = 0; i < state.size(); ++i)
+    if (!state.values().row(i).allFinite())
+      throw InputError(fmt::format("particle {}: position and velocity must be finite", i + 1));
 }
 
 void Run::change(const Plan& plan, const Constants& constants, const Drive& drive,

@@ -129,6 +129,35 @@ TEST(Misuse, StatesThatAreNotFinite) {
   }
 }
 
+template <typename Action>
+std::string messageOf(const Action& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Misuse, StartsOfRuns) {
+  const auto start = [](const State& state, double interval) {
+    spring_pendulum::Run({chain().masses(), state}, Plan{}, {false, interval});
+  };
+  for (const double interval : {kNan, -1.0}) {
+    EXPECT_EQ(messageOf([&] { start(horizontal(), interval); }),
+              "display_interval must be at least 0 s");
+  }
+  spring_pendulum::Run run({chain().masses(), horizontal()}, Plan{});
+  EXPECT_EQ(messageOf([&] { run.goTo(-1, horizontal()); }), "frame: must be at least 0, got -1");
+  for (const double value : {kNan, kInfinity}) {
+    State wrong = horizontal();
+    wrong.vy()[2] = value;
+    const std::string expected = "particle 3: position and velocity must be finite";
+    EXPECT_EQ(messageOf([&] { run.goTo(0, wrong); }), expected);
+    EXPECT_EQ(messageOf([&] { start(wrong, 0.0); }), expected);
+  }
+}
+
 /// A method of a program that does all it must not.
 class Wrong final : public Integrator {
  public:

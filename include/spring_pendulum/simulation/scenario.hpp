@@ -23,8 +23,8 @@ struct Scenario : Plan {
   bool resume = false;                     ///< go on from the frame of the state file `particles`
   std::string output = ".";                ///< folder for frame files
   bool no_frames = false;                  ///< write no frame files
-  std::string energy;                      ///< file for the energy balance; empty: none
-  std::string save_state;                  ///< file for the state at the last frame; empty: none
+  std::string energy = {};                 ///< file for the energy balance; empty: none
+  std::string save_state = {};             ///< file for the state at the last frame; empty: none
 };
 
 /// Returns the table of the options of a run, bound to `scenario`, in the order of the help text. The

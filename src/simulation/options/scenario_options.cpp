@@ -97,8 +97,7 @@ Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& op
                       Scenario scenario) {
   OptionSet set(scenarioOptions(scenario));
   for (const auto& [key, text] : options) set.set(set.find(key, "", "option"), text, key);
-  const std::vector<std::string_view> unused = unusedKeys(scenario, set);
-  if (!unused.empty()) {
+  if (const auto unused = unusedKeys(scenario, set); !unused.empty()) {
     throw InputError(fmt::format(
         "{}: {}", unused.front(),
         whyUnused(scenario.method, [](std::string_view key) { return std::string(key); })));
@@ -116,9 +115,7 @@ Scene makeScene(const Scenario& scenario, Scene particles) {
 }
 
 void checkPlan(const Plan& plan) {
-  Scenario scenario;
-  static_cast<Plan&>(scenario) = plan;
-  checkScenario(scenario);
+  checkScenario(Scenario{plan});
 }
 
 void checkScenario(const Scenario& scenario) {
@@ -145,7 +142,8 @@ void checkScenario(const Scenario& scenario) {
 }
 
 void checkFirstFrame(const Plan& plan, std::int64_t frame) {
-  if (0 <= frame && frame < plan.frames) return;
+  if (frame < 0) throw InputError(fmt::format("frame: must be at least 0, got {}", frame));
+  if (frame < plan.frames) return;
   throw InputError(
       fmt::format("frames: must be more than {}, the frame of the state to start from, got {}",
                   frame, plan.frames));
