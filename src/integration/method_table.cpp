@@ -313,6 +313,10 @@ double smallestTolerance(const Chain& chain, const State& start) {
 void checkTolerance(double tolerance, const Chain& chain, const State& start) {
   const double least = smallestTolerance(chain, start);
   if (tolerance >= least) return;
+  if (std::isinf(least))
+    throw InputError(
+        "rest_length, positions or velocities are too large: no tolerance exceeds their rounding "
+        "errors");
   throw InputError(
       fmt::format("tolerance: must be at least {:.1e} m for this scene, because of the rounding "
                   "errors of its positions; got {}",

@@ -154,6 +154,7 @@ TEST(SmallestTolerance, IsNamedByTheCheck) {
   EXPECT_EQ(messageFor(2.3e-13, 0.0), "");
   EXPECT_THAT(messageFor(1e-6, 1e12), testing::StartsWith("tolerance: must be at least 2.3e-02 m"));
   EXPECT_EQ(messageFor(2.3e-2, 1e12), "");
+  EXPECT_THAT(messageFor(1e-6, HUGE_VAL), testing::StartsWith("rest_length, positions or veloc"));
 }
 
 }  // namespace
