@@ -28,7 +28,7 @@ export function commandsOf(run) {
   const exercise = ['Exercise3', quoted(run.method), '--particles', quoted(filePath()),
     ...options.map(([key, value]) => `--${key.replaceAll('_', '-')} ${quoted(value)}`), '--output frames'];
   const launch = ['roslaunch spring_pendulum pendulum.launch', quoted(`method:=${run.method}`),
-    `particles:=$PWD/${filePath()}`, quoted(`params:={${options.map(([key, value]) => `${key}: ${value}`).join(', ')}}`)];
+    `"particles:=$PWD/${filePath()}"`, quoted(`params:={${options.map(([key, value]) => `${key}: ${value}`).join(', ')}}`)];
   return [exercise.join(' '), launch.join(' ')];
 }
 

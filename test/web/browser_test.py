@@ -393,7 +393,7 @@ class LabTest(unittest.TestCase):
         self.browser.find_element(By.CSS_SELECTOR, '#commands button').click()
         self.wait('return document.getElementById("share-note").textContent.includes("on the clipboard")')
         launch = self.browser.find_elements(By.CSS_SELECTOR, '#commands button')[1].get_attribute('title')
-        self.assertRegex(launch, "roslaunch .*'params:={.*damping: 0")
+        self.assertRegex(launch, "roslaunch .* \"particles:=[$]PWD/data/particle.txt\" 'params:={.*damping: 0")
         self.tab('scene')
         area = self.element('particles')
         area.click()
