@@ -1,5 +1,7 @@
 // What repeats the runs elsewhere: commands and a link.
+import {scene} from './runs.js';
 import {defaultOf, get, nameOf, on, optionsOf, presets, settings, toAddress} from './state.js';
+import {paragraph} from './step.js';
 
 const note = get('share-note');
 
@@ -50,13 +52,12 @@ function show() {
   if (settings.tab !== 'share') return;
   const box = get('commands');
   box.replaceChildren();
-  if (filePath() === 'particle.txt') {
-    box.append(Object.assign(document.createElement('p'), {textContent: 'First save the particle file as particle.txt.'}));
-  }
+  if (scene.failure) return box.append(paragraph(`No commands: ${scene.failure}`));
+  if (filePath() === 'particle.txt') box.append(paragraph('First save the particle file as particle.txt.'));
   for (const run of settings.runs) {
-    box.append(Object.assign(document.createElement('h3'), {textContent: nameOf(run)}));
+    box.append(paragraph(nameOf(run), 'h3'));
     for (const command of commandsOf(run)) {
-      const line = Object.assign(document.createElement('pre'), {textContent: command});
+      const line = paragraph(command, 'pre');
       const button = Object.assign(document.createElement('button'), {textContent: 'Copy', title: command});
       button.addEventListener('click', () => copy(command, 'The command is on the clipboard.'));
       box.append(line, button);

@@ -394,6 +394,10 @@ class LabTest(unittest.TestCase):
         self.wait('return document.getElementById("share-note").textContent.includes("on the clipboard")')
         launch = self.browser.find_elements(By.CSS_SELECTOR, '#commands button')[1].get_attribute('title')
         self.assertRegex(launch, "roslaunch .* \"particles:=[$]PWD/data/particle.txt\" 'params:={.*damping: 0")
+        for interval in ('x', '-1'):
+            self.call('await pendulumLab.set({interval: given[0]})', interval)
+            self.assertRegex(self.element('commands').text, f"^No commands: frame_interval: must be .*'{interval}'$")
+        self.call('await pendulumLab.set({interval: 0.1})')
         self.tab('scene')
         area = self.element('particles')
         area.click()
