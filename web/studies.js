@@ -3,7 +3,7 @@ import {Cancelled, Library} from './library.js';
 import {makeChart, setLines} from './plots.js';
 import {short} from './report.js';
 import {paragraph} from './step.js';
-import {on, described, get, methodOf, optionsOf, newRun, settings, theme} from './state.js';
+import {MOST_RUNS, colorOf, on, described, get, methodOf, optionsOf, newRun, settings, theme} from './state.js';
 
 const FRAME = 0.4;       // s; the largest step
 const HALVINGS = 9;
@@ -11,10 +11,15 @@ const TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 const CHOSEN = ['Euler', 'Runge-Kutta-2', 'Runge-Kutta-4', 'Auto'];  // at the start
 const ENOUGH = 1e-10;    // m, errors below are those of rounding
 const styles = ['circle', 'triangle', 'rect', 'star', 'cross', 'rectRot', 'crossRot'];
-const tint = (i) => `hsl(${(i * 137.5 + 210) % 360} 75% ${theme() === 'dark' ? 68 : 36}%)`;
 let library = null;
 let order, cost;
 let rows = [];   // {method, points: [{setting, error, evaluations}], limit}
+/** The colour of the run with the method of a row, or one that no run has. */
+const tint = (i) => {
+  const names = [...settings.runs.map(({method}) => method), ...rows.map(({method}) => method.name)];
+  const place = names.indexOf(rows[i].method.name);
+  return place < MOST_RUNS ? colorOf(place) : `hsl(${(place * 137.5 + 300) % 360} 75% ${theme() === 'dark' ? 68 : 36}%)`;
+};
 
 function jobsOf(duration) {
   const frames = Math.max(1, Math.round(duration / FRAME)) + 1;
@@ -145,5 +150,5 @@ export function start() {
   on('own', list);
   get('study').addEventListener('click', measure);
   get('study-cancel').addEventListener('click', () => library?.cancel());
-  on('theme', show);
+  for (const event of ['theme', 'runs']) on(event, show);
 }

@@ -513,6 +513,8 @@ class LabTest(unittest.TestCase):
             # Measured: within 0.02 of the order.
             self.assertAlmostEqual(row['slope'], row['order'], delta=0.25, msg=row['method'])
             self.assertTrue(all(point['evaluations'] > 0 for point in row['points']))
+        color = 'return Chart.getChart(given[0]).data.datasets.find(({label}) => label.startsWith("Euler")).borderColor'
+        self.assertEqual(self.call(color, 'plot-order'), self.call(color, 'plot-error'))
         self.type('study-time', '1000')
         self.element('study').click()
         self.element('study-cancel').click()
