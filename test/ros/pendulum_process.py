@@ -138,7 +138,8 @@ class PendulumNode:
         return self.text
 
     def lines(self, severity):
-        return [line for line in self.output().splitlines() if line.startswith('[%5s]' % severity)]
+        # Some releases print '[ INFO]', others '[INFO]'.
+        return [line for line in self.output().splitlines() if re.match(r'\[ *%s\]' % severity, line)]
 
     def messages_built(self):
         """The total numbers of marker and state messages, after the end of the node."""
