@@ -12,13 +12,22 @@ for argument in "$@"; do [[ $argument = __* ]] || topics+=("$argument"); done
 fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$(realpath -m "$bag")" "$1" >&2; exit 1; }
 mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be created"
 [ -w "$(dirname "$bag")" ] || fail "no permission to write in the folder"
-# An earlier bag stays until rosbag renames the new one over it.
-earlier=$(stat -c %i "$bag" 2> /dev/null || true)
 [ ! -e "$bag" ] || { [ -f "$bag" ] && [ -w "$bag" ]; } || fail "the existing bag cannot be replaced"
 
+# An earlier bag stays until the new one is complete and has messages.
+part=$(mktemp -u -p "$(dirname "$bag")" ".$(basename "$bag" .bag).XXXXXX.bag")
+trap 'rm -f "$part" "$part.active"' EXIT
+has_messages() { [ "$(stat -c %s "$1" 2> /dev/null || echo 0)" -gt 4117 ]; }  # the size of an empty bag
+
 # In a separate process group, so that the recorder gets only the SIGINT of this script.
-setsid env --default-signal=INT rosrun rosbag record -O "$bag" "${topics[@]}" & recorder=$!
-trap 'kill -INT "$recorder" 2> /dev/null' INT TERM
+setsid env --default-signal=INT rosrun rosbag record -O "$part" "${topics[@]}" & recorder=$!
+trap 'kill -INT "$recorder" 2> /dev/null' HUP INT TERM
 status=0
 until wait "$recorder"; do status=$?; kill -0 "$recorder" 2> /dev/null || break; done
-[ -f "$bag" ] && [ "$(stat -c %i "$bag")" != "$earlier" ] || fail "the recorder ended with status $status"
+if has_messages "$part.active"; then
+  mv -f "$part.active" "$bag.active"
+  fail "the recorder ended with status $status; rosbag reindex may repair $bag.active"
+fi
+has_messages "$part" || fail "nothing was recorded (the recorder ended with status $status)"
+mv -fT "$part" "$bag" || { trap - EXIT; fail "the recording is in $part"; }
+printf '[INFO] recorded %s\n' "$(realpath "$bag")"

@@ -11,8 +11,8 @@ import rosgraph
 import rospy
 import yaml
 
-from pendulum_process import (SCENE, Folder, PendulumNode, program, project, read_frames, run_exercise, run_program,
-                              write)
+from pendulum_process import (SCENE, Folder, PendulumNode, files_in, program, project, read_frames, run_exercise,
+                              run_program, write)
 
 
 def launch(file, *arguments, cwd='/'):
@@ -101,8 +101,11 @@ class Launch(unittest.TestCase):
         output = launch('record.launch', 'bag:=/dev/null/one.bag', 'frames:=12')
         self.assertIn('no bag was written to /dev/null/one.bag', output)
         with Folder() as folder:
+            write(folder + '/one.bag', 'earlier')
             output = launch('record.launch', 'bag:=one.bag', 'method:=Oiler', cwd=folder)
+            self.assertEqual(files_in(folder), {'one.bag': b'earlier'})
         self.assertIn("unknown method 'Oiler'", output)
+        self.assertIn('no bag was written to ' + folder + '/one.bag: nothing was recorded', output)
         self.assertNotIn('Traceback', output)
 
     def test_record_sh_replaces_an_earlier_bag_only_by_a_new_one(self):
@@ -110,7 +113,9 @@ class Launch(unittest.TestCase):
             bag, rosrun = folder + '/one.bag', folder + '/rosrun'
             for recorder, text, message in (
                     ('exit 1', 'earlier', 'no bag was written to ' + bag),
-                    ('echo new > "$4.active" && mv "$4.active" "$4"', 'new', '')):
+                    ('head -c 4117 /dev/zero > "$4.active"; mv "$4.active" "$4"', 'earlier', 'nothing was recorded'),
+                    ('yes new | head -n 2000 > "$4.active"; exit 1', 'earlier', 'may repair %s.active' % bag),
+                    ('yes new | head -n 2000 > "$4.active"; mv "$4.active" "$4"', 'new', '')):
                 write(bag, 'earlier\n')
                 write(rosrun, '#!/bin/sh\n' + recorder + '\n')
                 os.chmod(rosrun, 0o755)
@@ -119,7 +124,8 @@ class Launch(unittest.TestCase):
                 self.assertEqual(done.returncode, 1 if message else 0)
                 self.assertIn(message, done.stderr)
                 with open(bag) as file:
-                    self.assertEqual(file.read(), text + '\n')
+                    self.assertEqual(file.readline(), text + '\n')
+            self.assertEqual(sorted(os.listdir(folder)), ['one.bag', 'one.bag.active', 'rosrun'])
 
     def test_film_sh_refuses_what_makes_no_film_before_it_films(self):
         with Folder() as folder:
