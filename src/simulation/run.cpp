@@ -243,9 +243,8 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   track_dissipation_ = knows_dissipation;
   changed_ = true;
   *judge_ = std::move(judge);
-  if (reference_) {
+  if (reference_)
     reference_->stop("the chain was driven or changed, and the reference run does not follow");
-  }
   if (other_control) divideFrames();
   dissipated_before_ = dissipated_;
   evaluations_before_ += integrator_->forceEvaluations();
@@ -294,7 +293,8 @@ const State* Run::referenceState() const {
 
 std::string Run::closingLine(const std::string& output) const {
   const Method& method = plan_.method;
-  const std::string report = integrator_->report();
+  const std::string report =
+      evaluations_before_ > 0 && !method.hasFixedStep() ? "" : integrator_->report();
   return fmt::format(
       "{}{}: {}, {}{}, {}{}, {} integrating{}, {} reference run, {}, verdict: {}", method.name,
       report.empty() ? "" : " (" + report + ")", counted(chain_.size(), "particle"),

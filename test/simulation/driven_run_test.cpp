@@ -218,6 +218,7 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   };
   Scenario scenario{pair.run.plan(), pair.run.chain().constants()};
   State state = pair.run.state();
+  EXPECT_NE(pair.run.closingLine().find("switches"), std::string::npos);
   for (const double factor : {0.0, 3.0}) {
     go_on();
     scenario.constants.spring.damping = factor;
@@ -226,6 +227,8 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
     pair.run.change(scenario, scenario.constants, {}, pair.run.state());
   }
   go_on();
+  // The new integrator knows the methods since the last change only.
+  EXPECT_EQ(pair.run.closingLine().find("switches"), std::string::npos);
   state = pair.run.state();
   state.vx()[5] += 3.0;
   scenario.method = findMethod("Runge-Kutta-4");
