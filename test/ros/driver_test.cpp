@@ -139,7 +139,7 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
   const auto takes = [&](double x, double stamp, double now) {
     return follower.take({{x, 0.0}, {}, {}}, true, stamp, now);
   };
-  const std::string held = ": the particle is held where it is until the input is steady";
+  const std::string held = ": such inputs are ignored until they are steady";
   EXPECT_FALSE(follower.targetAt(0.0, {}, 0.03).has_value());
   EXPECT_TRUE(takes(0.0, 1.0, 1.0));
   EXPECT_TRUE(takes(0.5, 1.1, 1.1));
@@ -149,16 +149,37 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
             "odom jumps by more than 1 m (check its frame and unit)" + held);
   EXPECT_FALSE(takes(std::nan(""), 1.3, 1.3));
   EXPECT_EQ(std::exchange(said, ""), "");  // said once
-  EXPECT_TRUE(takes(0.6, 1.4, 1.4));
+  EXPECT_FALSE(takes(0.6, 1.4, 1.4));      // two bad inputs within half a second
+  EXPECT_EQ(follower.targetAt(1.4, {0.4, 0.0}, 0.03)->position.x, 0.4);
+  EXPECT_EQ(follower.targetAt(1.5, {0.7, 0.0}, 0.03)->position.x, 0.4);
+  EXPECT_TRUE(takes(0.6, 1.8, 1.81));
   EXPECT_EQ(std::exchange(said, ""), "odom is followed again");
-  EXPECT_FALSE(takes(0.6, 1.0, 1.5));
+  EXPECT_FALSE(takes(0.6, 1.0, 2.0));
   EXPECT_EQ(std::exchange(said, ""), "odom runs backwards in time" + held);
-  EXPECT_TRUE(takes(0.6, 1.5, 1.6));
-  said.clear();
-  EXPECT_FALSE(follower.isSilent(1.7));
+  EXPECT_TRUE(takes(0.6, 2.1, 2.1));  // one
+  EXPECT_EQ(std::exchange(said, ""), "");
+  EXPECT_FALSE(follower.isSilent(2.2));
   EXPECT_TRUE(follower.isSilent(3.0));
-  EXPECT_EQ(follower.targetAt(3.0, {}, 0.03)->velocity.x, 0.0);
+  EXPECT_TRUE(takes(0.6, 3.0, 3.0));
+  EXPECT_EQ(std::exchange(said, ""), "odom is followed again");
+  EXPECT_TRUE(follower.isSilent(4.0));
+  EXPECT_EQ(follower.targetAt(4.0, {}, 0.03)->velocity.x, 0.0);
   EXPECT_EQ(std::exchange(said, ""), "odom has stopped: the particle is held where it is");
+}
+
+TEST(Follower, SaysOnceThatInputsContradictEachOther) {
+  for (const Target& other : {Target{{25.0, 0.0}, {}, {}}, Target{{std::nan(""), 0.0}, {}, {}},
+                              Target{{5.0, 0.0}, {1e3, 0.0}, {}}}) {
+    int said = 0, taken = 0;
+    Follower follower("pose", 2.5, [&said](const std::string&) { ++said; });
+    for (int i = 0; i < 340; ++i) {
+      if (i == 300) EXPECT_EQ(said, 1);
+      if (i == 300) EXPECT_LE(taken, 2);
+      const Target holder = i % 2 == 1 && i < 300 ? other : Target{{5.0, 0.0}, {}, {}};
+      taken += follower.take(holder, true, i / 60.0, 1.0 + i / 60.0) ? 1 : 0;
+    }
+    EXPECT_EQ(said, 2);  // followed again
+  }
 }
 
 // After any inputs, a steady one is followed within a second.
@@ -232,6 +253,8 @@ TEST(Follower, ComesBackSlowlyAfterASilence) {
   EXPECT_EQ(said, "odom: the particle comes to it from 4 m away");
   follower.take({{1e17, 0.0}, {}, {}}, true, 3.1, 3.1);
   EXPECT_NEAR(follower.targetAt(3.1, {0.0, 0.0}, 0.03)->position.x, 0.06, 1e-12);
+  for (const double x : {0.5, 0.6})  // silent before the particle has come to it: it stays
+    EXPECT_EQ(follower.targetAt(3.6, {x, 0.0}, 0.03)->position.x, 0.5);
 }
 
 TEST(Robots, ParseHeldParticles) {

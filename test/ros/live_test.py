@@ -181,13 +181,14 @@ class Robots(LiveTest):
             def send(x, seconds, **where):
                 poses.publish(pose(x, 1.0, rospy.Time(seconds), **where))
                 rospy.sleep(0.05)
-            for k in range(20):
+            for k in range(40):
                 send(9.0, 100.0 + k)
             send(9.0, 50.0)
             send(1e9, 200.0)
             send(math.nan, 201.0)
             send(9.0, 202.0, frame='nowhere')
-            send(9.0, 203.0, y=0.5)
+            for k in range(15):  # steady for half a second
+                send(9.0, 203.0 + k, y=0.5)
             rospy.sleep(0.3)
             p = self.last().positions[10]
             self.assertLess(math.hypot(p.x - 9.0, p.z - 1.0), 1e-3)

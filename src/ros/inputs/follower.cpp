@@ -18,10 +18,12 @@ constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in larges
 
 }  // namespace
 
-bool Follower::refuse(const std::string& why) {
-  if (!std::exchange(warned_, true)) {
-    warn_(name_ + " " + why + ": the particle is held where it is until the input is steady");
-  }
+bool Follower::refuse(const std::string& why, double now) {
+  refused_.reset();
+  if (now < settled_at_) hold_until_ = now + kSilence;
+  settled_at_ = now + kSilence;
+  if (!std::exchange(warned_, true))
+    warn_(name_ + " " + why + ": such inputs are ignored until they are steady");
   return false;
 }
 
@@ -31,31 +33,31 @@ bool Follower::isNext(const Sample& before, const Sample& input) const {
 }
 
 bool Follower::isBelievable(const Sample& input) {
-  const auto& [position, velocity, acceleration] = input.holder;
-  if (!std::isfinite(position.x + position.y + velocity.x + velocity.y)) {
-    return refuse("has numbers that are not finite");
-  }
+  const auto& [holder, stamp, now] = input;
+  const auto& [position, velocity, acceleration] = holder;
+  if (!std::isfinite(position.x + position.y + velocity.x + velocity.y))
+    return refuse("has numbers that are not finite", now);
   const double fastest = kJumpsPerSecond * longest_;
-  if (!(std::hypot(velocity.x, velocity.y) <= fastest)) {
-    return refuse(fmt::format("moves at more than {:.3g} m/s", fastest));
-  }
-  if (samples_.empty() || isNext(samples_.back(), input)) return true;
-  if (!refused_ || !isNext(*refused_, input)) steady_since_ = input.time;
-  refused_ = input;
-  if (input.time - steady_since_ >= kSilence) {
+  if (!(std::hypot(velocity.x, velocity.y) <= fastest))
+    return refuse(fmt::format("moves at more than {:.3g} m/s", fastest), now);
+  const bool is_next = samples_.empty() || isNext(samples_.back(), input);
+  if (samples_.empty() || (is_next && now >= hold_until_)) return true;
+  if (!refused_ || !isNext(*refused_, input)) steady_since_ = now;
+  if (now - steady_since_ >= kSilence) {
     samples_.clear();
+    settled_at_ = hold_until_ = now;
     return true;
   }
-  return refuse(
-      input.stamp < samples_.back().stamp
-          ? "runs backwards in time"
-          : fmt::format("jumps by more than {:.3g} m (check its frame and unit)", longest_));
+  const auto jump = fmt::format("jumps by more than {:.3g} m (check its frame and unit)", longest_);
+  if (!is_next) refuse(stamp < samples_.back().stamp ? "runs backwards in time" : jump, now);
+  refused_ = input;
+  return false;
 }
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
   Sample sample{input, stamp, now};
   if (!isBelievable(sample)) return false;
-  if (std::exchange(warned_, false)) warn_(name_ + " is followed again");
+  if (now >= settled_at_ && std::exchange(warned_, false)) warn_(name_ + " is followed again");
   refused_.reset();
   if (samples_.empty() || isSilent(now)) {
     samples_.clear();
@@ -74,9 +76,8 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
 
 const Follower::Sample* Follower::before(double seconds) const {
   const Sample* found = nullptr;
-  for (const Sample& sample : samples_) {
+  for (const Sample& sample : samples_)
     if (samples_.back().time - sample.time >= seconds) found = &sample;
-  }
   return found;
 }
 
@@ -108,18 +109,17 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
                                          double interval) {
   if (samples_.empty()) return std::nullopt;
   Target target = samples_.back().holder;
-  if (isSilent(now)) {
+  if (isSilent(now) || now < hold_until_) {
     if (!std::exchange(warned_, true))
       warn_(name_ + " has stopped: the particle is held where it is");
-    return Target{target.position, {}, {}};
+    return Target{place_ ? *place_ : place_.emplace(met_ ? target.position : here), {}, {}};
   }
+  place_.reset();
   const double age = now - samples_.back().time - interval;
-  const auto move = [age](double& position, double& velocity, double acceleration) {
-    position += age * (velocity + 0.5 * age * acceleration);
-    velocity += age * acceleration;
-  };
-  move(target.position.x, target.velocity.x, target.acceleration.x);
-  move(target.position.y, target.velocity.y, target.acceleration.y);
+  for (const auto axis : {&PlaneVector<double>::x, &PlaneVector<double>::y}) {
+    target.position.*axis += age * (target.velocity.*axis + 0.5 * age * target.acceleration.*axis);
+    target.velocity.*axis += age * target.acceleration.*axis;
+  }
   const double distance = std::hypot(target.position.x - here.x, target.position.y - here.y);
   met_ = met_ || distance < kMet;
   if (!met_) approach(target, here, distance, now, interval);
@@ -138,9 +138,7 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
     warn_(name_ + fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away",
                               now - left_, distance));
   }
-  const double step = 2.0 * kApproachSpeed * std::max(interval, 1e-3);
-  if (distance <= step) return;
-  const double share = step / distance;
+  const double share = std::min(1.0, 2.0 * kApproachSpeed * std::max(interval, 1e-3) / distance);
   target.position.x = here.x + share * (target.position.x - here.x);
   target.position.y = here.y + share * (target.position.y - here.y);
 }

@@ -28,10 +28,10 @@ using HolderFrame = std::pair<std::ptrdiff_t, std::string>;
 /// \throws InputError for a word that is no particle of the chain, or one given twice
 std::vector<HolderFrame> parseHeld(const std::string& text, std::ptrdiff_t particles);
 
-/// Turns the inputs of one holder into targets of its particle, and says each problem once. The particle
-/// follows an input that is believable. At the start, after a silence of half a second and after a
-/// jump it first comes to its holder. A lasting jump, or a clock that starts again, is believed once the
-/// input has been steady for half a second.
+/// Turns the inputs of one holder into targets of its particle, and says each problem once. One input
+/// that is not believable is ignored; after two within half a second, the particle waits until the input has
+/// been steady for half a second, also at another place or with a clock that has started again. At the
+/// start, after a silence of half a second and after a jump it first comes to its holder.
 class Follower {
  public:
   /// \param name    of the input, for warnings
@@ -64,7 +64,7 @@ class Follower {
   };
   bool isNext(const Sample& before, const Sample& input) const;
   bool isBelievable(const Sample& input);
-  bool refuse(const std::string& why);
+  bool refuse(const std::string& why, double now);
   /// The last input that is at least this much older than the newest one; null: none.
   const Sample* before(double seconds) const;
   void estimateMotion(bool has_velocity);
@@ -75,12 +75,15 @@ class Follower {
   double longest_;
   std::function<void(const std::string&)> warn_;
   std::deque<Sample> samples_;     ///< since the particle began to come to its holder, newest last
-  std::optional<Sample> refused_;  ///< the last one, since the last accepted one
-  double steady_since_ = 0.0;      ///< s, of the refused ones
-  bool warned_ = false;            ///< that the input is refused, or silent
-  bool met_ = false;               ///< whether the particle has reached its holder
-  double left_ = 0.0;              ///< s, when it began to come to its holder; 0: not yet
-  double expected_ = 0.0;          ///< s, when it should have met it
+  std::optional<Sample> refused_;  ///< the last one that was not taken, since the last that was
+  double steady_since_ = 0.0;      ///< s, of those
+  double settled_at_ = 0.0;        ///< s, half a second after the last refusal
+  double hold_until_ = 0.0;        ///< s, half a second after a refusal that soon follows another
+  std::optional<PlaneVector<double>> place_;  ///< m, of a particle that waits for its input
+  bool warned_ = false;                       ///< that the input is refused, or silent
+  bool met_ = false;                          ///< whether the particle has reached its holder
+  double left_ = 0.0;      ///< s, when it began to come to its holder; 0: not yet
+  double expected_ = 0.0;  ///< s, when it should have met it
 };
 
 /// All particles held by robots (`~held`).
