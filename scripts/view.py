@@ -43,9 +43,24 @@ def live_topics():
                   topics.get(name[:-len('markers')] + 'state') == 'spring_pendulum/PendulumState')
 
 
+def read_config(path):
+    """The configuration of rviz in a file; without one, the program ends."""
+    try:
+        with open(path) as file:
+            config = yaml.safe_load(file)
+        if all('Class' in display for display in config['Visualization Manager']['Displays']):
+            return config
+    except OSError as error:
+        sys.exit('%s: %s' % (path, error.strerror))
+    except (LookupError, TypeError, ValueError, yaml.YAMLError):
+        pass
+    sys.exit('%s: is not a configuration of rviz' % path)
+
+
 def set_displays(config, topics, keep=False):
     displays = config['Visualization Manager']['Displays']
-    template = next(d for d in displays if d['Class'] == 'rviz/MarkerArray')
+    template = next((d for d in displays if d['Class'] == 'rviz/MarkerArray'),
+                    {'Class': 'rviz/MarkerArray', 'Enabled': True, 'Value': True})
     others = [d for d in displays if keep or d['Class'] != 'rviz/MarkerArray']
     own = os.environ.get('ROS_NAMESPACE', '/')
     known = {rosgraph.names.ns_join(own, d['Marker Topic']) for d in others if 'Marker Topic' in d}
@@ -68,16 +83,18 @@ def set_view(config, bag, topics):
     position = {'X': (min(xs) + max(xs)) / 2, 'Y': -0.5 * 1.4 * size / math.tan(HALF_VIEW),
                 'Z': (min(zs) + max(zs)) / 2 + 0.1 * size}
     manager = config['Visualization Manager']
-    manager['Global Options']['Fixed Frame'] = frame
-    manager['Views']['Current'].update(Position=position, Yaw=math.pi / 2)
+    manager.setdefault('Global Options', {})['Fixed Frame'] = frame
+    manager.setdefault('Views', {}).setdefault('Current', {}).update(Position=position, Yaw=math.pi / 2)
 
 
 def adapted(path, bag_path):
-    """The path of a copy of the configuration with the topics of the bag or of the running nodes."""
-    with open(path) as file:
-        config = yaml.safe_load(file)
+    """The path of a configuration with the topics of the bag or of the running nodes."""
+    config = read_config(path)
     if bag_path == 'none':
-        set_displays(config, live_topics(), keep=True)
+        topics = live_topics()
+        if not topics:
+            return path
+        set_displays(config, topics, keep=True)
     else:
         with rosbag.Bag(bag_path) as bag:
             topics = marker_topics(bag)
@@ -100,9 +117,8 @@ def main():
     if not any(os.environ.get(name) for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM')):
         sys.exit('rviz needs a display, and DISPLAY is not set; without one, use rviz:=false')
     try:
-        if bag != 'none' or live_topics():
-            config = adapted(config, bag)
-    except (OSError, rosbag.ROSBagException, yaml.YAMLError) as error:
+        config = adapted(config, bag)
+    except (OSError, rosbag.ROSBagException) as error:
         sys.exit('%s: %s' % (bag, error))
     try:
         os.execvp('rviz', ['rviz', '-d', config] + [o for o in others if o != '--'])

@@ -147,7 +147,7 @@ class Launch(unittest.TestCase):
                 message = message % path if '%' in message else message
                 self.assertEqual((done.returncode, done.stderr), (1, 'film.sh: %s\n' % message))
 
-    def view(self, folder, source='none', rviz='cat "$2"', **environment):
+    def view(self, folder, source='none', rviz='cat "$2"', config=project('rviz/pendulum.rviz'), **environment):
         """Runs view.py with a shell script in place of rviz."""
         for name, text in (('python3', 'exit 9'), ('rviz', rviz)):  # another python3 does no harm
             if text:
@@ -155,7 +155,7 @@ class Launch(unittest.TestCase):
                 os.chmod(folder + '/' + name, 0o755)
         changes = {'PATH': folder + ':' + os.environ['PATH'], 'QT_QPA_PLATFORM': 'offscreen', 'ROS_HOME': folder,
                    **environment}
-        return subprocess.run([project('scripts/view.py'), project('rviz/pendulum.rviz'), source],
+        return subprocess.run([project('scripts/view.py'), config, source],
                               capture_output=True, text=True,
                               env={k: v for k, v in dict(os.environ, **changes).items() if v is not None})
 
@@ -169,6 +169,15 @@ class Launch(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (1, message))
 
     def test_a_bag_without_a_camera_is_seen_from_near(self):
+    def test_view_names_a_config_that_cannot_be_used(self):
+        with Folder() as folder:
+            for text in ('no configuration', 'a: [', 'Visualization Manager: {}'):
+                path = write(folder + '/text.rviz', text)
+                for source in ('none', 'nope.bag'):
+                    for name, says in ((path, 'is not a configuration of rviz'), ('x.rviz', 'No such file or directory')):
+                        done = self.view(folder, source, config=name)
+                        self.assertEqual((done.returncode, done.stderr), (1, '%s: %s\n' % (name, says)))
+
         with Folder() as folder:
             run_program('record_bag', 'Runge-Kutta-4', '--particles', project('data/one_spring.txt'), '--frames', 20,
                         '--camera-frame', '', '--bag', folder + '/one.bag')
