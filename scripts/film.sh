@@ -34,7 +34,7 @@ done
 case $out in *.gif | *.mp4 | *.png) ;; *) die "OUT must end in .gif, .mp4 or .png" ;; esac
 [ -d "$(dirname "$out")" ] || die "the folder of '$out' does not exist"
 [ -w "$(dirname "$out")" ] && [ ! -d "$out" ] || die "'$out' cannot be written"
-[[ $size =~ ^[0-9]+x[0-9]+$ ]] || die "--size is '$size': must be WIDTHxHEIGHT, for example 800x600"
+[[ $size =~ ^[1-9][0-9]*x[1-9][0-9]*$ ]] || die "--size is '$size': must be WIDTHxHEIGHT, for example 800x600"
 for option in start duration fps slow; do
   [ "$option ${!option}" != 'duration ' ] || continue
   [[ ${!option} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--$option is '${!option}': must be a number"

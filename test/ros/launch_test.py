@@ -139,6 +139,7 @@ class Launch(unittest.TestCase):
             os.mkdir(folder + '/a.gif')
             for out, options, message in (
                     ('one.gif', ['--fps', '0.0'], "--fps is '0.0': must be above 0"),
+                    ('one.gif', ['--size', '0x0'], "--size is '0x0': must be WIDTHxHEIGHT, for example 800x600"),
                     ('one.gif', ['--slow', '0.0'], "--slow is '0.0': must be above 0"),
                     ('one.gif', ['--duration', '0.0'], "--duration is '0.0': must be above 0"),
                     ('nowhere/a.gif', [], "the folder of '%s' does not exist"), ('a.gif', [], "'%s' cannot be written")):
@@ -168,7 +169,6 @@ class Launch(unittest.TestCase):
                 done = self.view(folder, **changes)
             self.assertEqual((done.returncode, done.stderr), (1, message))
 
-    def test_a_bag_without_a_camera_is_seen_from_near(self):
     def test_view_names_a_config_that_cannot_be_used(self):
         with Folder() as folder:
             for text in ('no configuration', 'a: [', 'Visualization Manager: {}'):
@@ -178,6 +178,7 @@ class Launch(unittest.TestCase):
                         done = self.view(folder, source, config=name)
                         self.assertEqual((done.returncode, done.stderr), (1, '%s: %s\n' % (name, says)))
 
+    def test_a_bag_without_a_camera_is_seen_from_near(self):
         with Folder() as folder:
             run_program('record_bag', 'Runge-Kutta-4', '--particles', project('data/one_spring.txt'), '--frames', 20,
                         '--camera-frame', '', '--bag', folder + '/one.bag')
