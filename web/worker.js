@@ -104,8 +104,8 @@ const calls = {
   },
 };
 
-function failureOf(error) {
-  if (typeof error === 'number') return lab.failureAt(error);
+function failureOf(error, address = error?.excPtr ?? error) {  // newer Emscriptens wrap the address
+  if (typeof address === 'number') return lab.failureAt(address);
   return {message: `the library stopped: ${error?.message ?? error}`, status: 1};
 }
 

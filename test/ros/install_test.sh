@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what was built, and runs the installed programs. A catkin workspace, which would compile all
-# of it again, is only configured.
+# of it again, is only configured. For CMake 4, some releases of catkin are too old.
 # Usage: install_test.sh CMAKE BUILD
 set -euo pipefail
 
@@ -9,7 +9,7 @@ trap 'rm -rf "$workspace"' EXIT
 project=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$workspace/src" "$workspace/run"
 ln -sfn "$project" "$workspace/src/spring_pendulum"
-{ catkin_make -C "$workspace" -DSPRING_PENDULUM_TESTS=OFF cmake_check_build_system &&
+{ CMAKE_POLICY_VERSION_MINIMUM=3.5 catkin_make -C "$workspace" -DSPRING_PENDULUM_TESTS=OFF cmake_check_build_system &&
   "$1" -DCMAKE_INSTALL_PREFIX="$workspace/install" -P "$2/cmake_install.cmake"; } \
   > "$workspace/build.log" 2>&1 || { tail -n 50 "$workspace/build.log"; exit 1; }
 

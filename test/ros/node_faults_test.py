@@ -44,7 +44,7 @@ class Node(unittest.TestCase):
             return node.wait(), node.output()
 
     def test_every_call_fails(self):
-        check_faults(self, ('fail', 'kill'), self.run_node, r'\A[^[]*(\[ (INFO|WARN).*\n)*\[FATAL\]: .*\n\Z',
+        check_faults(self, ('fail', 'kill'), self.run_node, r'\A[^[]*(\[ ?(INFO|WARN).*\n)*\[FATAL\]: .*\n\Z',
                      {'e_csv': b'earlier'})
 
     def test_the_clock_steps_back(self):

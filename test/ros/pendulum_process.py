@@ -138,8 +138,7 @@ class PendulumNode:
         return self.text
 
     def lines(self, severity):
-        # Some releases print '[ INFO]', others '[INFO]'.
-        return [line for line in self.output().splitlines() if re.match(r'\[ *%s\]' % severity, line)]
+        return [line for line in self.output().splitlines() if re.match(r'\[ ?%s\]' % severity, line)]
 
     def messages_built(self):
         """The total numbers of marker and state messages, after the end of the node."""
