@@ -58,17 +58,18 @@ class Checker {
   void compareWith(const Methods& methods) {
     const Chain chain(particles_.masses, scenario_.constants);
     double left = 2.0 * kMostWork;  // a method that agrees long may take half
+    bool is_undecided = false;      // whether it is too late to compare some method
     for (const Method* method : methods) {
       Plan plan = scenario_;
       plan.method = *method;
       WorkLimit work{left / 2.0, search_limit_.stop};
       const auto make = [&] { return motionOf(plan, chain, particles_); };
       Agreement agreement = compare(frames_, make, work);
-      if (agreement.departure && kindOf(*method) != 0) {  // a plain program may come nearer
-        const StudentProgram right(*method, scenario_);
-        const Agreement plain = agreementWith(right, work);
-        if (plain.frames > agreement.frames) agreement = plain;
+      if (agreement.departure && kindOf(*method) != 0) {  // a plain program may get further
+        Agreement plain = agreementWith(StudentProgram(*method, scenario_), work);
+        if (plain.frames + (plain.departure ? 0 : 1) > agreement.frames) agreement = plain;
       }
+      is_undecided = is_undecided || (!agreement.departure && agreement.frames == 0);
       left -= work.done;
       if (work.isStopped()) return;
       if (agreement.complete) {
@@ -86,6 +87,7 @@ class Checker {
       departure_ = agreement.departure;
       nearest_ = plan;
     }
+    if (is_undecided && &methods == &wanted_) departure_.reset();
   }
 
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
@@ -137,9 +139,8 @@ class Checker {
     if (level < 2) tryChanges(right, 0, level == 1);
     in_float.sentences.back() += ", or its errors are as small as those of float";
     if (level == 2 && frames_.digits <= AllFrames::kDigitsOfFloat) explains(in_float);
-    for (std::size_t i = 0; level > 2 && i + 1 < table_.size(); ++i) {
+    for (std::size_t i = 0; level > 2 && i + 1 < table_.size(); ++i)
       if (right.canMake(table_[i])) tryChanges(right.with(table_[i]), i + 1, level == 4);
-    }
   }
 
   /// Tries all mistakes from `first` on, or wrong numbers, besides those that a program has.
@@ -211,22 +212,21 @@ class Checker {
       for (int digits = 1; digits <= most_digits; ++digits) {
         value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
         const Agreement rounded = agreementWith(program, search_limit_);
-        if (!rounded.complete) continue;
-        agreement = rounded;
-        return;
+        if (rounded.complete) return rounded;
       }
       value = fitted;
+      return agreement;
     };
     while (!agreement.complete && !search_limit_.isOver()) {
       const std::size_t before = agreement.frames;
       const std::size_t next = std::min(frames_.frames.size() - 1, before + before / 2);
       improve(program, constant, frames_.frames[next]);
       agreement = agreementWith(program, search_limit_);
-      if (!agreement.complete) round(kDigitsOnTheWay);
+      if (!agreement.complete) agreement = round(kDigitsOnTheWay);
       if (!agreement.complete && agreement.frames <= before) return false;
     }
     if (!isExplanation(agreement)) return false;
-    round(kMostDigits);
+    agreement = round(kMostDigits);
     const double scale = right == 0.0 ? 1.0 : std::abs(right);
     if (std::abs(value - right) <= kSmallestMistake * scale) return false;
     std::string sentence(constant.sentence);

@@ -95,8 +95,9 @@ bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
   const FrameNumbers& first = all.frames.front();
   if (first.index == all.start && !first.equals(start, kRounded) && has_floats_of(first, start))
     return true;
-  return all.digits > AllFrames::kDigitsOfFloat && (all.frames.back().positions != start).any() &&
-         std::all_of(all.frames.begin() + 1, all.frames.end(),
+  return all.digits > AllFrames::kDigitsOfFloat && all.frames.back().index > all.start &&
+         (all.frames.back().positions != start).any() &&
+         std::all_of(all.frames.begin() + (first.index == all.start), all.frames.end(),
                      [&](const auto& frame) { return has_floats_of(frame, frame.positions); });
 }
 

@@ -248,7 +248,10 @@ def garbage_is_not_equal(lab):
                     name == 'huge numbers' and ', by 1.4e+308 m' not in verdict):
                 print('garbage:', name, damping, status, verdict)
                 return False
-    return True
+    # Without damping: frames that are too late for some methods, and a single one.
+    late, _ = lab.verdict(good[290:], '6g', path, None, 300, '--damping', '0', first=290)
+    _, alone = lab.verdict(good[30:31], '17g', path, 'Runge-Kutta-4', 31, first=30)
+    return late == 5 and mistakes_in(alone) == ['no_damping']
 
 
 def other_courses_are_judged(lab):
