@@ -319,7 +319,7 @@ void checkTolerance(double tolerance, const Chain& chain, const State& start) {
         "errors");
   throw InputError(
       fmt::format("tolerance: must be at least {:.1e} m for this scene, because of the rounding "
-                  "errors of its positions; got {}",
+                  "errors; got {}",
                   1.05 * least, numberText(tolerance)));
 }
 

@@ -107,10 +107,10 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
   checkPlan(plan);
   checkMemory(plan, chain_.size());
   if (!(options.display_interval >= 0.0)) throw InputError("display_interval must be at least 0 s");
-  if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
   divideFrames();
   makeIntegrator();
   begin(first_frame_, start_);
+  if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
 }
 
 Run::Run(Run&&) noexcept = default;
