@@ -15,7 +15,8 @@ mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be created"
 [ ! -e "$bag" ] || { [ -f "$bag" ] && [ -w "$bag" ]; } || fail "the existing bag cannot be replaced"
 
 # An earlier bag stays until the new one is complete and has messages.
-part=$(mktemp -u -p "$(dirname "$bag")" ".$(basename "$bag" .bag).XXXXXX.bag")
+# Somebody who kills this script finds the recording beside the bag.
+part=$(mktemp -u "${bag%.bag}.XXXXXX.bag")
 trap 'rm -f "$part" "$part.active"' EXIT
 has_messages() { [ "$(stat -c %s "$1" 2> /dev/null || echo 0)" -gt 4117 ]; }  # the size of an empty bag
 
@@ -25,7 +26,7 @@ trap 'kill -INT "$recorder" 2> /dev/null' HUP INT TERM
 status=0
 until wait "$recorder"; do status=$?; kill -0 "$recorder" 2> /dev/null || break; done
 if has_messages "$part.active"; then
-  mv -f "$part.active" "$bag.active"
+  mv -fT "$part.active" "$bag.active"
   fail "the recorder ended with status $status; rosbag reindex may repair $bag.active"
 fi
 has_messages "$part" || fail "nothing was recorded (the recorder ended with status $status)"

@@ -118,7 +118,7 @@ def main():
         sys.exit('rviz needs a display, and DISPLAY is not set; without one, use rviz:=false')
     try:
         config = adapted(config, bag)
-    except (OSError, rosbag.ROSBagException) as error:
+    except (OSError, ValueError, rosbag.ROSBagException) as error:
         sys.exit('%s: %s' % (bag, error))
     try:
         os.execvp('rviz', ['rviz', '-d', config] + [o for o in others if o != '--'])
