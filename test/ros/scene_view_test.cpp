@@ -12,9 +12,8 @@ namespace {
 
 Scene horizontal(Eigen::Index particles, double spacing) {
   Scene scene{Eigen::VectorXd::Ones(particles), State(particles)};
-  for (Eigen::Index i = 0; i < particles; ++i) {
+  for (Eigen::Index i = 0; i < particles; ++i)
     scene.state.x()[i] = spacing * static_cast<double>(i);
-  }
   return scene;
 }
 

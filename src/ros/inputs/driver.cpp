@@ -86,18 +86,16 @@ std::string Driver::on(const ApplyForceTo& request) {
   Drive drive{{}, {{particle, force}}};
   for (const auto& [i, target] : targets_) drive.held.push_back({i, {}});
   static_cast<void>(chain.drivenBy(drive));  // refuses a force that the chain cannot have
-  if (!std::isfinite(start_time) || !std::isfinite(duration)) {
+  if (!std::isfinite(start_time) || !std::isfinite(duration))
     throw InputError("start_time and duration must be finite");
-  }
   const double strongest = kLargestAcceleration * chain.masses()[particle] *
                            std::max(chainLength(chain, run_.start()), 1.0);
   if (!(std::hypot(force.x, force.y) <= strongest)) {
     throw InputError(
         fmt::format("force must be at most {:.3g} N on particle {}", strongest, particle + 1));
   }
-  if (forces_.size() >= kMostForces) {
+  if (forces_.size() >= kMostForces)
     throw InputError("too many forces act already; call ~clear_forces");
-  }
   const double begin = std::max(start_time, run_.time());
   const double lasts = duration < 0.0 ? std::numeric_limits<double>::infinity() : duration;
   forces_.push_back({particle, force, begin, lasts});
@@ -166,9 +164,8 @@ Drive Driver::driveUntil(double next_time, State& state) {
 Scenario Driver::possible() const {
   Scenario scenario = wanted_;
   const Method& method = run_.plan().method;
-  if (wanted_.method.get().hasFixedStep() != method.hasFixedStep() && !run_.isAtFrame()) {
+  if (wanted_.method.get().hasFixedStep() != method.hasFixedStep() && !run_.isAtFrame())
     scenario.method = method;
-  }
   return scenario;
 }
 

@@ -12,7 +12,7 @@ constexpr double kSilence = 0.5;        // s
 constexpr double kApproachSpeed = 1.0;  // m/s, before a particle has met its holder
 constexpr double kMet = 0.01;           // m
 constexpr double kJitter = 0.1;         // s, largest believable delay of a message
-constexpr double kHistory = 0.5;        // s, of inputs
+constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder is extrapolated
 constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
 
@@ -69,7 +69,7 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
     if (std::abs(now - expected) < kJitter) sample.time = std::min(now, expected);
   }
   samples_.push_back(sample);
-  while (samples_.front().time < sample.time - kHistory) samples_.pop_front();
+  while (samples_.front().time < sample.time - kSilence) samples_.pop_front();
   estimateMotion(has_velocity);
   return true;
 }
@@ -100,7 +100,11 @@ void Follower::estimateMotion(bool has_velocity) {
   if (second == nullptr || second == first) return;
   const double h2 = first->time - second->time;
   const PlaneVector<double> earlier = slope(second->holder.position, first->holder.position, h2);
-  now.acceleration = slope(earlier, now.velocity, 0.5 * (h1 + h2));
+  const PlaneVector<double> change = slope(earlier, now.velocity, 0.5 * (h1 + h2));
+  // A step from rest is no acceleration that lasts.
+  const double most = std::hypot(earlier.x, earlier.y) + kApproachSpeed;
+  if (h1 * std::hypot(change.x, change.y) > most) return;
+  now.acceleration = change;
   now.velocity.x += 0.5 * h1 * now.acceleration.x;
   now.velocity.y += 0.5 * h1 * now.acceleration.y;
 }
@@ -109,13 +113,14 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
                                          double interval) {
   if (samples_.empty()) return std::nullopt;
   Target target = samples_.back().holder;
-  if (isSilent(now) || now < hold_until_) {
-    if (!std::exchange(warned_, true))
+  const double silence = now - samples_.back().time;
+  if (silence > kLongestLead || now < hold_until_) {
+    if (isSilent(now) && !std::exchange(warned_, true))
       warn_(name_ + " has stopped: the particle is held where it is");
-    return Target{place_ ? *place_ : place_.emplace(met_ ? target.position : here), {}, {}};
+    return Target{place_ ? *place_ : place_.emplace(here), {}, {}};
   }
   place_.reset();
-  const double age = now - samples_.back().time - interval;
+  const double age = silence - interval;
   for (const auto axis : {&PlaneVector<double>::x, &PlaneVector<double>::y}) {
     target.position.*axis += age * (target.velocity.*axis + 0.5 * age * target.acceleration.*axis);
     target.velocity.*axis += age * target.acceleration.*axis;

@@ -57,9 +57,8 @@ Handles::Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& optio
       updates_(node.advertise<visualization_msgs::InteractiveMarkerUpdate>("handles/update", 100)) {
   const double length = std::max(chainLength(run.chain(), run.start()), 0.1);
   const auto count = static_cast<double>(particles_.size());
-  for (const std::ptrdiff_t particle : particles_) {
+  for (const std::ptrdiff_t particle : particles_)
     insert(particle, std::min(kSize * length, kShareOfSpring * length / count));
-  }
   server_.applyChanges();
 }
 
@@ -142,9 +141,8 @@ geometry_msgs::Pose Handles::poseOf(std::ptrdiff_t particle) const {
 
 void Handles::show() {
   if (updates_.getNumSubscribers() == 0) return;
-  for (const std::ptrdiff_t particle : particles_) {
+  for (const std::ptrdiff_t particle : particles_)
     server_.setPose(nameOf(particle), poseOf(particle));
-  }
   server_.applyChanges();
 }
 

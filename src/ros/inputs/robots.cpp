@@ -122,9 +122,8 @@ void Robots::lookUp(Robot& robot, double now) {
     const double age = ros::Time::now().toSec() - found.stamp;
     take(robot, found, {}, std::nullopt, age > 0.0 && age < kStaleFrame ? now - age : now);
   } catch (const InputError& error) {
-    if (robot.follower.isSilent(now) && robot.warnings.isDue()) {
+    if (robot.follower.isSilent(now) && robot.warnings.isDue())
       ROS_WARN_STREAM(robot.name << ": " << error.what());
-    }
   }
 }
 
