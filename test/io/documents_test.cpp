@@ -49,9 +49,8 @@ TEST(Documents, ListTheMethodsOfTheTable) {
 }
 
 std::string replaced(std::string text, char from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, 1, to);
-  }
   return text;
 }
 
@@ -75,9 +74,8 @@ TEST(Documents, ShowTheExamplesAsTheyAre) {
 template <typename Visitor>
 void forEachMatch(const std::string& text, const std::string& pattern, const Visitor& visit) {
   const std::regex regex(pattern);
-  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) {
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match)
     visit(*match);
-  }
 }
 
 /// "Suite.Test", "ros.bag" and, for whole programs, "io_documents_test".

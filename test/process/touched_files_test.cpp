@@ -55,9 +55,8 @@ class TouchedFiles : public testing::Test {
     fs::create_hard_link(folder.path(place), folder.path("hard"));
     const Files before = filesIn(folder.path());
     Command command{{}, folder.path(), {}, {}};
-    for (const std::string& word : program.command) {
+    for (const std::string& word : program.command)
       command.arguments.push_back(word == input ? place : word);
-    }
     for (const auto& [option, value] : outputs) {
       if (option == kStandardOutput) {
         command.prepare = [file = value] {
@@ -131,9 +130,8 @@ TEST_F(TouchedFiles, OfExercise3HaveOneUse) {
     for (const std::string& second : kExercise3.outputs) {
       if (second <= first) continue;
       for (const std::string& value : kValues) {
-        for (const std::string& other : kValues) {
+        for (const std::string& other : kValues)
           check(kExercise3, "in.txt", "e.png", {{first, value}, {second, other}});
-        }
       }
     }
   }
@@ -147,9 +145,8 @@ TEST_F(TouchedFiles, OfSweepAreNoInputs) {
   const std::map<std::string, std::string> inputs{{"in.txt", kTwoParticles}, {"study.yaml", study}};
   checkAgainstInputs({{SWEEP, "study.yaml"}, inputs, {"--output", kStandardOutput}});
   checkAgainstInputs({{SWEEP, "study.yaml", "--case", "0"}, inputs, {"--output"}});
-  for (const char* place : {"e.png", "e.csv"}) {
+  for (const char* place : {"e.png", "e.csv"})
     check({{SWEEP, "study.yaml", "--plot"}, inputs, {}}, "in.txt", place, {{"--output", "e.csv"}});
-  }
   expectBoth(50);
 }
 

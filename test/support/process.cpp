@@ -22,9 +22,8 @@ constexpr int kCouldNotStart = 127;
 
 [[noreturn]] void becomeProgram(const Command& command, int output, int errors) {
   std::vector<char*> arguments;
-  for (const std::string& argument : command.arguments) {
+  for (const std::string& argument : command.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));
-  }
   arguments.push_back(nullptr);
   for (const auto& [name, value] : command.environment) setenv(name.c_str(), value.c_str(), 1);
   dup2(output, STDOUT_FILENO);

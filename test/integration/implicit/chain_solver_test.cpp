@@ -39,9 +39,8 @@ System randomSystem(Eigen::Index particles, double lightest) {
 Dense denseMatrix(const System& system, std::complex<double> q) {
   const Eigen::Index size = system.chain.size();
   Dense matrix = Dense::Zero(2 * size, 2 * size);
-  for (Eigen::Index i = 0; i < size; ++i) {
+  for (Eigen::Index i = 0; i < size; ++i)
     matrix.block<2, 2>(2 * i, 2 * i).diagonal().setConstant(system.chain.masses()[i]);
-  }
   for (Eigen::Index i = 0; i + 1 < size; ++i) {
     const LinearSpring& spring = system.springs[static_cast<std::size_t>(i)];
     const Eigen::Vector2d r(spring.r.x, spring.r.y), a(spring.a.x, spring.a.y);
@@ -80,9 +79,8 @@ double residual(Eigen::Index particles, Scalar q, double lightest = 1.0) {
   ChainSolver<Scalar> solver(system.chain);
   solver.factor(system.springs, q);
   solver.solve(x.data(), y.data());
-  for (std::size_t i = 1; i < size; ++i) {
+  for (std::size_t i = 1; i < size; ++i)
     solution.segment<2>(2 * static_cast<Eigen::Index>(i) - 2) << standard(x[i]), standard(y[i]);
-  }
   const Dense matrix = denseMatrix(system, standard(q));
   const double scale =
       matrix.cwiseAbs().rowwise().sum().maxCoeff() * solution.cwiseAbs().maxCoeff();

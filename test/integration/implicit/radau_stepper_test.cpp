@@ -28,9 +28,8 @@ TEST(RadauCoefficients, FulfilTheOrderConditions) {
     double end = 0.0;
     for (std::size_t i = 0; i < kStages; ++i) {
       double sum = 0.0;
-      for (std::size_t j = 0; j < kStages; ++j) {
+      for (std::size_t j = 0; j < kStages; ++j)
         sum += radau::kMatrix[i][j] * std::pow(kNodes[j], k - 1);
-      }
       if (k <= 5) collocation = std::max(collocation, std::abs(sum - std::pow(kNodes[i], k) / k));
       if (i + 1 == kStages) end = std::abs(sum - 1.0 / k);
     }

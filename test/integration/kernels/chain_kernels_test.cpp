@@ -33,9 +33,8 @@ State randomState(Eigen::Index size, unsigned seed) {
 
 Chain randomChain(Eigen::Index size, const SpringLaw& spring, bool equal_masses, double gravity) {
   Eigen::VectorXd masses = Eigen::VectorXd::Constant(size, 0.7);
-  if (!equal_masses) {
+  if (!equal_masses)
     masses += 0.5 * Eigen::VectorXd::LinSpaced(size, 0.0, 1.0).array().sin().matrix();
-  }
   return {masses, spring, gravity};
 }
 
@@ -45,9 +44,8 @@ bool sameBits(const State::Matrix& a, const State::Matrix& b) {
 }
 
 State::Matrix plusWeighted(State::Matrix sum, double weight, const State::Matrix& slope) {
-  for (Eigen::Index i = 0; i < sum.size(); ++i) {
+  for (Eigen::Index i = 0; i < sum.size(); ++i)
     sum.data()[i] = std::fma(weight, slope.data()[i], sum.data()[i]);
-  }
   return sum;
 }
 
