@@ -211,7 +211,7 @@ class Checker {
       const double fitted = value;
       for (int digits = 1; digits <= most_digits; ++digits) {
         value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
-        const Agreement rounded = agreementWith(program, search_limit_);
+        Agreement rounded = agreementWith(program, search_limit_);
         if (rounded.complete) return rounded;
       }
       value = fitted;

@@ -97,7 +97,7 @@ bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
     return true;
   return all.digits > AllFrames::kDigitsOfFloat && all.frames.back().index > all.start &&
          (all.frames.back().positions != start).any() &&
-         std::all_of(all.frames.begin() + (first.index == all.start), all.frames.end(),
+         std::all_of(all.frames.begin() + (first.index == all.start ? 1 : 0), all.frames.end(),
                      [&](const auto& frame) { return has_floats_of(frame, frame.positions); });
 }
 
