@@ -15,7 +15,7 @@ mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be created"
 [ ! -e "$bag" ] || { [ -f "$bag" ] && [ -w "$bag" ]; } || fail "the existing bag cannot be replaced"
 
 # An earlier bag stays until the new one is complete and has messages.
-# Somebody who kills this script finds the recording beside the bag.
+# If this script is killed, the recording is left beside the bag.
 part=$(mktemp -u "${bag%.bag}.XXXXXX.bag")
 trap 'rm -f "$part" "$part.active"' EXIT
 has_messages() { [ "$(stat -c %s "$1" 2> /dev/null || echo 0)" -gt 4117 ]; }  # the size of an empty bag

@@ -65,9 +65,10 @@ class Checker {
       WorkLimit work{left / 2.0, search_limit_.stop};
       const auto make = [&] { return motionOf(plan, chain, particles_); };
       Agreement agreement = compare(frames_, make, work);
-      if (agreement.departure && kindOf(*method) != 0) {  // a plain program may get further
+      if (agreement.departure && kindOf(*method) != 0) {
         Agreement plain = agreementWith(StudentProgram(*method, scenario_), work);
-        if (plain.frames + (plain.departure ? 0 : 1) > agreement.frames) agreement = plain;
+        // It may get further, or to a frame that cannot be compared.
+        if (plain.frames >= agreement.frames + (plain.departure ? 1 : 0)) agreement = plain;
       }
       is_undecided = is_undecided || (!agreement.departure && agreement.frames == 0);
       left -= work.done;
@@ -101,9 +102,8 @@ class Checker {
     compareWith(others_);
     if (last_frame_ > frames_.start) return found;
     methods_.clear();
-    for (const Method* method : others_) {
+    for (const Method* method : others_)
       if ((kindOf(*method) & kOfExercise) != 0) written.push_back(method);
-    }
     found = findMistakes(written, 5);
     if (search_limit_.isOver() && found.empty())
       frames_.notes.emplace_back("the search for mistakes stopped before all were tried");
@@ -138,7 +138,8 @@ class Checker {
     if (level == 0 && frames_.are_floats && explains(right)) return;
     if (level < 2) tryChanges(right, 0, level == 1);
     in_float.sentences.back() += ", or its errors are as small as those of float";
-    if (level == 2 && frames_.digits <= AllFrames::kDigitsOfFloat) explains(in_float);
+    const bool may_be_float = !frames_.are_floats && frames_.digits <= AllFrames::kDigitsOfFloat;
+    if (level == 2 && may_be_float) explains(in_float);
     for (std::size_t i = 0; level > 2 && i + 1 < table_.size(); ++i)
       if (right.canMake(table_[i])) tryChanges(right.with(table_[i]), i + 1, level == 4);
   }
@@ -157,8 +158,8 @@ class Checker {
   }
 
   Agreement agreementWith(const StudentProgram& program, WorkLimit& limit) const {
-    return compare(
-        frames_, [&] { return motionOf(program, particles_); }, limit);
+    const auto make = [&] { return motionOf(program, particles_); };
+    return compare(frames_, make, limit);
   }
 
   bool isExplanation(const Agreement& agreement) const {
@@ -200,7 +201,6 @@ class Checker {
   bool fit(StudentProgram program, const Constant& constant, double factor = 1.0) {
     constexpr double kSmallestMistake = 1e-5;  // relative; smaller ones are rounding errors
     constexpr int kMostDigits = 15;
-    constexpr int kDigitsOnTheWay = 6;  // a number as a student writes it may reproduce all frames
     StudentProgram asked(program.method, scenario_);
     double& value = constant.in(program);
     const double right = value;
@@ -222,18 +222,19 @@ class Checker {
       const std::size_t next = std::min(frames_.frames.size() - 1, before + before / 2);
       improve(program, constant, frames_.frames[next]);
       agreement = agreementWith(program, search_limit_);
-      if (!agreement.complete) agreement = round(kDigitsOnTheWay);
+      if (!agreement.complete) agreement = round(6);  // a student writes few digits
       if (!agreement.complete && agreement.frames <= before) return false;
     }
     if (!isExplanation(agreement)) return false;
-    agreement = round(kMostDigits);
+    program.last_frame = round(kMostDigits).last_frame;
     const double scale = right == 0.0 ? 1.0 : std::abs(right);
     if (std::abs(value - right) <= kSmallestMistake * scale) return false;
     std::string sentence(constant.sentence);
     sentence.replace(sentence.find("{}"), 2, roundedText(value, kMostDigits));
     program.mistakes.emplace_back(constant.name);
     program.sentences.push_back(fmt::format("{} instead of {}", sentence, roundedText(right, 6)));
-    return explains(program);
+    found_.push_back(program);
+    return true;
   }
 
   /// "Euler or Auto: all 500 frames in the 6 digits printed"

@@ -89,16 +89,16 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 /// digits to show that all later frames have only floats.
 bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
   constexpr double kRounded = 0.51;  // units of the last digit
-  const auto has_floats_of = [](const FrameNumbers& frame, const Eigen::ArrayX2d& numbers) {
+  const auto equals_floats_of = [](const FrameNumbers& frame, const Eigen::ArrayX2d& numbers) {
     return frame.equals(numbers.cast<float>().cast<double>(), kRounded);
   };
   const FrameNumbers& first = all.frames.front();
-  if (first.index == all.start && !first.equals(start, kRounded) && has_floats_of(first, start))
+  if (first.index == all.start && !first.equals(start, kRounded) && equals_floats_of(first, start))
     return true;
   return all.digits > AllFrames::kDigitsOfFloat && all.frames.back().index > all.start &&
          (all.frames.back().positions != start).any() &&
          std::all_of(all.frames.begin() + (first.index == all.start ? 1 : 0), all.frames.end(),
-                     [&](const auto& frame) { return has_floats_of(frame, frame.positions); });
+                     [&](const auto& frame) { return equals_floats_of(frame, frame.positions); });
 }
 
 void noteMissingFrames(AllFrames& all) {

@@ -171,9 +171,9 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
   const double tolerated =
       static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
   double allowance = tolerated > 0.0 ? tolerated / scale(time) : 0.0;
-  // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   double residual = entry_.relative_residual.value_or(0.0);
   worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
+  // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
     return diverged(entry_, chain_, state);
   }

@@ -109,7 +109,7 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
   if (!(options.display_interval >= 0.0)) throw InputError("display_interval must be at least 0 s");
   divideFrames();
   makeIntegrator();
-  begin(first_frame_, start_);
+  begin(first_frame_, start_);  // refuses a start that is not finite
   if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
 }
 
