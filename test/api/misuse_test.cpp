@@ -63,9 +63,8 @@ TEST(Misuse, TimesOfRuns) {
   ReferenceRun reference(chain(), horizontal());
   EXPECT_THROW(reference.advance(kNan, 1), InputError);
   EXPECT_THROW(reference.advance(0.1, -1), InputError);
-  for (const double time : {0.0, -1.0, kNan, kInfinity}) {
+  for (const double time : {0.0, -1.0, kNan, kInfinity})
     EXPECT_THROW(linearStepLimit(findMethod("Euler"), chain(), time), InputError);
-  }
 }
 
 TEST(Misuse, SpringsThatDoNotExist) {
@@ -103,9 +102,8 @@ TEST(Misuse, ArgumentsOfAdvance) {
         EXPECT_THROW(integrator->advance(wrong, 0.01, 1), InputError) << running;
       }
       State state = horizontal();
-      for (const double step : {0.0, -0.01, kNan, kInfinity, -kInfinity}) {
+      for (const double step : {0.0, -0.01, kNan, kInfinity, -kInfinity})
         EXPECT_THROW(integrator->advance(state, step, 1), InputError) << step;
-      }
       EXPECT_THROW(integrator->advance(state, 0.01, -1), InputError);
       EXPECT_THROW(integrator->advance(state, 0.01, std::numeric_limits<std::int64_t>::min()),
                    InputError);

@@ -74,9 +74,8 @@ TEST(CountedWork, IsThatOfTheTable) {
        {"single_vertical", "two_masses_45deg", "horizontal_11", "light_100", "lighter_100"}) {
     scenes.push_back(test::referenceScene(name));
   }
-  for (const test::Scene& scene : scenes) {
+  for (const test::Scene& scene : scenes)
     EXPECT_EQ(worksOf(scene), kWorks.at(scene.name)) << scene.name;
-  }
 }
 
 }  // namespace

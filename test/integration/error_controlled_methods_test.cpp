@@ -25,17 +25,15 @@ using test::Scene;
 
 std::vector<Method> errorControlledMethods() {
   std::vector<Method> methods;
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     if (!method.hasFixedStep()) methods.push_back(method);
-  }
   return methods;
 }
 
 std::string testName(const testing::TestParamInfo<Method>& info) {
   std::string name;
-  for (const char letter : info.param.name) {
+  for (const char letter : info.param.name)
     if (std::isalnum(static_cast<unsigned char>(letter)) != 0) name += letter;
-  }
   return name;
 }
 

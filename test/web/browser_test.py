@@ -330,9 +330,15 @@ class LabTest(unittest.TestCase):
         self.element('motion').send_keys(Keys.ARROW_RIGHT)
         self.wait('return Math.abs(pendulumLab.state().scene.x[1] - 0.05) < 1e-12')
 
-    def test_a_dragged_particle_changes_the_scene(self):
+    def show_level_particles(self):
+        """Shows three particles at t = 0, and waits for the end of the run, after which the view stays."""
         self.call('await pendulumLab.set({particles: "0 0 1\\n1 0 1\\n2 0 1\\n", frames: 20,'
                   'runs: [{method: "Runge-Kutta-4"}]}); pendulumLab.seek(0)')
+        self.wait('return pendulumLab.state().runs[0]?.end?.status === 0')
+        self.call('for (let i = 0; i < 2; ++i) await new Promise(requestAnimationFrame)')
+
+    def test_a_dragged_particle_changes_the_scene(self):
+        self.show_level_particles()
         x, y = self.call('return pendulumLab.onScreen(2)')
         chain = ActionChains(self.browser)
         canvas = self.element('motion')
@@ -360,8 +366,7 @@ class LabTest(unittest.TestCase):
             'type': kind, 'touchPoints': [{'x': x, 'y': y, 'id': i} for i, (x, y) in enumerate(points)]})
 
     def test_fingers_drag_particles_and_zoom(self):
-        self.call('await pendulumLab.set({particles: "0 0 1\\n1 0 1\\n2 0 1\\n", frames: 20,'
-                  'runs: [{method: "Runge-Kutta-4"}]}); pendulumLab.seek(0)')
+        self.show_level_particles()
         left, top = self.browser.execute_script(
             'const box = document.getElementById("motion").getBoundingClientRect(); return [box.left, box.top]')
         places = [self.call('return pendulumLab.onScreen(given[0])', i) for i in range(3)]

@@ -38,9 +38,8 @@ TEST(EmbeddedPair, ErrorBelongsToAMethodOfLowerOrder) {
 /// of a method with the tableau a/θ.
 double denseResidual(const EmbeddedPair& pair, double theta, int order) {
   ButcherTableau scaled = allSlopes(pair);
-  for (auto& row : scaled.a) {
+  for (auto& row : scaled.a)
     for (double& entry : row) entry /= theta;
-  }
   EmbeddedPair::Weights weights = pair.denseWeights(theta);
   for (double& weight : weights) weight /= theta;
   return orderConditionResidual(scaled, weights, order);
