@@ -232,7 +232,7 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   // A chain that has grown since can still be driven: else its held particles would run away.
   if (!fixed_step && (other_control || next.tolerance != plan_.tolerance))
     checkTolerance(next.tolerance, chain, state);
-  const bool knows_dissipation = track_dissipation_ || (!chain_.isDissipative() && !changed_);
+  const bool knows_dissipation = energyEntry().dissipated.has_value();
   Judge judge = *judge_;
   supplied_before_ = supplied_ = judge.change(
       chain, state_, state, judgeOptions(next, knows_dissipation, first_frame_), supplied_);
