@@ -22,6 +22,7 @@
 #include <optional>
 #include <string>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace spring_pendulum {
@@ -50,13 +51,6 @@ void checkArguments(const std::vector<std::string>& arguments, const OptionSet& 
   throw InputError(fmt::format("{}: must be http://HOST:PORT, got '{}'", source, uri));
 }
 
-/// Whether the master knows a node of this name, which it ends when this one registers.
-bool replacesNode() {
-  XmlRpc::XmlRpcValue request, response, address;
-  request[0] = request[1] = ros::this_node::getName();
-  return ros::master::execute("lookupNode", request, response, address, false);
-}
-
 std::string helpText(const OptionSet& options) {
   std::string text =
       "Simulates a chain of springs and publishes it for rviz.\n\n"
@@ -76,15 +70,16 @@ void stopStarting() {
 }
 
 /// Ends the run when the master asks for it. ROS itself would shut down at once, before the files are
-/// closed; and while topics are advertised, that aborts the program.
+/// closed; and while topics are advertised, that aborts the program. What is bound first stays.
 void endWhenTheMasterAsks() {
   using XmlRpc::XmlRpcValue;
-  ros::XMLRPCManager::instance()->unbind("shutdown");
-  ros::XMLRPCManager::instance()->bind("shutdown", [](XmlRpcValue& call, XmlRpcValue& answer) {
-    ::kill(::getpid(), SIGINT);  // this thread of ROS takes no signals
+  const auto end = [asked = false](XmlRpcValue& call, XmlRpcValue& answer) mutable {
     answer = ros::xmlrpc::responseInt(1, "", 0);
+    if (std::exchange(asked, true)) return;
+    ::kill(::getpid(), SIGINT);  // this thread of ROS takes no signals
     ROS_WARN_STREAM("the master ends this node: " << static_cast<std::string>(call[1]));
-  });
+  };
+  ros::XMLRPCManager::instance()->bind("shutdown", end);
 }
 
 /// Checks the arguments and initialises ROS, which takes the arguments with ":=" away. From then on
@@ -95,9 +90,8 @@ void endWhenTheMasterAsks() {
 std::string startRos(int argc, char** argv) {
   NodeConfiguration defaults;
   const OptionSet options = nodeOptions(defaults);
-  if (argc > 1 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
+  if (argc > 1 && (argv[1] == std::string("--help") || argv[1] == std::string("-h")))
     return helpText(options);
-  }
   checkArguments({argv + 1, argv + argc}, options);
   std::signal(SIGINT, SIG_DFL);
   catchInterruptions(stopStarting);
@@ -134,23 +128,13 @@ Scene readNodeScene(const NodeConfiguration& configuration) {
   return scene;
 }
 
-/// \param replaces whether a node of the same name is being ended
-int runNode(bool replaces) {
+int runNode() {
   const NodeConfiguration configuration = readPrivateParameters();
   const Scene scene = readNodeScene(configuration);
-  if (!configuration.unused.empty()) {
+  if (!configuration.unused.empty())
     ROS_INFO_STREAM(configuration.scenario.method.get().name << " does not use "
                                                              << configuration.unused);
-  }
-  std::optional<Node> node;
-  try {
-    node.emplace(configuration.scenario, configuration.options, scene);
-  } catch (const FileError& error) {
-    throw FileError(
-        error.what() +
-        std::string(replaces ? "; the node that had this name until now is ending" : ""));
-  }
-  return node->spin();
+  return Node(configuration.scenario, configuration.options, scene).spin();
 }
 
 }  // namespace
@@ -164,11 +148,10 @@ int main(int argc, char** argv) {
     const std::string answer = startRos(argc, argv);
     printOutput(answer);
     if (!answer.empty()) return static_cast<int>(kDone);
-    const bool replaces = replacesNode();
+    endWhenTheMasterAsks();
     keeps_ros_started.emplace();
     catchInterruptions();  // only recorded from now on: ROS continues until the files are closed
-    endWhenTheMasterAsks();
-    return interruption() == 0 && ros::ok() ? runNode(replaces) : kDone;
+    return interruption() == 0 && ros::ok() ? runNode() : kDone;
   };
   return runProgram(run, [&](const std::string& message) {
     if (!keeps_ros_started) return printError(message + "\n");

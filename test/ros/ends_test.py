@@ -41,6 +41,17 @@ class Ends(NodeTest):
                                         '--frames', len(frames))
                 self.assertEqual(frames, expected)
 
+    def test_nodes_of_one_name_that_start_together(self):
+        for delay in (0.0, 0.02, 0.04, 0.05, 0.06):
+            with case(delay=delay), PendulumNode(frames=100000, at_end='hold') as first:
+                time.sleep(delay)
+                with PendulumNode(frames=100000, at_end='hold') as second:
+                    wait_until(lambda: first.process.poll() is not None or second.process.poll() is not None, 'an end')
+                    for node in (first, second):
+                        if node.process.poll() is None:
+                            node.interrupt()
+                        node.ends()
+
     def test_divergence_exits_3_and_leaves_a_latched_verdict(self):
         with Folder() as folder, Folder() as expected_folder:
             expected = run_exercise(expected_folder, 'Euler', '--particles', HORIZONTAL, status=3)

@@ -133,15 +133,6 @@ class Node(unittest.TestCase):
                 else:
                     self.assertIn('verdict: ', node.lines('INFO')[-1])
 
-    def test_says_that_a_node_of_the_same_name_still_writes(self):
-        with Folder() as folder, PendulumNode(output=folder, frames=1000000, real_time_factor=1.0) as first:
-            wait_until(lambda: os.path.exists(folder + '/frame_0001.txt'), 'frames')
-            first.interrupt(signal.SIGSTOP)
-            with PendulumNode(output=folder, frames=2) as second:
-                second.ends(1)
-                self.assertRegex(second.lines('FATAL')[0], 'another run is writing here; .*'
-                                                           '; the node that had this name until now is ending$')
-
     def test_a_thread_that_cannot_be_started_is_an_error(self):
         # The stack of a thread has the size of the limit, and this size exceeds the address space.
         limit = 'import os, resource, sys; resource.setrlimit(resource.RLIMIT_STACK, ' \
