@@ -8,7 +8,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback as Feedback
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import NodeTest, connected, feedback, pose, transform, wait_until
+from pendulum_process import Folder, NodeTest, connected, feedback, pose, transform, wait_until
 
 BAD = ('gained energy', 'drift', 'diverged', 'inaccurate')
 
@@ -80,6 +80,10 @@ class Hands(LiveTest):
             self.drag(6, 4.0, 1.0)
             v = self.last().velocities[5]
             self.assertEqual((v.x, v.z), (0.0, 0.0))
+            with Folder() as folder:
+                self.call('save_state', folder + '/state.txt')
+                with open(folder + '/state.txt') as saved:
+                    self.assertRegex(saved.read(), r'(?m)^4(\.0)? 1(\.0)? ')
             self.let_go(6)
             self.call('pause', False)
             self.wait_state(lambda m: m.positions[5].z < 0.5, 'it falls')

@@ -73,7 +73,7 @@ int Node::spin() {
     if (isDue()) {
       advance();
     } else if ((run_.isOver() || paused_) && ros::SteadyTime::now() >= show_at_) {
-      if (paused_) change(run_.nextTime(), true);
+      if (paused_) change(run_.time(), true);
       show();
     }
   }
@@ -110,9 +110,8 @@ void Node::end() {
     const int before = interruption();
     const ros::SteadyTime start = ros::SteadyTime::now();
     const auto lasts = [&](double s) { return (ros::SteadyTime::now() - start).toSec() < s; };
-    while ((lasts(least) || (publisher_.isSending() && lasts(most))) && interruption() == before) {
+    while ((lasts(least) || (publisher_.isSending() && lasts(most))) && interruption() == before)
       callBack(kPollInterval);
-    }
   };
   if (interruption() == 0) wait(kLastMessages, kLongestSending);
   publisher_.clear();
@@ -127,6 +126,7 @@ bool Node::isDue() const {
 
 void Node::serve() {
   callBack(0.0);
+  robots_.lookUp();
   if (isDue()) return;
   const bool stands = run_.isOver() || paused_;
   const ros::SteadyTime next = stands ? show_at_ : pacer_.dueTime(run_.nextTime());
@@ -165,6 +165,7 @@ void Node::change(double next_time, bool paused) {
   } catch (const InputError& error) {
     if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }
+  if (paused) keepFrame();
 }
 
 void Node::goTo(const Scene* to) {
@@ -179,14 +180,17 @@ void Node::goTo(const Scene* to) {
   finishState();
 }
 
+void Node::keepFrame() {
+  if (!run_.isAtFrame() || !run_.isShown() || !run_.isFinite()) return;
+  last_frame_ = run_.state();
+  last_frame_number_ = run_.frame();
+}
+
 void Node::finishState() {
   if (run_.wasStopped()) return;  // inside a frame, which is discarded
   const ros::SteadyTime now = ros::SteadyTime::now();
   pacer_.reached(run_.time(), now);
-  if (run_.isAtFrame() && run_.isShown() && run_.isFinite()) {
-    last_frame_ = run_.state();
-    last_frame_number_ = run_.frame();
-  }
+  keepFrame();
   files_.write(run_);
   if (run_.isOver() && run_.isShown()) files_.finish();  // after a divergence, more may follow
   show();
@@ -237,9 +241,8 @@ void Node::logChanges() {
   if (!run_.isOver() || logged_.frames != 0) return;
   logged_.frames = run_.shownFrames();
   ROS_INFO_STREAM(closingLine());
-  if (options_.at_end == AtEnd::kHold) {
+  if (options_.at_end == AtEnd::kHold)
     ROS_INFO_STREAM(method << ": the last frame stays shown until Ctrl-C (at_end: hold)");
-  }
 }
 
 }  // namespace spring_pendulum

@@ -56,6 +56,7 @@ class Node {
   void advance();
   void change(double next_time, bool paused);
   void goTo(const Scene* to);
+  void keepFrame();
   void finishState();
   void show();
   void end();

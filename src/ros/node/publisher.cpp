@@ -39,9 +39,8 @@ Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& o
   markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", queueLength(marker_bytes));
   state_ = node.advertise<PendulumState>("state", queueLength(state_bytes));
   status_ = node.advertise<PendulumStatus>("status", 10, true);
-  if (!options.camera_frame.empty()) {
+  if (!options.camera_frame.empty())
     tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
-  }
   if (options.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
 }
 

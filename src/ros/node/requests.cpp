@@ -99,6 +99,7 @@ std::string Node::on(const Pause& request) {
       fmt::format("{}{} at frame {}, t = {:.6g} s", paused == paused_ ? "already " : "",
                   paused ? "paused" : "running", run_.frame(), run_.time());
   if (paused == paused_) return sentence;
+  if (paused_) change(run_.time(), true);
   paused_ = paused;
   steps_wanted_ = 0;
   pacer_.start(run_.time(), ros::SteadyTime::now());
