@@ -58,9 +58,8 @@ Driver::Driver(const Run& run, InputLog* log)
 
 std::string Driver::on(const SetConstant& request) {
   const std::string& name = request.name;
-  if (name != "method" && std::find(kLive.begin(), kLive.end(), name) == kLive.end()) {
+  if (name != "method" && std::find(kLive.begin(), kLive.end(), name) == kLive.end())
     throw InputError(unknownName("live constant", name, kLive));
-  }
   Scenario wanted = wanted_;
   OptionSet all(scenarioOptions(wanted));
   const Option& option = all.find(name, "set");
@@ -72,10 +71,9 @@ std::string Driver::on(const SetConstant& request) {
   if (largest > kLargest) {
     throw InputError(fmt::format("{}: must be at most {:g} while the chain moves", name, kLargest));
   }
-  if (!wanted.method.get().hasFixedStep()) {
+  if (!wanted.method.get().hasFixedStep())
     checkTolerance(wanted.tolerance, Chain(run_.chain().masses(), wanted.constants),
                    run_.isOver() ? run_.start() : run_.state());
-  }
   wanted_ = wanted;
   return fmt::format("{} is {} from the next state on", name, option.text());
 }

@@ -9,9 +9,12 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kSilence = 0.5;        // s
-constexpr double kApproachSpeed = 1.0;  // m/s, before a particle has met its holder
+constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its holder
 constexpr double kMet = 0.01;           // m
+constexpr double kLost = 0.5;           // m
 constexpr double kJitter = 0.1;         // s, largest believable delay of a message
+constexpr double kForget = 0.02;        // share of the delay, for each message
+constexpr double kRateTime = 10.0;      // s, over which the rates of two clocks are compared
 constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder is extrapolated
 constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
@@ -19,9 +22,7 @@ constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in larges
 }  // namespace
 
 bool Follower::refuse(const std::string& why, double now) {
-  refused_.reset();
-  if (now < settled_at_) hold_until_ = now + kSilence;
-  settled_at_ = now + kSilence;
+  refused_at_ = now;
   if (!std::exchange(warned_, true))
     warn_(name_ + " " + why + ": such inputs are ignored until they are steady");
   return false;
@@ -33,40 +34,45 @@ bool Follower::isNext(const Sample& before, const Sample& input) const {
 }
 
 bool Follower::isBelievable(const Sample& input) {
-  const auto& [holder, stamp, now] = input;
-  const auto& [position, velocity, acceleration] = holder;
+  const auto& [position, velocity, acceleration] = input.holder;
+  const double now = input.received;
   if (!std::isfinite(position.x + position.y + velocity.x + velocity.y))
     return refuse("has numbers that are not finite", now);
   const double fastest = kJumpsPerSecond * longest_;
   if (!(std::hypot(velocity.x, velocity.y) <= fastest))
     return refuse(fmt::format("moves at more than {:.3g} m/s", fastest), now);
-  const bool is_next = samples_.empty() || isNext(samples_.back(), input);
-  if (samples_.empty() || (is_next && now >= hold_until_)) return true;
-  if (!refused_ || !isNext(*refused_, input)) steady_since_ = now;
-  if (now - steady_since_ >= kSilence) {
+  const auto refused = std::exchange(refused_, std::nullopt);
+  if (samples_.empty() || isNext(samples_.back(), input)) return true;
+  if (refused && isNext(*refused, input)) {
     samples_.clear();
-    settled_at_ = hold_until_ = now;
     return true;
   }
-  const auto jump = fmt::format("jumps by more than {:.3g} m (check its frame and unit)", longest_);
-  if (!is_next) refuse(stamp < samples_.back().stamp ? "runs backwards in time" : jump, now);
   refused_ = input;
-  return false;
+  if (input.stamp < samples_.back().stamp) return refuse("runs backwards in time", now);
+  return refuse(fmt::format("jumps by more than {:.3g} m (check its frame and unit)", longest_),
+                now);
 }
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
-  Sample sample{input, stamp, now};
+  Sample sample{input, stamp, now, now};
   if (!isBelievable(sample)) return false;
-  if (now >= settled_at_ && std::exchange(warned_, false)) warn_(name_ + " is followed again");
-  refused_.reset();
-  if (samples_.empty() || isSilent(now)) {
+  if (now >= refused_at_ + kSilence && std::exchange(warned_, false))
+    warn_(name_ + " is followed again");
+  const double step = isSilent(now) ? 0.0 : stamp - samples_.back().stamp;
+  if (isSilent(now)) {
     samples_.clear();
-    met_ = false;
     left_ = 0.0;
-  } else if (stamp > samples_.back().stamp) {
-    // Differences of stamps have no jitter; but they may come from another clock.
-    const double expected = samples_.back().time + (stamp - samples_.back().stamp);
-    if (std::abs(now - expected) < kJitter) sample.time = std::min(now, expected);
+  }
+  if (step > 0.0 && step < kSilence) {
+    // Differences of stamps have no jitter, but their clock may run at another rate.
+    known_for_ += step;
+    rate_ += (now - samples_.back().received - rate_ * step) / std::min(known_for_, kRateTime);
+    const double expected = samples_.back().time + rate_ * step;
+    const double delay = now - expected;
+    if (std::abs(delay) < kJitter) sample.time = std::min(now, expected + kForget * delay);
+  } else {
+    rate_ = 1.0;
+    known_for_ = 0.0;
   }
   samples_.push_back(sample);
   while (samples_.front().time < sample.time - kSilence) samples_.pop_front();
@@ -81,30 +87,37 @@ const Follower::Sample* Follower::before(double seconds) const {
   return found;
 }
 
-// Poses: the parabola through three inputs. Odometry: the change of the velocity between two.
+// Poses: the parabola through three inputs. Odometry: the change of the velocity between two. A step of
+// the input is neither a velocity nor an acceleration that lasts.
 void Follower::estimateMotion(bool has_velocity) {
+  using Vector = PlaneVector<double>;
   Target& now = samples_.back().holder;
   const Sample* const first = before(kBaseline);
   if (first == nullptr) return;
-  const auto slope = [](const PlaneVector<double>& from, const PlaneVector<double>& to,
-                        double time) {
-    return PlaneVector<double>{(to.x - from.x) / time, (to.y - from.y) / time};
+  const auto slope = [](const Vector& from, const Vector& to, double time) {
+    return Vector{(to.x - from.x) / time, (to.y - from.y) / time};
+  };
+  const auto is_step = [](const Vector& u, const Vector& v) {
+    const double slower = std::min(std::hypot(u.x, u.y), std::hypot(v.x, v.y));
+    return std::hypot(v.x - u.x, v.y - u.y) > slower + kApproachSpeed;
   };
   const double h1 = samples_.back().time - first->time;
   if (has_velocity) {
-    now.acceleration = slope(first->holder.velocity, now.velocity, h1);
+    const Vector& earlier = first->holder.velocity;
+    if (!is_step(earlier, now.velocity)) now.acceleration = slope(earlier, now.velocity, h1);
     return;
   }
   now.velocity = slope(first->holder.position, now.position, h1);
-  const Sample* const second = before(2.0 * kBaseline);
-  if (second == nullptr || second == first) return;
+  const Sample* const second = before(h1 + kBaseline);
+  if (second == nullptr) return;
   const double h2 = first->time - second->time;
-  const PlaneVector<double> earlier = slope(second->holder.position, first->holder.position, h2);
-  const PlaneVector<double> change = slope(earlier, now.velocity, 0.5 * (h1 + h2));
-  // A step from rest is no acceleration that lasts.
-  const double most = std::hypot(earlier.x, earlier.y) + kApproachSpeed;
-  if (h1 * std::hypot(change.x, change.y) > most) return;
-  now.acceleration = change;
+  const Vector earlier = slope(second->holder.position, first->holder.position, h2);
+  if (is_step(earlier, now.velocity)) {
+    if (std::hypot(earlier.x, earlier.y) < std::hypot(now.velocity.x, now.velocity.y))
+      now.velocity = earlier;
+    return;
+  }
+  now.acceleration = slope(earlier, now.velocity, 0.5 * (h1 + h2));
   now.velocity.x += 0.5 * h1 * now.acceleration.x;
   now.velocity.y += 0.5 * h1 * now.acceleration.y;
 }
@@ -114,7 +127,7 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
   if (samples_.empty()) return std::nullopt;
   Target target = samples_.back().holder;
   const double silence = now - samples_.back().time;
-  if (silence > kLongestLead || now < hold_until_) {
+  if (silence > kLongestLead) {
     if (isSilent(now) && !std::exchange(warned_, true))
       warn_(name_ + " has stopped: the particle is held where it is");
     return Target{place_ ? *place_ : place_.emplace(here), {}, {}};
@@ -125,25 +138,28 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
     target.position.*axis += age * (target.velocity.*axis + 0.5 * age * target.acceleration.*axis);
     target.velocity.*axis += age * target.acceleration.*axis;
   }
-  const double distance = std::hypot(target.position.x - here.x, target.position.y - here.y);
-  met_ = met_ || distance < kMet;
-  if (!met_) approach(target, here, distance, now, interval);
+  if (interval > 0.0) approach(target, here, now, interval);
   return target;
 }
 
 /// Lets the particle come to its holder with a limited speed relative to it.
-void Follower::approach(Target& target, const PlaneVector<double>& here, double distance,
-                        double now, double interval) {
-  if (left_ == 0.0) {
+void Follower::approach(Target& target, const PlaneVector<double>& here, double now,
+                        double interval) {
+  const double distance = std::hypot(target.position.x - here.x, target.position.y - here.y);
+  if (distance < kMet) {
+    left_ = 0.0;
+  } else if (left_ == 0.0 && distance > kLost) {
     left_ = now;
     expected_ = now + 2.0 * distance / kApproachSpeed + 1.0;
     warn_(name_ + fmt::format(": the particle comes to it from {:.3g} m away", distance));
-  } else if (now > expected_) {
+  } else if (left_ != 0.0 && now > expected_) {
     expected_ = std::numeric_limits<double>::infinity();
     warn_(name_ + fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away",
                               now - left_, distance));
   }
-  const double share = std::min(1.0, 2.0 * kApproachSpeed * std::max(interval, 1e-3) / distance);
+  const double longest = 1.5 * kApproachSpeed * interval;
+  if (distance <= longest) return;
+  const double share = longest / distance;
   target.position.x = here.x + share * (target.position.x - here.x);
   target.position.y = here.y + share * (target.position.y - here.y);
 }

@@ -46,9 +46,8 @@ void setStates(State& state, const PendulumInput& input) {
   for (std::size_t k = 0; k < input.placed.size(); ++k) {
     const std::ptrdiff_t i = input.placed[k] - std::ptrdiff_t{1};
     if (i < 0 || i >= state.size()) throw InputError("a particle does not exist");
-    for (Eigen::Index c = 0; c < 4; ++c) {
+    for (Eigen::Index c = 0; c < 4; ++c)
       state.values()(i, c) = input.states[4 * k + static_cast<std::size_t>(c)];
-    }
   }
 }
 
@@ -104,9 +103,8 @@ void InputLog::changed(const Run& run, const State& before, double time) {
   for (Eigen::Index i = 0; i < before.size(); ++i) {
     const Eigen::RowVector4d old = before.values().row(i), now = run.state().values().row(i);
     // Also another sign of 0 is another state.
-    if (std::memcmp(old.data(), now.data(), 4 * sizeof(double)) != 0) {
+    if (std::memcmp(old.data(), now.data(), 4 * sizeof(double)) != 0)
       addState(message, run.state(), i);
-    }
   }
   sink_(message);
 }
@@ -190,9 +188,8 @@ void Replay::check(const PendulumInput& input) const {
                   input.states.size() == 4 * input.placed.size();
   if (input.start != 0) {  // has all particles
     complete = complete && input.masses.size() == input.placed.size();
-    for (std::size_t i = 0; i < input.placed.size(); ++i) {
+    for (std::size_t i = 0; i < input.placed.size(); ++i)
       complete = complete && input.placed[i] == i + 1;
-    }
   }
   if (!complete) refuse(input, "is not complete");
 }

@@ -21,8 +21,9 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kOutOfPlane = 1e-3;  // m
-constexpr double kStaleFrame = 1.0;   // s, until an unchanged frame is forgotten
+constexpr double kOutOfPlane = 1e-3;       // m
+constexpr double kStaleFrame = 1.0;        // s, until an unchanged frame is forgotten
+constexpr double kUnknownInterval = 1e-3;  // s
 
 /// Returns the force on the holder of a particle, N, as the sensor of a gripper would feel it: springs,
 /// weight and inertia. The mass of P_1 is not used.
@@ -33,9 +34,8 @@ PlaneVector<double> forceOnHolder(const Run& run, std::ptrdiff_t particle) {
   if (particle == 0) return force;
   const PlaneVector<double> above = springForceOn(chain, run.state(), particle - 1);
   PlaneVector<double> acceleration{};
-  for (const HeldParticle& held : chain.drive().held) {
+  for (const HeldParticle& held : chain.drive().held)
     if (held.particle == particle) acceleration = held.acceleration;
-  }
   const double mass = chain.masses()[particle];
   return {force.x - above.x - mass * acceleration.x,
           force.y - above.y - mass * (chain.gravity() + acceleration.y)};
@@ -141,14 +141,21 @@ void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_ms
   }
 }
 
+void Robots::lookUp() {
+  for (Robot& robot : robots_)
+    if (!robot.frame.empty()) lookUp(robot, ros::SteadyTime::now().toSec());
+}
+
 void Robots::follow(double real_time_factor, double next_time) {
+  lookUp();
   const double now = ros::SteadyTime::now().toSec();
   const double share = real_time_factor > 0.0 ? 1.0 / real_time_factor : 0.0;
+  const double step = next_time - run_.time();
+  const double interval = share == 0.0 && step > 0.0 ? kUnknownInterval : share * step;
   for (Robot& robot : robots_) {
-    if (!robot.frame.empty()) lookUp(robot, now);
     const PlaneVector<double> here{run_.state().x()[robot.particle],
                                    run_.state().y()[robot.particle]};
-    auto target = robot.follower.targetAt(now, here, share * (next_time - run_.time()));
+    auto target = robot.follower.targetAt(now, here, interval);
     if (!target) continue;
     // From seconds to simulated seconds.
     target->velocity = {share * target->velocity.x, share * target->velocity.y};

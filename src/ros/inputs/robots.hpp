@@ -28,10 +28,9 @@ using HolderFrame = std::pair<std::ptrdiff_t, std::string>;
 /// \throws InputError for a word that is no particle of the chain, or one given twice
 std::vector<HolderFrame> parseHeld(const std::string& text, std::ptrdiff_t particles);
 
-/// Turns the inputs of one holder into targets of its particle, and says each problem once. One input
-/// that is not believable is ignored; after two within half a second, the particle waits until the input has
-/// been steady for half a second, also at another place or with a clock that has started again. At the
-/// start, after a silence of half a second and after a jump it first comes to its holder.
+/// Turns the inputs of one holder into targets of its particle, and says each problem once. An input that
+/// is not believable is ignored, unless the next one confirms that the holder has jumped or that its clock
+/// has started again. The particle comes to its holder at a limited speed.
 class Follower {
  public:
   /// \param name    of the input, for warnings
@@ -49,7 +48,7 @@ class Follower {
   /// Returns where the particle shall be at the present state, so that it is with its holder in the next
   /// one, which is shown now; nothing before the first input.
   /// \param here     position of the particle, m
-  /// \param interval until the next state, s
+  /// \param interval until the next state, s; 0: the particle is put to its holder at once
   std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
   /// Whether no input came for half a second.
   bool isSilent(double now) const;
@@ -60,7 +59,8 @@ class Follower {
   struct Sample {
     Target holder;
     double stamp;  ///< s
-    double time;   ///< s, steady clock
+    double time;   ///< s, steady clock, without the jitter of
+    double received;
   };
   bool isNext(const Sample& before, const Sample& input) const;
   bool isBelievable(const Sample& input);
@@ -68,21 +68,19 @@ class Follower {
   /// The last input that is at least this much older than the newest one; null: none.
   const Sample* before(double seconds) const;
   void estimateMotion(bool has_velocity);
-  void approach(Target& target, const PlaneVector<double>& here, double distance, double now,
-                double interval);
+  void approach(Target& target, const PlaneVector<double>& here, double now, double interval);
 
   std::string name_;
   double longest_;
   std::function<void(const std::string&)> warn_;
   std::deque<Sample> samples_;     ///< since the particle began to come to its holder, newest last
-  std::optional<Sample> refused_;  ///< the last one that was not taken, since the last that was
-  double steady_since_ = 0.0;      ///< s, of those
-  double settled_at_ = 0.0;        ///< s, half a second after the last refusal
-  double hold_until_ = 0.0;        ///< s, half a second after a refusal that soon follows another
+  std::optional<Sample> refused_;  ///< the last input, if it was a jump that was not taken
+  double refused_at_ = 0.0;        ///< s, at the last refusal
   std::optional<PlaneVector<double>> place_;  ///< m, of a particle that waits for its input
   bool warned_ = false;                       ///< that the input is refused, or silent
-  bool met_ = false;                          ///< whether the particle has reached its holder
-  double left_ = 0.0;      ///< s, when it began to come to its holder; 0: not yet
+  double known_for_ = 0.0;
+  double rate_ = 1.0;  ///< of the steady clock, s per second of the stamps
+  double left_ = 0.0;  ///< s, since when the particle has been far from its holder; 0: it is not
   double expected_ = 0.0;  ///< s, when it should have met it
 };
 
@@ -93,9 +91,11 @@ class Robots {
   Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Driver& driver,
          Frames& frames);
 
-  /// Reads tf and stops particles whose input is silent. Must be called before every state.
+  /// Reads tf. Must be called several times per second.
+  void lookUp();
+  /// Moves the particles, and stops those whose input is silent. Must be called before every state.
   /// \param real_time_factor simulated seconds per second; 0: unknown
-  /// \param next_time        of the next state, s
+  /// \param next_time        of the next state, s; the present time while the run is paused
   void follow(double real_time_factor, double next_time);
   /// Publishes the forces on the holders.
   void show(const std_msgs::Header& header);
