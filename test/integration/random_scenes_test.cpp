@@ -79,10 +79,9 @@ TEST(RandomScenes, KeepTheTolerance) {
     ++checked;
     for (const Method& method : methodTable()) {
       if (method.hasFixedStep()) continue;
-      for (const double tolerance : {1e-3, 1e-6}) {
+      for (const double tolerance : {1e-3, 1e-6})
         EXPECT_LE(errorInTolerances(scene, *exact, method.name, tolerance), 10.0)
             << method.name << ", " << tolerance << " m, " << scene.name;
-      }
     }
   }
   EXPECT_GE(checked, 15);

@@ -86,9 +86,8 @@ TEST(DataScenes, EulerExplodesOnTheElevenParticlesOnlyAfterTwentySeconds) {
 
 TEST(DataScenes, NoneIsMissingAbove) {
   int scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PROJECT_DIR "/data")) {
+  for (const auto& entry : std::filesystem::directory_iterator(PROJECT_DIR "/data"))
     scenes += entry.path().extension() == ".txt" ? 1 : 0;
-  }
   EXPECT_EQ(scenes, static_cast<int>(std::size(kEulerGains)));
 }
 

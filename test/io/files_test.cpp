@@ -109,9 +109,8 @@ TEST_P(FrameWriterThread, WritesFramesInOrder) {
     state.values().setZero();  // the writer has copied the state
   }
   writer.finish();
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kFrames; ++i)
     EXPECT_EQ(readFile(folder_.path(frameName(i))), textOfFrame(frame(i)));
-  }
   EXPECT_GT(writer.seconds(), 0.0);
 }
 

@@ -70,9 +70,8 @@ TEST(ParticleFile, OneParticleIsAScene) {
 }
 
 TEST(ParticleFile, MassOfTheFixedParticleIsFree) {
-  for (const char* mass : {"0", "-1", "1e300"}) {
+  for (const char* mass : {"0", "-1", "1e300"})
     EXPECT_NO_THROW(parseParticles(std::string("0 0 ") + mass + "\n1 0 1", "")) << mass;
-  }
 }
 
 class ParticleFileRefuses : public testing::TestWithParam<BadText> {};

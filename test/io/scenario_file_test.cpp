@@ -115,9 +115,8 @@ TEST(ScenarioFile, UnknownKeyListsTheKnownOnes) {
     EXPECT_THAT(error.what(), testing::StartsWith("run.yaml:3: unknown parameter 'framse'; did you "
                                                   "mean 'frames'? Known parameters: method, "));
     Scenario scenario;
-    for (const Option& option : scenarioOptions(scenario)) {
+    for (const Option& option : scenarioOptions(scenario))
       EXPECT_THAT(error.what(), testing::HasSubstr(std::string(option.key)));
-    }
   }
 }
 
@@ -132,9 +131,8 @@ TEST(PendulumYaml, WorksWithEveryMethod) {
     expected.method = method;
     const std::vector<Option> options = scenarioOptions(scenario);
     const std::vector<Option> defaults = scenarioOptions(expected);
-    for (std::size_t i = 0; i < options.size(); ++i) {
+    for (std::size_t i = 0; i < options.size(); ++i)
       EXPECT_EQ(options[i].text(), defaults[i].text()) << options[i].key;
-    }
   }
 }
 

@@ -79,9 +79,8 @@ TEST_F(Exercise3Faults, AnExplosionIsFilmedOnlyOnDemandAndOnlyWhileItIsFinite) {
   EXPECT_THAT(stopped.errors, HasSubstr("largest stable step for Runge-Kutta-4: 0.008"));
   EXPECT_EQ(runWith("Runge-Kutta-4 --output filmed --on-divergence continue").status, 3);
   EXPECT_GT(list("filmed").size(), list("stopped").size());
-  for (const std::string& name : list("filmed")) {
+  for (const std::string& name : list("filmed"))
     EXPECT_EQ(read("filmed/" + name).find_first_of("an"), std::string::npos);
-  }
 }
 
 }  // namespace

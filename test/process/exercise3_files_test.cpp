@@ -153,9 +153,8 @@ TEST_F(Exercise3Files, ClosedStandardStreamsChangeNoFile) {
              folder_.path()});
     EXPECT_EQ(result.status, status) << closed;
     EXPECT_EQ(read("e.csv"), read("expected.csv"));
-    for (const std::string& name : list("expected")) {
+    for (const std::string& name : list("expected"))
       EXPECT_EQ(read("out/" + name), read("expected/" + name)) << closed;
-    }
     std::filesystem::remove_all(path("out"));
   }
 }

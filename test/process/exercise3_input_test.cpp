@@ -172,9 +172,8 @@ TEST_F(Exercise3Input, AnswersWithoutARun) {
   const Result version = runWith("--version");
   EXPECT_THAT(version.output, StartsWith("spring_pendulum "));
   const Result methods = runWith("--list-methods");
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     EXPECT_THAT(methods.output, HasSubstr(method.name + " "));
-  }
   EXPECT_EQ(help.errors + version.errors + methods.errors, "");
   EXPECT_EQ(help.status + version.status + methods.status, 0);
 }

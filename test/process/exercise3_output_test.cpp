@@ -43,9 +43,8 @@ class LongRun : public Exercise3Test {
   /// The existing frames are those of a run that was not stopped.
   void expectWholeFrames(const std::string& output, const std::string& complete) const {
     const int count = std::min(countFrames(output), kFrames);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
       ASSERT_EQ(read(output + "/" + frame(i)), read(complete + "/" + frame(i))) << i;
-    }
   }
 };
 

@@ -78,9 +78,8 @@ class FaultInjection : public testing::TestWithParam<std::string> {
     }
     EXPECT_TRUE(earlier_frames.empty() || new_frames.empty());
     if (GetParam() != "fail" || cleansUp(call)) return;
-    for (const auto& [name, text] : files) {
+    for (const auto& [name, text] : files)
       EXPECT_TRUE(!isUnfinished(name) || earlier_.count(name) == 1) << name;
-    }
   }
 
   void expectTold(const Result& result, const Files& files) const {
@@ -127,9 +126,8 @@ TEST_P(FaultInjection, AtEveryCall) {
   const bool only_data = GetParam() == "short" || GetParam() == "again";
   EXPECT_GT(count, only_data ? 5 : 50);
   if (GetParam() != "fail") return;
-  for (const char* call : {"open", "openat", "write", "read", "renameat"}) {
+  for (const char* call : {"open", "openat", "write", "read", "renameat"})
     EXPECT_GT(failures[call], 0) << call;
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, FaultInjection,

@@ -74,9 +74,8 @@ class TouchedFiles : public testing::Test {
     EXPECT_LE(result.status, 2);
     ++(result.status == 0 ? accepted_ : refused_);
     Files after = filesIn(folder.path());
-    for (const auto& [path, text] : result.status == 0 ? inputs : before) {
+    for (const auto& [path, text] : result.status == 0 ? inputs : before)
       EXPECT_EQ(after[path], text) << path;
-    }
     if (result.status == 0) expectOutputs(folder, outputs);
   }
 

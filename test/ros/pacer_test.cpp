@@ -46,9 +46,8 @@ TEST(Pacer, AWaitThatNoDurationHoldsIsCutShort) {
 int shown(Pacer& pacer, const std::vector<double>& times) {
   int count = 0;
   pacer.start(0.0, kStart);
-  for (int frame = 0; frame < 10; ++frame) {
+  for (int frame = 0; frame < 10; ++frame)
     for (const double time : times) count += pacer.isShown(0.1 * frame + time) ? 1 : 0;
-  }
   return count;
 }
 

@@ -58,9 +58,7 @@ TEST(GrowthPerStep, ChangesSignAtTheLimitsOfTheTable) {
     EXPECT_LE(growthPerStep(method, 0.0, 0.999999 * real), 0.0);
     EXPECT_GT(growthPerStep(method, 0.0, 1.000001 * real), 0.0);
     const double imaginary = method.imaginary_stability_limit;
-    if (imaginary > 0.0) {
-      EXPECT_LE(growthPerStep(method, 0.999999 * imaginary, 0.0), 0.0);
-    }
+    if (imaginary > 0.0) EXPECT_LE(growthPerStep(method, 0.999999 * imaginary, 0.0), 0.0);
     EXPECT_GT(growthPerStep(method, std::max(1.000001 * imaginary, 1e-3), 0.0), 0.0);
   });
 }
@@ -116,9 +114,8 @@ TEST(LinearStepLimit, IsStable) {
 
 TEST(LinearStepLimit, IsInfiniteWithoutSprings) {
   const Chain fixed(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     EXPECT_TRUE(std::isinf(linearStepLimit(method, fixed, kDuration))) << method.name;
-  }
 }
 
 }  // namespace

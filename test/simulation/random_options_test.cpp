@@ -83,9 +83,8 @@ bool sameBits(const State& a, const State& b) {
 /// \param every compares frame n with the expected frame n / every
 void expectSameFrames(const std::vector<State>& frames, const std::vector<State>& expected,
                       std::size_t every) {
-  for (std::size_t i = 0; i < frames.size() && i / every < expected.size(); i += every) {
+  for (std::size_t i = 0; i < frames.size() && i / every < expected.size(); i += every)
     EXPECT_TRUE(sameBits(frames[i], expected[i / every])) << "frame " << i;
-  }
 }
 
 /// A random combination of options.

@@ -56,9 +56,8 @@ std::uint64_t hashOfRuns(const Method& method) {
         reference.measure(integrator->work());
         const Verdict& verdict = judge.judge(kTimeStep * kSteps * frame, state,
                                              integrator->dissipatedEnergy(), &reference);
-        for (Eigen::Index i = 0; i < size; ++i) {
+        for (Eigen::Index i = 0; i < size; ++i)
           for (Eigen::Index c = 0; c < 4; ++c) hash = hashOf(state.values()(i, c), hash);
-        }
         const EnergyEntry& entry = judge.entry();
         const PositionError& error = judge.positionError();
         for (const double number :
@@ -99,9 +98,8 @@ std::uint64_t hashOfDrivenRuns(const Method& method) {
 }  // namespace spring_pendulum
 
 int main() {
-  for (const spring_pendulum::Method& method : spring_pendulum::methodTable()) {
+  for (const spring_pendulum::Method& method : spring_pendulum::methodTable())
     std::printf("%-20s %016llx %016llx\n", std::string(method.name).c_str(),
                 static_cast<unsigned long long>(spring_pendulum::hashOfRuns(method)),
                 static_cast<unsigned long long>(spring_pendulum::hashOfDrivenRuns(method)));
-  }
 }

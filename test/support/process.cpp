@@ -69,10 +69,9 @@ Process::~Process() {
 void Process::sendSignal(int signal_number) {
   clockid_t clock{};
   timespec used{};
-  if (clock_getcpuclockid(pid_, &clock) == 0 && clock_gettime(clock, &used) == 0) {
+  if (clock_getcpuclockid(pid_, &clock) == 0 && clock_gettime(clock, &used) == 0)
     seconds_before_signal_ =
         static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
-  }
   kill(pid_, signal_number);
 }
 

@@ -121,9 +121,8 @@ std::vector<Family> shapes() {
        })},
       {"at rest", with([](Random& r, Draft& d) {
          d.start = hangingAtRest(Chain(d.masses, d.spring, d.gravity));
-         for (Eigen::Index i = 1; i < d.size(); ++i) {
+         for (Eigen::Index i = 1; i < d.size(); ++i)
            d.start.x()[i] += d.masses[0] > 1.0 ? 0.0 : r.uniform(-0.05, 0.05);
-         }
        })},
       {"standing", with([](Random& r, Draft& d) {
          for (Eigen::Index i = 1; i < d.size(); ++i) {

@@ -5,9 +5,8 @@ namespace spring_pendulum {
 std::vector<Eigen::Index> evenlyChosen(Eigen::Index particles, Eigen::Index most) {
   const Eigen::Index count = std::min(particles, most);
   std::vector<Eigen::Index> chosen;
-  for (Eigen::Index k = 0; k < count; ++k) {
+  for (Eigen::Index k = 0; k < count; ++k)
     chosen.push_back(count < 2 ? 0 : k * (particles - 1) / (count - 1));
-  }
   return chosen;
 }
 

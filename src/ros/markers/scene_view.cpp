@@ -60,9 +60,8 @@ SceneView::SceneView(const Run& run, bool hangs) : box(boxOf(run.start())) {
         Point(anchor.x() + aside, anchor.y() + (run.chain().gravity() < 0.0 ? length : -length)));
   }
   if (!(length > 0.0)) length = 1.0;
-  if (sizeOf(box) < 0.5 * length) {
+  if (sizeOf(box) < 0.5 * length)
     box.extend(Point(anchor.array() - 0.5 * length)).extend(Point(anchor.array() + 0.5 * length));
-  }
   box = padded(box, kMargin);
   largest = padded(box, 0.5 * (kMostGrowth - 1.0));
 }
@@ -85,9 +84,8 @@ double SceneView::size() const {
 double SceneView::gridDistance() const {
   const double most = size() / kGridLines;
   const double power = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double multiple : {5.0, 2.0}) {
+  for (const double multiple : {5.0, 2.0})
     if (multiple * power <= most) return multiple * power;
-  }
   return power;
 }
 

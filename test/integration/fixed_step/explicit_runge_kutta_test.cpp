@@ -49,18 +49,16 @@ constexpr Kind kKinds[] = {{"that needs everything", true}, {"that needs little"
 
 Chain chainOf(Eigen::Index size, const Kind& kind) {
   Eigen::VectorXd masses = Eigen::VectorXd::Ones(size);
-  for (Eigen::Index i = 0; kind.needs_all && i < size; ++i) {
+  for (Eigen::Index i = 0; kind.needs_all && i < size; ++i)
     masses[i] = 0.5 + static_cast<double>(i * 7919 % 1001) / 1000.0;
-  }
   return Chain(masses, {50.0, kind.needs_all ? 1.0 : 0.0, 1.0}, kind.needs_all ? 9.81 : 0.0);
 }
 
 /// All methods that the engine runs.
 std::vector<const Method*> methods() {
   std::vector<const Method*> rows;
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     if (method.hasFixedStep() && method.tableau != nullptr) rows.push_back(&method);
-  }
   return rows;
 }
 constexpr Eigen::Index kShortChains[] = {1, 2, 3, 7, 8, 9, 11, 64, 1000};
@@ -80,9 +78,8 @@ std::uint64_t hashOf(const State& state, std::uint64_t hash = 0xcbf29ce484222325
 }
 
 State stateAfter(Integrator& integrator, State state, int steps, int steps_a_call) {
-  for (int done = 0; done < steps; done += steps_a_call) {
+  for (int done = 0; done < steps; done += steps_a_call)
     integrator.advance(state, kTimeStep, std::min(steps_a_call, steps - done));
-  }
   return state;
 }
 
@@ -126,9 +123,8 @@ TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeHoweverItIsRun) {
   for (const Method* method : methods()) {
     for (const Kind& kind : kKinds) {
       for (const Eigen::Index size : kShortChains) {
-        for (const bool track_dissipation : {false, true}) {
+        for (const bool track_dissipation : {false, true})
           expectSameBits(*method, kind, bentChain(size), kSteps, ways, track_dissipation);
-        }
       }
     }
   }

@@ -30,14 +30,12 @@ void stepByTheFormula(const Chain& chain, const ButcherTableau& tableau, double 
   std::vector<State> slopes(tableau.stages, State(chain.size()));
   for (std::size_t i = 0; i < tableau.stages; ++i) {
     State stage = state;
-    for (std::size_t j = 0; j < i; ++j) {
+    for (std::size_t j = 0; j < i; ++j)
       if (tableau.a[i][j] != 0.0) addWeighted(h * tableau.a[i][j], slopes[j], stage);
-    }
     computeSlope(chain, stage, slopes[i]);
   }
-  for (std::size_t i = 0; i < tableau.stages; ++i) {
+  for (std::size_t i = 0; i < tableau.stages; ++i)
     if (tableau.b[i] != 0.0) addWeighted(h * tableau.b[i], slopes[i], state);
-  }
 }
 
 TEST(PlainRungeKutta, HasTheBitsOfTheFormula) {

@@ -20,9 +20,8 @@ using test::Scene;
 
 std::vector<const Method*> symplecticMethods() {
   std::vector<const Method*> rows;
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     if (method.symplectic) rows.push_back(&method);
-  }
   return rows;
 }
 

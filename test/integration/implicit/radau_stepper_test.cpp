@@ -38,9 +38,7 @@ TEST(RadauCoefficients, FulfilTheOrderConditions) {
     double error = k == 1 ? 1.0 / radau::kReal.value : 0.0;
     for (std::size_t i = 0; i < kStages; ++i) error += radau::kError[i] * std::pow(kNodes[i], k);
     if (k <= 5) embedded = std::max(embedded, std::abs(error));
-    if (k == 6) {
-      EXPECT_GT(std::abs(error), 1e-3);
-    }
+    if (k == 6) EXPECT_GT(std::abs(error), 1e-3);
   }
   EXPECT_LT(quadrature, 1e-15);   // 1e-16
   EXPECT_LT(collocation, 1e-15);  // 1e-16
@@ -55,10 +53,9 @@ TEST(RadauCoefficients, EigenvectorsDiagonaliseTheMatrix) {
     for (std::size_t j = 0; j < kStages; ++j) {
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
       rebuilt(row, column) = radau::kReal.right[i] * radau::kReal.left[j] / radau::kReal.value;
-      for (const auto& pair : radau::kPairs) {
+      for (const auto& pair : radau::kPairs)
         rebuilt(row, column) +=
             (standard(pair.right[i]) * standard(pair.left[j]) / standard(pair.value)).real();
-      }
       EXPECT_NEAR(rebuilt(row, column).real(), radau::kMatrix[i][j], 1e-15);
     }
   }

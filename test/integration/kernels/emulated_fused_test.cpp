@@ -60,11 +60,9 @@ TEST(EmulatedFused, HandlesZerosInfinitiesAndTheLimitsOfTheRange) {
   const double values[] = {0.0,   -0.0,         1.0,     -3.0,     1e-160,    -1e-200,
                            1e155, -1e300,       1.7e308, 5e-324,   -2.2e-308, inf,
                            -inf,  std::nan(""), 0x1p500, 0x1p-450, 0x1p999,   0x1.8p-900};
-  for (const double a : values) {
-    for (const double b : values) {
+  for (const double a : values)
+    for (const double b : values)
       for (const double c : values) expectFused(a, b, c);
-    }
-  }
 }
 
 TEST(EmulatedFused, RoundsOnceForAnyBits) {
