@@ -85,20 +85,18 @@ void Judge::widenScale(const State& start, double energy) {
   }
   if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain_.gravity());
   constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + depth, least});
-  if (!std::isfinite(energy) || !std::isfinite(constant_scale_) || !std::isfinite(fall_)) {
+  if (!std::isfinite(energy) || !std::isfinite(constant_scale_) || !std::isfinite(fall_))
     throw InputError(
         "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
         "gravity must be smaller");
-  }
 }
 
 Energy Judge::energyOf(const State& state) const {
   Energy energy = computeEnergy(chain_, state);
   const double raised = state.y()[0] - start_height_;
   if (raised == 0.0) return energy;
-  for (Eigen::Index i = 1; i < chain_.size(); ++i) {
+  for (Eigen::Index i = 1; i < chain_.size(); ++i)
     if (!chain_.isHeld(i)) energy.gravity += chain_.masses()[i] * chain_.gravity() * raised;
-  }
   return energy;
 }
 
@@ -174,9 +172,8 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
   double residual = entry_.relative_residual.value_or(0.0);
   worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
-  if (!(entry_.relative_gain <= kDivergenceThreshold + allowance)) {
+  if (!(entry_.relative_gain <= kDivergenceThreshold + allowance))
     return diverged(entry_, chain_, state);
-  }
   double gain = entry_.relative_gain;
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt

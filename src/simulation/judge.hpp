@@ -29,6 +29,7 @@
 #include <spring_pendulum/model/state.hpp>
 #include <spring_pendulum/simulation/verdict.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace spring_pendulum {
@@ -83,6 +84,7 @@ class Judge {
   /// The energy balance of the last judged state.
   const EnergyEntry& entry() const { return entry_; }
   const PositionError& positionError() const { return position_error_; }
+  double largestEnergyError() const { return entry_.residual ? worst_residual_ : std::nan(""); }
   /// As Run::isShown, for the last judged frame.
   bool isShown(bool continues_after_divergence) const;
   /// The first of the most severe verdicts so far: the verdict on the run.

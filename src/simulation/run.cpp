@@ -31,10 +31,9 @@ bool dissipationIsCheap(const Chain& chain, const Plan& plan) {
   const Method& method = plan.method;
   const double evaluations =
       static_cast<double>(plan.frames - 1) * static_cast<double>(plan.steps()) * method.stages;
-  if (method.hasFixedStep()) {
+  if (method.hasFixedStep())
     return (method.tableau != nullptr && chain.size() >= kLongChain) ||
            evaluations * kFixedStepTime.of(chain.size()) <= kCheapWork;
-  }
   // About twenty steps per second, and more if springs vibrate or stability limits the step size.
   const double rate = 20.0 + 0.5 * fastestVibration(chain) + 0.1 * largestDampingRate(chain);
   return rate * plan.step() * evaluations * kTaylorTime.of(chain.size()) <= kCheapWork;
@@ -56,9 +55,8 @@ std::int64_t partsPerFrame(const Plan& plan, double display_interval) {
   if (display_interval <= 0.0 || plan.sleep > 0.0) return 1;
   const double wanted = std::clamp(plan.timeOfFrame(1) / display_interval, 1.0, kMostParts);
   // The subtrahend ensures that rounding does not give a frame of exactly 3 intervals 4 parts.
-  if (plan.method.get().hasFixedStep()) {
+  if (plan.method.get().hasFixedStep())
     return std::min(static_cast<std::int64_t>(std::ceil(wanted - 1e-9)), plan.steps());
-  }
   std::int64_t parts = 1;
   while (static_cast<double>(parts) < wanted - 1e-9) parts *= 2;
   return parts;
@@ -196,10 +194,9 @@ void Run::begin(std::int64_t frame, const State& state) {
   checkFirstFrame(plan_, frame);
   checkState(state);
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_, frame));
-  if (plan_.reference != ReferenceUse::kNever) {
+  if (plan_.reference != ReferenceUse::kNever)
     reference_ = std::make_unique<ReferenceRun>(chain_, state, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);
-  }
   integrator_->restart();
   state_ = state;
   frame_ = frame;
@@ -279,6 +276,10 @@ double Run::referenceWork() const {
 
 EnergyEntry Run::energyEntry() const {
   return isAtFrame() ? judge_->entry() : judge_->balanceOf(time(), state_, dissipated_, supplied_);
+}
+
+double Run::largestEnergyError() const {
+  return judge_->largestEnergyError();
 }
 
 PositionError Run::positionError() const {

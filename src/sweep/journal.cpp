@@ -2,14 +2,13 @@
 
 #include "base/numbers.hpp"
 #include "io/files/posix.hpp"
+#include "sweep/hash.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
-#include <optional>
 #include <sstream>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -26,6 +25,7 @@ namespace {
 
 Journal::Journal(std::string path, std::uint64_t hash)
     : path_(std::move(path)),
+      hash_(hash),
       head_(fmt::format("spring_pendulum " SPRING_PENDULUM_VERSION " sweep {:016x}\n", hash)) {
   do {
     // A lock on NFS needs a file that is open for writing.
@@ -46,25 +46,31 @@ Journal::Journal(std::string path, std::uint64_t hash)
 }
 
 void Journal::read(
-    const std::function<bool(std::int64_t index, std::string_view text)>& take) const {
+    const std::function<void(std::int64_t index, std::string_view text)>& take) const {
   std::istringstream lines(readTextFile(path_));
   std::string line;
   std::getline(lines, line);  // the head
   // A line that ends with the file is unfinished.
   for (int number = 2; std::getline(lines, line) && !lines.eof(); ++number) {
-    const std::size_t comma = std::min(line.find(','), line.size());
-    const std::optional<std::int64_t> index = parseInteger(line.substr(0, comma));
-    if (index && take(*index, line.substr(comma))) continue;
-    throw InputError(fmt::format("{}:{}: is damaged; remove the line to run its case anew",
-                                 fullPath(path_), number));
+    const std::string row = line.substr(0, line.rfind(' '));
+    if (line + '\n' != lineOf(row)) {
+      throw InputError(fmt::format("{}:{}: is damaged; remove the line to run its case anew",
+                                   fullPath(path_), number));
+    }
+    const std::size_t comma = row.find(',');
+    take(parseInteger(row.substr(0, comma)).value(), row.substr(comma));
   }
 }
 
 void Journal::append(std::int64_t index, std::string_view text) {
   lock();
   cutTornLine();
-  write(fmt::format("{}{}\n", index, text));
+  write(lineOf(fmt::format("{}{}", index, text)));
   unlock();
+}
+
+std::string Journal::lineOf(std::string_view row) const {
+  return fmt::format("{} {:016x}\n", row, hashOf(row, hash_));
 }
 
 bool Journal::lock() {

@@ -1,8 +1,8 @@
 // The finished cases of a sweep, on disk as soon as they are finished.
 //
 // All processes that work on a table append to one file beside it, each time under the lock of the file.
-// The first line names the study and the version; each other line is a case. A kill can only tear the
-// last line, which is cut off before anything is appended.
+// The first line names the study and the version; each other line is a case and ends with a hash of the
+// study and the line. A kill can only tear the last line, which is cut off before anything is appended.
 #pragma once
 
 #include "io/files/posix.hpp"
@@ -22,8 +22,8 @@ class Journal {
   Journal(std::string path, std::uint64_t hash);
 
   /// Passes all finished cases to `take`, in any order.
-  /// \throws FileError, and InputError for a line that `take` does not accept
-  void read(const std::function<bool(std::int64_t index, std::string_view text)>& take) const;
+  /// \throws FileError, and InputError for a damaged line
+  void read(const std::function<void(std::int64_t index, std::string_view text)>& take) const;
   /// Appends a case. \throws FileError
   void append(std::int64_t index, std::string_view text);
 
@@ -35,10 +35,12 @@ class Journal {
   const std::string& path() const { return path_; }
 
  private:
+  std::string lineOf(std::string_view row) const;
   void cutTornLine();
   void write(std::string_view text);
 
   std::string path_;
+  std::uint64_t hash_;
   std::string head_;
   FileDescriptor file_;
 };

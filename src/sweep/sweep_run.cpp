@@ -161,9 +161,7 @@ class Sweep {
   /// Takes over what this and other processes have finished.
   void readJournal() {
     journal_->read([this](std::int64_t index, std::string_view text) {
-      const bool is_case = index >= 0 && index < study_.cases() && hasColumns(study_, text);
-      if (is_case) rows_[static_cast<std::size_t>(index)] = text;
-      return is_case;
+      rows_.at(static_cast<std::size_t>(index)) = text;
     });
   }
 

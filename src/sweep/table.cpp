@@ -25,10 +25,6 @@ double largestStretch(const Run& run) {
   return largest;
 }
 
-double energyError(const Run& run) {
-  return std::abs(run.energyEntry().relative_residual.value_or(kNan));
-}
-
 double divergenceTime(const Run& run) {
   return run.verdict().kind == VerdictKind::kDiverged ? run.verdict().time : kNan;
 }
@@ -57,10 +53,10 @@ const std::vector<Column>& allColumns() {
        [](const Run& run) { return run.positionError().bound; }},
       {"measured_until", "s", "time until which the position error is known",
        [](const Run& run) { return run.positionError().measured_until; }},
-      {"energy_error", "", "largest residual of the energy balance, in energy scales", energyError,
-       true},
-      {"largest_stretch", "m", "largest elongation of a spring at the frames", largestStretch,
-       true},
+      {"energy_error", "", "largest residual of the energy balance, in energy scales",
+       [](const Run& run) { return run.largestEnergyError(); }},
+      {"largest_stretch", "m", "largest elongation of a spring at the frames, at least 0",
+       largestStretch, true},
       {"tip_x", "m", "position of the last particle at the end",
        [](const Run& run) { return run.state().x()[run.chain().size() - 1]; }},
       {"tip_y", "m", "position of the last particle at the end",
@@ -125,19 +121,6 @@ std::optional<std::string> runCase(const Study& study, const Case& a_case,
                                     : numberText(at_frames ? largest[i] : value(run)));
   }
   return text;
-}
-
-bool hasColumns(const Study& study, std::string_view text) {
-  for (const Column* const column : study.columns) {
-    if (text.empty()) return false;
-    text.remove_prefix(1);
-    const std::string_view value = text.substr(0, text.find(','));
-    const bool is_number = parseNumber(value) || value == "nan" || value == "-nan" ||
-                           value == "inf" || value == "-inf";
-    if (!is_number && column->value != nullptr) return false;
-    text.remove_prefix(value.size());
-  }
-  return text.empty();
 }
 
 }  // namespace spring_pendulum::sweep

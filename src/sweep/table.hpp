@@ -36,9 +36,6 @@ std::string rowStart(const Study& study, std::int64_t index);
 std::optional<std::string> runCase(const Study& study, const Case& a_case,
                                    const std::function<bool()>& stop);
 
-/// Whether a text has as many columns as a row, and numbers where a row has them.
-bool hasColumns(const Study& study, std::string_view text);
-
 /// Draws a table with the script plot_table.py, which lies beside the program. It gets the plot entries as
 /// arguments: no text of a study is ever a command.
 /// \param only_try find out whether the table, which may lack columns, can be drawn

@@ -90,7 +90,7 @@ void expectSameFrames(const std::vector<State>& frames, const std::vector<State>
 /// A random combination of options.
 struct Options {
   explicit Options(std::mt19937& random)
-      : threads(random() % 4),
+      : threads(static_cast<std::int64_t>(random() % 4)),
         track_dissipation(random() % 2 == 0),
         display_interval(static_cast<double>(random() % 5) * 0.007),
         sleep(random() % 2 == 0 ? 0.0 : 1e-300),

@@ -121,6 +121,8 @@ TEST(StabilityAdvice, CheckReportsTheVeryRun) {
                                "position error 6.4e-06 m at t = 4.7 s, largest energy error "));
   EXPECT_THAT(text, HasSubstr("\nlargest stable step size: 0.2"));
   EXPECT_THAT(text, HasSubstr("\nlargest accurate step size: 0.1"));
+  scenario.frames = 1;
+  EXPECT_THAT(checkStability(scene.chain, scene.start, scenario).text, HasSubstr(" over 0 s: ok"));
 }
 
 TEST(StabilityAdvice, CheckSaysWhatIsTooLargeToTry) {

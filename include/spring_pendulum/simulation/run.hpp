@@ -117,6 +117,8 @@ class Run {
   const Verdict& verdict() const;
   /// The energy balance of the current state.
   EnergyEntry energyEntry() const;
+  /// The largest residual of the energy balance so far, in energy scales; NaN if it is unknown.
+  double largestEnergyError() const;
   /// Position error of the current state, and the largest one at the frames so far.
   PositionError positionError() const;
   /// Work of the reference run so far, s, see Integrator::work.

@@ -22,12 +22,10 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// Returns ln |R(z)|. Without a tableau, R is 1/(1 - z) of the implicit Euler method, exp(z) of other methods
 /// without limits, or the Taylor series; of the stabilized ones that with the smallest |R|.
 double growthOf(const Method& method, Complex z) {
-  if (method.tableau != nullptr) {
+  if (method.tableau != nullptr)
     return spring_pendulum::growthOf(stabilityIncrement(*method.tableau, z));
-  }
-  if (std::isinf(method.imaginary_stability_limit)) {
+  if (std::isinf(method.imaginary_stability_limit))
     return method.order == 1 ? -std::log(std::abs(1.0 - z)) : z.real();
-  }
   const int order = std::min(method.order, static_cast<int>(ButcherTableau::kMaxStages));
   const std::initializer_list<StabilizedPolynomial> plain{{order, order, 0.0, {}, {}}};
   const bool stabilized = method.name.rfind("Stabilized-", 0) == 0;

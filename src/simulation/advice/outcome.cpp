@@ -71,7 +71,9 @@ class Trials {
     plan.on_divergence = OnDivergence::kStop;
     plan.threads = 1;
     plan.sleep = 0.0;
-    plan.reference = measures(enough) ? ReferenceUse::kAuto : ReferenceUse::kNever;
+    const bool always = plan.reference == ReferenceUse::kAlways;
+    plan.reference = always ? ReferenceUse::kAlways : ReferenceUse::kAuto;
+    if (!measures(enough)) plan.reference = ReferenceUse::kNever;
     std::optional<Run> run;
     const auto work = [&] {
       const Integrator& integrator = run->integrator();
@@ -180,10 +182,11 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   if (const auto trial = trials.run(plan, VerdictKind::kDiverged)) {
     report.verdict = trial->verdict;
     report.position_error = trial->position_error;
-    report.text = fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
-                              fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
-                                          numberText(fixed ? plan.time_step : plan.tolerance)),
-                              durationOf(plan), trial->verdict.text, trial->measurements);
+    report.text =
+        fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
+                    fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
+                                numberText(fixed ? plan.time_step : plan.tolerance)),
+                    plan.timeOfFrame(plan.frames - 1), trial->verdict.text, trial->measurements);
   }
   if (!fixed) return report;
   report.stable = stableStep(trials, chain, plan);

@@ -108,9 +108,8 @@ Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& op
 
 Scene makeScene(const Scenario& scenario, Scene particles) {
   particles.constants = scenario.constants;
-  if (scenario.start == Start::kAtRest && particles.frame == 0) {
+  if (scenario.start == Start::kAtRest && particles.frame == 0)
     particles.state = equilibrium(particles.chain(), particles.state);
-  }
   return particles;
 }
 
@@ -125,10 +124,9 @@ void checkScenario(const Scenario& scenario) {
     if (!option.isNumber() || !option.isUsedBy(scenario.method)) continue;
     options.set(option, option.text(), std::string(option.key));
   }
-  if (scenario.resume && scenario.start == Start::kAtRest) {
+  if (scenario.resume && scenario.start == Start::kAtRest)
     throw InputError(
         "start: at_rest and resume exclude each other: a resumed run goes on from its saved state");
-  }
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   const std::int64_t steps = scenario.steps();
   if (scenario.frames > kMost / steps) {  // frame times are computed from step counts
@@ -151,9 +149,8 @@ void checkFirstFrame(const Plan& plan, std::int64_t frame) {
 
 std::vector<std::string_view> unusedKeys(const Plan& plan, const OptionSet& options) {
   std::vector<std::string_view> keys;
-  for (const Option& option : options.options()) {
+  for (const Option& option : options.options())
     if (!option.isUsedBy(plan.method) && options.isGiven(option.key)) keys.push_back(option.key);
-  }
   return keys;
 }
 

@@ -3,6 +3,7 @@
 #include "io/files/posix.hpp"
 #include "io/formats/yaml_tree.hpp"
 #include "simulation/options/scenario_options.hpp"
+#include "sweep/hash.hpp"
 #include "sweep/study/random_numbers.hpp"
 #include "sweep/study/study.hpp"
 #include "sweep/table.hpp"
@@ -23,12 +24,6 @@ using Entries = decltype(YamlTree::entries);
 
 /// Significant digits of the values of `linear` and `log`.
 constexpr int kDigits = 12;
-
-/// Returns the hash FNV-1a of a text that continues a text with the hash `hash` (RFC 9923).
-std::uint64_t hashOf(std::string_view text, std::uint64_t hash) {
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
-}
 
 [[noreturn]] void refuse(const YamlTree& tree, std::string_view key, const std::string& what) {
   throw InputError(fmt::format("{}: {}: {}", tree.place, key, what));
@@ -154,7 +149,7 @@ class StudyReader {
       : folder_(std::filesystem::path(path).parent_path()) {
     const std::string text = readTextFile(path);
     study_.name = std::filesystem::path(path).stem().string();
-    study_.hash = hashOf(text, 0xcbf29ce484222325);
+    study_.hash = hashOf(text);
     tree_ = parseYamlTree(text, path);
   }
 
