@@ -40,7 +40,7 @@ foreach(program Exercise3 check_frames sweep record_bag)
   find_program(HELP2MAN help2man)
   if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING AND NOT SPRING_PENDULUM_SANITIZE)
     add_custom_command(OUTPUT ${program}.1
-      COMMAND ${HELP2MAN} --no-info --version-string=${PROJECT_VERSION} --output=${program}.1
+      COMMAND ${HELP2MAN} --locale=C.UTF-8 --no-info --version-string=${PROJECT_VERSION} --output=${program}.1
         --name "${purpose}" $<TARGET_FILE:${program}>
       DEPENDS ${program} VERBATIM)
     add_custom_target(${program}_manual ALL DEPENDS ${program}.1)

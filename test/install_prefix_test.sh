@@ -15,6 +15,7 @@ wrong=$(grep -rIlF "$configured" "$prefix" --include='*.sh' --include='*.pc' --i
 [ -z "$wrong" ] || die "with the prefix of the configuration:" "$wrong"
 [ -s "$prefix/share/bash-completion/completions/Exercise3" ] || die "no completion"
 ! command -v help2man > /dev/null || [ -s "$prefix/share/man/man1/Exercise3.1" ] || die "no manual page"
+! grep -rE '\?\?|^\\fB\\-.* [a-z]+ ' "$prefix/share/man" || die "a unit or the text of an option is broken in a manual page"
 
 program=$(find "$prefix" -name Exercise3 -path '*/spring_pendulum/*' -o -name Exercise3 -path '*/bin/*' | head -n 1)
 cd "$folder"
