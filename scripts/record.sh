@@ -6,10 +6,11 @@ set -euo pipefail
 [ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 bag=$1; shift
 [[ $bag = *.bag ]] || bag+=.bag
+bag=$(realpath -m "$bag")  # of a symbolic link, the file it leads to
 topics=()
 for argument in "$@"; do [[ $argument = __* ]] || topics+=("$argument"); done
 
-fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$(realpath -m "$bag")" "$1" >&2; exit 1; }
+fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$bag" "$1" >&2; exit 1; }
 mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be created"
 [ -w "$(dirname "$bag")" ] || fail "no permission to write in the folder"
 [ ! -e "$bag" ] || { [ -f "$bag" ] && [ -w "$bag" ]; } || fail "the existing bag cannot be replaced"
@@ -31,4 +32,4 @@ if has_messages "$part.active"; then
 fi
 has_messages "$part" || fail "nothing was recorded (the recorder ended with status $status)"
 mv -fT "$part" "$bag" || { trap - EXIT; fail "the recording is in $part"; }
-printf '[INFO] recorded %s\n' "$(realpath "$bag")"
+printf '[INFO] recorded %s\n' "$bag"

@@ -115,7 +115,8 @@ class Launch(unittest.TestCase):
 
     def test_record_sh_replaces_an_earlier_bag_only_by_a_new_one(self):
         with Folder() as folder:
-            bag, rosrun = folder + '/one.bag', folder + '/rosrun'
+            bag, rosrun, link = folder + '/one.bag', folder + '/rosrun', folder + '/link.bag'
+            os.symlink('one.bag', link)
             for recorder, text, message in (
                     ('exit 1', 'earlier', 'no bag was written to ' + bag),
                     ('head -c 4117 /dev/zero > "$4.active"; mv "$4.active" "$4"', 'earlier', 'nothing was recorded'),
@@ -124,13 +125,14 @@ class Launch(unittest.TestCase):
                 write(bag, 'earlier\n')
                 write(rosrun, '#!/bin/sh\n' + recorder + '\n')
                 os.chmod(rosrun, 0o755)
-                done = subprocess.run([project('scripts/record.sh'), bag, '/state'], capture_output=True,
+                done = subprocess.run([project('scripts/record.sh'), link, '/state'], capture_output=True,
                                       text=True, env=dict(os.environ, PATH=folder + ':/usr/bin:/bin'))
                 self.assertEqual(done.returncode, 1 if message else 0)
                 self.assertIn(message, done.stderr)
                 with open(bag) as file:
                     self.assertEqual(file.readline(), text + '\n')
-            self.assertEqual(sorted(os.listdir(folder)), ['one.bag', 'one.bag.active', 'rosrun'])
+            self.assertEqual(os.readlink(link), 'one.bag')
+            self.assertEqual(sorted(os.listdir(folder)), ['link.bag', 'one.bag', 'one.bag.active', 'rosrun'])
 
     def test_film_sh_refuses_what_makes_no_film_before_it_films(self):
         with Folder() as folder:
