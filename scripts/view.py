@@ -9,6 +9,7 @@ rviz also shows the pendulums that run in namespaces."""
 import signal
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while Python starts is no reason for a traceback
 
+import contextlib
 import math
 import os
 import sys
@@ -43,21 +44,18 @@ def live_topics():
                   topics.get(name[:-len('markers')] + 'state') == 'spring_pendulum/PendulumState')
 
 
-def read_config(path):
-    """The configuration of rviz in a file; without one, the program ends."""
+@contextlib.contextmanager
+def configuration(path):
+    """Around what reads or changes the configuration of rviz in a file: if it is none, the program ends."""
     try:
-        with open(path) as file:
-            config = yaml.safe_load(file)
-        if all('Class' in display for display in config['Visualization Manager']['Displays']):
-            return config
+        yield
     except OSError as error:
         sys.exit('%s: %s' % (path, error.strerror))
-    except (LookupError, TypeError, ValueError, yaml.YAMLError):
-        pass
-    sys.exit('%s: is not a configuration of rviz' % path)
+    except (AttributeError, LookupError, RecursionError, TypeError, ValueError, yaml.YAMLError):
+        sys.exit('%s: is not a configuration of rviz' % path)
 
 
-def set_displays(config, topics, keep=False):
+def set_displays(config, topics, keep):
     displays = config['Visualization Manager']['Displays']
     template = next((d for d in displays if d['Class'] == 'rviz/MarkerArray'),
                     {'Class': 'rviz/MarkerArray', 'Enabled': True, 'Value': True})
@@ -68,8 +66,8 @@ def set_displays(config, topics, keep=False):
     config['Visualization Manager']['Displays'] = others + shown
 
 
-def set_view(config, bag, topics):
-    """The view of the centre of all points from a distance at which all are visible."""
+def view_of(bag, topics):
+    """The frame of all points, and a position at which all are visible."""
     points, frame = [], 'world'
     for _, message, _ in bag.read_messages(topics=topics):
         for marker in message.markers:
@@ -80,8 +78,11 @@ def set_view(config, bag, topics):
             points += [(p.x, p.z) for p in shown if math.isfinite(p.x + p.z)]
     xs, zs = zip(*points) if points else ((0, 1), (0, 1))
     size = max(max(zs) - min(zs), (max(xs) - min(xs)) / ASPECT)
-    position = {'X': (min(xs) + max(xs)) / 2, 'Y': -0.5 * 1.4 * size / math.tan(HALF_VIEW),
-                'Z': (min(zs) + max(zs)) / 2 + 0.1 * size}
+    return frame, {'X': (min(xs) + max(xs)) / 2, 'Y': -0.5 * 1.4 * size / math.tan(HALF_VIEW),
+                   'Z': (min(zs) + max(zs)) / 2 + 0.1 * size}
+
+
+def set_view(config, frame, position):
     manager = config['Visualization Manager']
     manager.setdefault('Global Options', {})['Fixed Frame'] = frame
     manager.setdefault('Views', {}).setdefault('Current', {}).update(Position=position, Yaw=math.pi / 2)
@@ -89,20 +90,25 @@ def set_view(config, bag, topics):
 
 def adapted(path, bag_path):
     """The path of a configuration with the topics of the bag or of the running nodes."""
-    config = read_config(path)
+    with configuration(path), open(path) as file:
+        config = yaml.safe_load(file)
+        set_displays(config, [], keep=True)
+    view = None
     if bag_path == 'none':
         topics = live_topics()
         if not topics:
             return path
-        set_displays(config, topics, keep=True)
     else:
         with rosbag.Bag(bag_path) as bag:
             topics = marker_topics(bag)
             if not topics:
                 sys.exit('%s: contains no markers (visualization_msgs/MarkerArray)' % bag_path)
-            set_displays(config, topics)
             if not has_camera(bag):
-                set_view(config, bag, topics)
+                view = view_of(bag, topics)
+    with configuration(path):
+        set_displays(config, topics, keep=bag_path == 'none')
+        if view:
+            set_view(config, *view)
     copy = os.path.join(rospkg.get_ros_home(), 'spring_pendulum.rviz')
     os.makedirs(os.path.dirname(copy), exist_ok=True)
     with open(copy, 'w') as file:

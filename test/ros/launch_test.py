@@ -173,7 +173,9 @@ class Launch(unittest.TestCase):
 
     def test_view_names_a_config_that_cannot_be_used(self):
         with Folder() as folder:
-            for text in ('no configuration', 'a: [', 'Visualization Manager: {}'):
+            for text in ('no configuration', 'a: [', 'Visualization Manager: {}',
+                         'Visualization Manager: {Displays: [Class]}',
+                         'Visualization Manager: {Displays: [{Class: rviz/MarkerArray, Marker Topic: null}]}'):
                 path = write(folder + '/text.rviz', text)
                 for source in ('none', 'nope.bag'):
                     for name, says in ((path, 'is not a configuration of rviz'), ('x.rviz', 'No such file or directory')):
@@ -185,6 +187,10 @@ class Launch(unittest.TestCase):
             run_program('record_bag', 'Runge-Kutta-4', '--particles', project('data/one_spring.txt'), '--frames', 20,
                         '--camera-frame', '', '--bag', folder + '/one.bag')
             done = self.view(folder, folder + '/one.bag')
+            for views in ('null', '{Current: null}'):
+                config = write(folder + '/a.rviz', 'Visualization Manager: {Displays: [], Views: %s}' % views)
+                refused = self.view(folder, folder + '/one.bag', config=config)
+                self.assertEqual(refused.stderr, config + ': is not a configuration of rviz\n')
         view = yaml.safe_load(done.stdout)['Visualization Manager']['Views']['Current']
         self.assertLess(view['Position']['Y'], -2.0)
         self.assertGreater(view['Position']['Y'], -5.0)  # -2.5 measured
