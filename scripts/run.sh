@@ -13,6 +13,7 @@ particles=$project/data/particle.txt
 output=$project/output
 options=()
 parameters=()  # the same for the node: `--time-step 0.01` is `time_step: 0.01` there
+full_path() { [ -z "$1" ] || realpath -m -- "$1"; }  # an empty path is for Exercise3 to refuse
 answers=false
 has_file=false
 while [ $# -gt 0 ]; do
@@ -26,9 +27,9 @@ while [ $# -gt 0 ]; do
       [ $# -gt 0 ] || die "$option needs a value, see --help"
       value=$1; shift
       case $option in
-        --output) output=$(realpath -m "$value"); continue ;;
-        --particles) particles=$(realpath -m "$value"); continue ;;
-        --config | --energy | --save-state) value=$(realpath -m "$value") ;;
+        --output) output=$(full_path "$value"); continue ;;
+        --particles) particles=$(full_path "$value"); continue ;;
+        --config | --energy | --save-state) value=$(full_path "$value") ;;
       esac
       options+=("$option" "$value")
       key=${option#--}
@@ -38,7 +39,7 @@ while [ $# -gt 0 ]; do
       ! $has_file && [[ $option != -* ]] ||
         die "unexpected '$option': scripts/run.sh [METHOD [FILE]] [options of Exercise3]"
       has_file=true
-      particles=$(realpath -m "$option")
+      particles=$(full_path "$option")
       continue ;;
   esac
   options+=("$option")

@@ -12,8 +12,11 @@ cd "$project"
 check test "$(CDPATH=.:/ bash -c 'source scripts/common.sh; echo "$project"')" = "$project"
 
 cd "$folder"
-env -i PATH="$PATH" HOME="$folder" SPRING_PENDULUM_BUILD="$1" "$project/scripts/run.sh" \
-  Runge-Kutta-2 --frames 5 --damping=0 --output frames --gravity -9 > run.log 2>&1 || { cat run.log; exit 1; }
+run() { env -i PATH="$PATH" HOME="$folder" SPRING_PENDULUM_BUILD="$build" "$project/scripts/run.sh" "$@" > run.log 2>&1; }
+build=$1
+! run Euler --output= || exit 1
+check test "$(grep -v '^-- ' run.log)" = "--output: must be a folder, got ''"
+run Runge-Kutta-2 --frames 5 --damping=0 --output frames --gravity -9 || { cat run.log; exit 1; }
 check test -s frames/pendulum.gif
 check test -s frames/pendulum.bag
 sed -n 's/^  source /source /p' run.log | head -n 1 > setup.sh
