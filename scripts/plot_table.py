@@ -79,8 +79,10 @@ def draw_lines(axes, rows, table, options):
             axes.fill_between(x, [min(points[v]) for v in x], [max(points[v]) for v in x], color=color, alpha=0.2)
 
 
-def borders(values, logarithmic):
+def borders(key, values, logarithmic):
     """The borders of the cells around sorted values."""
+    if logarithmic and values[0] <= 0:
+        refuse('%s = %g cannot be on a logarithmic axis; leave out log or this value' % (key, values[0]))
     at = [math.log10(v) if logarithmic else v for v in values]
     if len(at) == 1:
         inner = [at[0] - 0.25, at[0] + 0.25]
@@ -107,7 +109,8 @@ def draw_map(axes, rows, table, options):
         value = row[options.color]
         cells[y.index(place[1])][x.index(place[0])] = (
             verdicts.index(value) if value in verdicts else number(value))
-    places = borders(map(number, x), 'x' in options.log), borders(map(number, y), 'y' in options.log)
+    places = [borders(key, [number(value) for value in values], letter in options.log)
+              for letter, key, values in (('x', options.x, x), ('y', options.y, y))]
     if options.color == 'verdict':
         colors = matplotlib.colors.ListedColormap(list(VERDICTS.values()))
         axes.pcolormesh(*places, cells, cmap=colors, vmin=-0.5, vmax=len(verdicts) - 0.5)

@@ -329,15 +329,23 @@ TEST_F(Sweep, RunsASingleFrameAndAFixedParticleWithoutMass) {
 }
 
 TEST_F(Sweep, FindsOutBeforeTheFirstCaseWhatItCannotDraw) {
-  folder_.write("study.yaml",
-                "base: {particles: chain.txt, frames: 2}\n"
-                "axes: {method: [Euler, Auto], stiffness: [1, 2], damping: [0, 1]}\n"
-                "plot: {type: map, x: stiffness, y: damping, color: verdict}\n");
-  const Result result = run(sweep({"-o", "t.csv", "--plot"}));
-  EXPECT_EQ(result.status, 2);
-  EXPECT_EQ(result.errors,
-            "plot: several rows have stiffness = 1 and damping = 0; draw them in panels\n");
-  EXPECT_EQ(listFolder(folder_.path()), (std::vector<std::string>{"chain.txt", "study.yaml"}));
+  const std::pair<const char*, const char*> bad[] = {
+      {"method: [Euler, Auto]",
+       "several rows have stiffness = 1 and damping = 0; draw them in panels"},
+      {"gravity: [9.81]",
+       "damping = 0 cannot be on a logarithmic axis; leave out log or this value"}};
+  for (const auto& [axis, message] : bad) {
+    folder_.write(
+        "study.yaml",
+        fmt::format("base: {{particles: chain.txt, frames: 2}}\n"
+                    "axes: {{{}, stiffness: [1, 2], damping: [0, 1]}}\n"
+                    "plot: {{type: map, x: stiffness, y: damping, color: verdict, log: y}}\n",
+                    axis));
+    const Result result = run(sweep({"-o", "t.csv", "--plot"}));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.errors, fmt::format("plot: {}\n", message));
+    EXPECT_EQ(listFolder(folder_.path()), (std::vector<std::string>{"chain.txt", "study.yaml"}));
+  }
   std::filesystem::create_directory(folder_.path("t.png"));
   const Result folder = run(sweep({"-o", "t.csv", "--plot"}));
   EXPECT_EQ(folder.status, 1);
