@@ -11,6 +11,7 @@ import math
 import os
 import statistics
 import sys
+import warnings
 
 from method_styles import METHODS
 
@@ -31,9 +32,9 @@ VERDICTS = {'ok': '#c6dbef', 'not checked': '#d9d9d9', 'sensitive': '#74c476', '
             'drift': '#fee391', 'gained energy': '#f98e1b', 'diverged': '#662506'}
 
 
-def refuse(what):
+def refuse(what, status=2):
     print('plot: ' + what, file=sys.stderr)
-    sys.exit(2)
+    sys.exit(status)
 
 
 def number(text):
@@ -47,8 +48,10 @@ class Table:
     """The rows of a table as dictionaries; a key is the title of a column without its unit."""
 
     def __init__(self, path):
-        with open(path, newline='') as file:
-            titles, *rows = csv.reader(file)
+        with open(path, newline='', encoding='utf-8') as file:
+            titles, *rows = [*csv.reader(file)] or [[]]
+        if not rows:
+            refuse(path + ': the table has no rows')
         self.titles = {title.split(' [')[0]: title for title in titles}
         self.rows = [dict(itertools.zip_longest(self.titles, row, fillvalue='nan')) for row in rows]
 
@@ -182,6 +185,20 @@ def save(figure, picture):
         sys.exit('%s: could not be drawn: %s' % (picture, error.strerror))
 
 
+def draw_table(options):
+    table = Table(options.table)
+    for key in {'lines': ['x', 'y'], 'map': ['x', 'y', 'color'], 'histogram': ['x']}[options.type]:
+        if not getattr(options, key):
+            refuse('%s needs %s' % (options.type, key))
+    for key in ('x', 'y', 'color', 'lines', 'panels', 'limit'):
+        if getattr(options, key) not in ('', *table.titles):
+            refuse("%s: unknown axis or column '%s'; known are %s"
+                   % (key, getattr(options, key), ', '.join(list(table.titles)[1:])))
+    figure = draw(table, options)
+    if not options.only_try:
+        save(figure, options.picture)
+
+
 class Parser(argparse.ArgumentParser):
     def error(self, message):
         refuse(message)
@@ -197,17 +214,12 @@ def main():
         parser.add_argument('--' + key, default='')
     parser.add_argument('--log', choices=['x', 'y', 'xy'], default='')
     options = parser.parse_args()
-    table = Table(options.table)
-    for key in {'lines': ['x', 'y'], 'map': ['x', 'y', 'color'], 'histogram': ['x']}[options.type]:
-        if not getattr(options, key):
-            refuse('%s needs %s' % (options.type, key))
-    for key in ('x', 'y', 'color', 'lines', 'panels', 'limit'):
-        if getattr(options, key) not in ('', *table.titles):
-            refuse("%s: unknown axis or column '%s'; known are %s"
-                   % (key, getattr(options, key), ', '.join(list(table.titles)[1:])))
-    figure = draw(table, options)
-    if not options.only_try:
-        save(figure, options.picture)
+    warnings.simplefilter('ignore')  # of matplotlib, about what a picture cannot show
+    try:
+        draw_table(options)
+    except Exception as error:  # A table may have any text in it, and matplotlib fails on numbers in many ways.
+        reason = getattr(error, 'strerror', None) or str(error) or type(error).__name__
+        refuse('cannot draw %s: %s' % (options.table, ' '.join(reason.split())), 1 if isinstance(error, OSError) else 2)
 
 
 if __name__ == '__main__':

@@ -3,6 +3,7 @@ import argparse
 import itertools
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -78,6 +79,21 @@ class Histograms(unittest.TestCase):
         rows = ''.join('%d,%s,%s\n' % (k, value, 'ok') for k, value in enumerate((3, 1, 2, 10)))
         figure = draw('case,error [m],verdict\n' + rows + '4,0,diverged\n', type='histogram', x='error')
         self.assertEqual(legend(figure), ['4 cases, median 2.5, 95 % at most 10'])
+
+
+class Tables(unittest.TestCase):
+    def test_that_cannot_be_drawn_are_refused_in_one_line(self):
+        for text, reason in ((b'', 'the table has no rows'), (b'case,x,y\n', 'the table has no rows'),
+                             (b'case,x,y\n\xff,1,1\n', "can't decode byte"), (None, 'No such file or directory'),
+                             (b'case,x,y\n0,1,1e308\n1,1,-1e308\n', 'cannot draw'),
+                             (b'case,x,y\n0,2,1\n1,0,1\n', 'x = 0 cannot be on a logarithmic axis')):
+            with tempfile.TemporaryDirectory() as folder:
+                if text is not None:
+                    pathlib.Path(folder, 'a.csv').write_bytes(text)
+                arguments = 'a.csv a.png --type map --x x --y y --color y --log x'.split()
+                done = subprocess.run([plot_table.__file__, *arguments], cwd=folder, capture_output=True, text=True)
+            self.assertRegex(done.stderr, r'^plot: .*%s.*\n$' % reason)
+            self.assertEqual(done.returncode, 2 if text is not None else 1)
 
 
 class Pictures(unittest.TestCase):
