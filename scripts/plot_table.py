@@ -37,6 +37,11 @@ def refuse(what, status=2):
     sys.exit(status)
 
 
+def plain(text):
+    """A text for matplotlib, which would read a formula between two dollars."""
+    return text.replace('$', r'\$')
+
+
 def number(text):
     try:
         return float(text)
@@ -59,11 +64,14 @@ class Table:
         """The different values of a key in the order of the table; one None without a key."""
         return list(dict.fromkeys(row[key] for row in self.rows)) if key else [None]
 
+    def title(self, key):
+        return plain(self.titles[key])
+
     def label(self, key, value):
         if value is None:
             return ''
         unit = self.titles[key][len(key):].strip(' []')
-        return value if key == 'method' else ('%s = %s %s' % (key, value, unit)).strip()
+        return plain(value if key == 'method' else ('%s = %s %s' % (key, value, unit)).strip())
 
 
 def draw_lines(axes, rows, table, options):
@@ -123,10 +131,10 @@ def draw_map(axes, rows, table, options):
         shown = [v for line in cells for v in line if math.isfinite(v)] or [0.0, 1.0]
         scale = LogNorm if min(shown) > 0 and max(shown) > 100 * min(shown) else Normalize
         mesh = axes.pcolormesh(*places, cells, cmap='viridis', norm=scale(min(shown), max(shown)))
-        axes.figure.colorbar(mesh, ax=axes, label=table.titles[options.color])
+        axes.figure.colorbar(mesh, ax=axes, label=table.title(options.color))
     if options.limit:
         limits = dict(sorted((number(row[options.x]), number(row[options.limit])) for row in rows))
-        axes.plot(list(limits), list(limits.values()), 'k-', linewidth=2, label=table.titles[options.limit])
+        axes.plot(list(limits), list(limits.values()), 'k-', linewidth=2, label=table.title(options.limit))
         axes.set_ylim(places[1][0], places[1][-1])
 
 
@@ -161,10 +169,10 @@ def draw(table, options):
         if 'y' in options.log and options.type != 'histogram':
             axes.set_yscale('log')
         {'lines': draw_lines, 'map': draw_map, 'histogram': draw_histogram}[options.type](axes, rows, table, options)
-        axes.set(xlabel=table.titles[options.x], ylabel=table.titles.get(options.y, 'cases'),
+        axes.set(xlabel=table.title(options.x), ylabel=table.title(options.y) if options.y else 'cases',
                  title=table.label(options.panels, panel))
         legend.update((label, handle) for handle, label in zip(*axes.get_legend_handles_labels()) if label)
-    figure.suptitle(options.title.replace('$', r'\$'))  # text, no formula
+    figure.suptitle(plain(options.title))
     height = 0.0
     if legend:
         height = 0.28 * -(-len(legend) // 4) / size[1]

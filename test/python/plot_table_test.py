@@ -95,6 +95,10 @@ class Tables(unittest.TestCase):
             self.assertRegex(done.stderr, r'^plot: .*%s.*\n$' % reason)
             self.assertEqual(done.returncode, 2 if text is not None else 1)
 
+    def test_show_dollars_as_they_are(self):
+        figure = draw('case,a,$y_{$\n0,$x_{$,1\n', type='lines', x='$y_{$', y='$y_{$', lines='a')
+        self.assertEqual(legend(figure), [r'a = \$x_{\$'])
+
 
 class Pictures(unittest.TestCase):
     def test_use_one_palette(self):
