@@ -44,9 +44,8 @@ TEST(ScenarioFile, SetsWhatIsGivenAndNothingElse) {
 }
 
 TEST(ScenarioFile, MayBeEmpty) {
-  for (const char* text : {"", "\n", "# nothing\n", "---\n", "{}\n"}) {
+  for (const char* text : {"", "\n", "# nothing\n", "---\n", "{}\n"})
     EXPECT_EQ(parse(text).frames, Scenario{}.frames) << text;
-  }
 }
 
 TEST(ScenarioFile, AcceptsFlowStyleAndWindowsLines) {

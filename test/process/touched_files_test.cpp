@@ -95,9 +95,8 @@ class TouchedFiles : public testing::Test {
   void checkAgainstInputs(const Program& program) {
     for (const auto& [input, text] : program.inputs) {
       for (const std::string& place : kPlaces) {
-        for (const std::string& option : program.outputs) {
+        for (const std::string& option : program.outputs)
           for (const std::string& value : kValues) check(program, input, place, {{option, value}});
-        }
       }
     }
   }

@@ -180,8 +180,7 @@ class Rviz(NodeTest):
     def check_next_node(self, viewer):
         viewer.wait_for_picture('ended_node.png', lambda p: p.count(is_marker) == 0,
                                 'a picture without markers of the node that has ended')
-        with PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=2,
-                          color='#3fb6ff') as node:
+        with PendulumNode(frames=500, real_time_factor=2.0, wait_for_subscribers=2, color='#3fb6ff') as node:
             picture = viewer.wait_for_picture(
                 'next_node.png', lambda p: p.count(is_like((63, 182, 255))) > 1000, 'the next chain')
             self.assertEqual(picture.count(is_yellow), 0)
@@ -251,8 +250,7 @@ class Rviz(NodeTest):
                             '--color', '#%02x%02x%02x' % color, '--text-row', row + 1)
             with Viewer(display, 'replay.launch', 'bag:=' + bag) as viewer:
                 viewer.wait_for_picture(
-                    'replayed_bag.png',
-                    lambda p: min(p.count(is_like(color)) for color in colors.values()) > 100,
+                    'replayed_bag.png', lambda p: min(p.count(is_like(color)) for color in colors.values()) > 100,
                     'both chains')
             self.assertFalse(rosgraph.Master('/test').hasParam('/use_sim_time'))
 
@@ -269,8 +267,7 @@ class Rviz(NodeTest):
         self.assertGreater(pictures, 110)  # measured: 117
 
     def test_the_comparison(self):
-        colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61),
-                  'Runge-Kutta-4': (63, 182, 255)}
+        colors = {'Euler': (255, 90, 79), 'Runge-Kutta-2': (255, 197, 61), 'Runge-Kutta-4': (63, 182, 255)}
         with Display() as display, Viewer(display, 'compare.launch', 'frames:=600') as viewer:
             def all_shown(picture):
                 # The chain of Runge-Kutta-2 hides behind the one of Runge-Kutta-4; its text does not.

@@ -135,8 +135,7 @@ class Topics(NodeTest):
 
     def test_paced_by_the_wall_clock(self):
         state = self.listen('state', PendulumState)
-        with PendulumNode(frames=31, real_time_factor=2.0, display_rate=40.0,
-                          wait_for_subscribers=1) as node:
+        with PendulumNode(frames=31, real_time_factor=2.0, display_rate=40.0, wait_for_subscribers=1) as node:
             start = time.monotonic()
             node.ends()
             self.assertGreater(time.monotonic() - start, 1.45)  # 3 s of motion at double speed

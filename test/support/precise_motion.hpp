@@ -35,9 +35,8 @@ template <typename Real, int kColumns>
 class ExtrapolatedMotion {
  public:
   explicit ExtrapolatedMotion(const Scene& scene) : chain_(scene.chain) {
-    for (Eigen::Index i = 0; i < chain_.size(); ++i) {
+    for (Eigen::Index i = 0; i < chain_.size(); ++i)
       for (int column = 0; column < 4; ++column) z_.push_back(scene.start.values()(i, column));
-    }
     slope_.resize(z_.size());
   }
 
@@ -67,9 +66,8 @@ class ExtrapolatedMotion {
 
   State state() const {
     State state(chain_.size());
-    for (Eigen::Index i = 0; i < 4 * state.size(); ++i) {
+    for (Eigen::Index i = 0; i < 4 * state.size(); ++i)
       state.values()(i / 4, i % 4) = static_cast<double>(z_[static_cast<std::size_t>(i)]);
-    }
     return state;
   }
 
@@ -157,9 +155,8 @@ class ExtrapolatedMotion {
       table_[k] = midpointRule(h, 2 * (k + 1));
       for (int j = k - 1; j >= 0; --j) {
         const Real ratio = Real(k + 1) / (j + 1), factor = 1 / (ratio * ratio - 1);
-        for (std::size_t i = 0; i < z_.size(); ++i) {
+        for (std::size_t i = 0; i < z_.size(); ++i)
           table_[j][i] = table_[j + 1][i] + (table_[j + 1][i] - table_[j][i]) * factor;
-        }
       }
     }
     Real largest = 0;

@@ -16,9 +16,8 @@ struct ReferenceTable {
 
   /// The four columns of the exact state after `seconds`; throws if there is none.
   const std::vector<double>* stateAfter(int seconds) const {
-    for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::size_t i = 0; i < times.size(); ++i)
       if (times[i] == seconds) return &columns[3 + 4 * i];
-    }
     throw std::runtime_error("no reference solution at t = " + std::to_string(seconds) + " s");
   }
 };
@@ -34,12 +33,10 @@ inline ReferenceTable readReferenceTable(const std::string& folder, const std::s
   for (int time = 0; times >> time;) table.times.push_back(time);
   table.columns.resize(3 + 4 * table.times.size());
   std::size_t i = 0;
-  for (double value = 0.0; file >> value; ++i) {
+  for (double value = 0.0; file >> value; ++i)
     table.columns[i % table.columns.size()].push_back(value);
-  }
-  if (i == 0 || i % table.columns.size() != 0 || !file.eof()) {
+  if (i == 0 || i % table.columns.size() != 0 || !file.eof())
     throw std::runtime_error("cannot read " + path);
-  }
   return table;
 }
 

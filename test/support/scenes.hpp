@@ -48,9 +48,8 @@ inline Scene chaoticScene(unsigned seed) {
   const auto size = static_cast<Eigen::Index>(2 + generator() % 6);
   SpringLaw spring{std::pow(10.0, uniform(1.0, 3.0)), 0.0, 1.0};
   Eigen::VectorXd masses(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
+  for (Eigen::Index i = 0; i < size; ++i)
     masses[i] = seed % 6 == 1 ? 1.0 : std::pow(10.0, uniform(-1.0, 0.3));
-  }
   State start(size);
   const auto place = [&](Eigen::Index i, double angle, double length) {
     start.x()[i] = start.x()[i - 1] + length * std::cos(angle);

@@ -41,9 +41,8 @@ class TemporaryFolder {
 /// Sorted names of all entries of a folder, also hidden ones.
 inline std::vector<std::string> listFolder(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
     names.push_back(entry.path().filename().string());
-  }
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -288,8 +288,7 @@ class LabTest(unittest.TestCase):
             'runs': [{'method': 'Runge-Kutta-4', 'time_step': 0.01}, {'method': 'Auto', 'tolerance': 1e-6}]})
         self.wait('return pendulumLab.state().plots.energy.length === 2')
         plots = self.state()['plots']
-        for run, (method, options) in enumerate(
-                [('Runge-Kutta-4', ['--frames=100']), ('Auto', ['--frames=100'])]):
+        for run, (method, options) in enumerate([('Runge-Kutta-4', ['--frames=100']), ('Auto', ['--frames=100'])]):
             rows = [[float(word) for word in row.split(',')]
                     for row in self.exercise3(method, scene, *options)['energy'].splitlines()[1:]]
             self.assertEqual([[row[1], row[5]] for row in rows],

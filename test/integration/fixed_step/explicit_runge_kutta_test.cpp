@@ -136,9 +136,8 @@ TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeForEveryNumberOfBlocks) {
     std::iota(sizes.begin(), sizes.end(), 1);
     sizes.insert(sizes.end(), std::begin(kTiledChains), std::end(kTiledChains));
     for (const Eigen::Index size : sizes) {
-      for (const Kind& kind : kKinds) {
+      for (const Kind& kind : kKinds)
         expectSameBits(*method, kind, bentChain(size), 3, {{{1, 4096}}, {3}}, size % 2 == 0);
-      }
     }
   }
 }

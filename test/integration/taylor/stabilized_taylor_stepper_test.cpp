@@ -50,9 +50,8 @@ TEST(StabilizedPolynomials, AreStableAsFarAsTheTableSaysAndNotMuchFurther) {
       for (double x = 0.01; x < limit; x += 0.01)
         ASSERT_LT(growth(p, -x), x < 0.3 || p.terms == order ? 1.0 : 0.951) << p.terms << " " << x;
       EXPECT_GT(growth(p, -1.01 * limit), p.terms == order ? 1.0 : 0.95) << p.terms;
-      for (double y = 0.05; y < rowOf(order).imaginary_stability_limit; y += 0.05) {
+      for (double y = 0.05; y < rowOf(order).imaginary_stability_limit; y += 0.05)
         ASSERT_LT(growth(p, {0.0, y}), 1.0 + 1e-14) << p.terms << " " << y;
-      }
     }
   }
 }
