@@ -147,10 +147,9 @@ TEST_F(Sweep, ShardsThatFinishTogetherWriteOneTable) {
   const std::string expected = table();
   for (int round = 0; round < 4; ++round) {
     std::vector<std::unique_ptr<Process>> shards;
-    for (int i = 1; i <= 4; ++i) {
+    for (int i = 1; i <= 4; ++i)
       shards.push_back(std::make_unique<Process>(
           sweep({"--threads", "1", "-o", "t.csv", "--shard", std::to_string(i) + "/4"})));
-    }
     for (const auto& shard : shards) {
       const Result result = shard->wait();
       EXPECT_EQ(result.status, 0);

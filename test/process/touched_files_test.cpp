@@ -94,10 +94,9 @@ class TouchedFiles : public testing::Test {
 
   void checkAgainstInputs(const Program& program) {
     for (const auto& [input, text] : program.inputs) {
-      for (const std::string& place : kPlaces) {
+      for (const std::string& place : kPlaces)
         for (const std::string& option : program.outputs)
           for (const std::string& value : kValues) check(program, input, place, {{option, value}});
-      }
     }
   }
 
@@ -127,10 +126,9 @@ TEST_F(TouchedFiles, OfExercise3HaveOneUse) {
   for (const std::string& first : kExercise3.outputs) {
     for (const std::string& second : kExercise3.outputs) {
       if (second <= first) continue;
-      for (const std::string& value : kValues) {
+      for (const std::string& value : kValues)
         for (const std::string& other : kValues)
           check(kExercise3, "in.txt", "e.png", {{first, value}, {second, other}});
-      }
     }
   }
   expectBoth(50);

@@ -122,10 +122,9 @@ TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeHoweverItIsRun) {
   const Ways ways{{{1, 4096}, {1, 16}, {2, 16}, {3, 64}}, {kSteps, 5}};
   for (const Method* method : methods()) {
     for (const Kind& kind : kKinds) {
-      for (const Eigen::Index size : kShortChains) {
+      for (const Eigen::Index size : kShortChains)
         for (const bool track_dissipation : {false, true})
           expectSameBits(*method, kind, bentChain(size), kSteps, ways, track_dissipation);
-      }
     }
   }
 }
@@ -135,10 +134,9 @@ TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeForEveryNumberOfBlocks) {
     std::vector<Eigen::Index> sizes(120);
     std::iota(sizes.begin(), sizes.end(), 1);
     sizes.insert(sizes.end(), std::begin(kTiledChains), std::end(kTiledChains));
-    for (const Eigen::Index size : sizes) {
+    for (const Eigen::Index size : sizes)
       for (const Kind& kind : kKinds)
         expectSameBits(*method, kind, bentChain(size), 3, {{{1, 4096}}, {3}}, size % 2 == 0);
-    }
   }
 }
 
