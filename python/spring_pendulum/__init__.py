@@ -10,6 +10,11 @@ The C++ library spring_pendulum does all computing; docs/python.md describes thi
 NumPy arrays of double: F frames of N particles. Lengths are in m, times in s, masses in kg, energies
 in J.
 """
+from pkgutil import extend_path
+
+# catkin's devel space puts the folder of the sources into sys.path, before that of _core.
+__path__ = extend_path(__path__, __name__)
+
 from ._core import (Chain, FileError, InputError, Integrator, Method, State, find_method, make_integrator,
                     methods, register_method)
 from ._functions import check, simulate

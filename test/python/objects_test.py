@@ -1,6 +1,8 @@
 """Lifetime, copies, threads and interruptions of the objects."""
+import concurrent.futures
 import copy
 import gc
+import multiprocessing
 import os
 import pickle
 import signal
@@ -116,6 +118,11 @@ class Threads(unittest.TestCase):
         if child == 0:
             os._exit(0 if positions() == expected else 1)
         self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+    def test_of_a_spawned_process_import_the_module(self):
+        for kind in 'spawn', 'forkserver':
+            with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context(kind)) as pool:
+                self.assertEqual(pool.submit(len, sp.Chain([1, 2])).result(), 2)
 
 
 class CtrlC(unittest.TestCase):
