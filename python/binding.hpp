@@ -27,10 +27,9 @@ std::string reprOf(const py::handle& value);
 /// thread of Python receives it.
 class Interruption {
  public:
-  /// Asks Python at most every 20 ms. Call it without the lock.
+  /// Asks Python at most every 20 ms, and leaves the exception that ends the call, usually
+  /// KeyboardInterrupt, in Python.
   bool operator()();
-  /// \throws the exception that Python raised, usually KeyboardInterrupt. Call it with the lock.
-  void raise() const;
 
  private:
   std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
@@ -45,7 +44,7 @@ class Computation {
   Computation(const Computation&) = delete;
   Computation& operator=(const Computation&) = delete;
 
-  static std::atomic<int> running;
+  inline static std::atomic<int> running{0};
 
  private:
   py::gil_scoped_release released_;

@@ -22,35 +22,23 @@ namespace {
 
 using namespace py::literals;
 
-Numbers finiteVector(const py::object& argument, const std::string& name) {
-  Numbers numbers = toNumbers(argument, name, 1);
-  for (py::ssize_t i = 0; i < numbers.size(); ++i) {
-    if (std::isfinite(*numbers.data(i))) continue;
-    throw InputError(fmt::format("{}[{}]: must be finite, got {}", name, i, *numbers.data(i)));
-  }
-  return numbers;
-}
-
-/// A view of memory that `owner` keeps alive.
-py::array viewOf(const double* data, const std::vector<py::ssize_t>& shape,
-                 const py::object& owner) {
-  std::vector<py::ssize_t> strides{static_cast<py::ssize_t>(sizeof(double))};
-  if (shape.size() > 1) strides.push_back(shape.front() * strides.front());
-  return {py::dtype::of<double>(), shape, strides, data, owner};
-}
+/// A view of memory that its owner keeps alive.
+using View = py::array_t<double, py::array::f_style>;
 
 State makeState(const py::object& x, const py::object& y, const py::object& vx,
                 const py::object& vy) {
-  const Numbers first = finiteVector(x, "x");
-  State state(first.size());
+  State state(toNumbers(x, "x", 1).size());
   const auto fill = [&](const py::object& argument, const char* name, auto column) {
     if (argument.is_none()) return;
-    const Numbers numbers = finiteVector(argument, name);
-    if (numbers.size() != first.size()) {
+    const Numbers numbers = toNumbers(argument, name, 1);
+    if (numbers.size() != state.size())
       throw InputError(fmt::format("{}: must have as many numbers as x, {}, got {}", name,
-                                   first.size(), numbers.size()));
+                                   state.size(), numbers.size()));
+    for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+      column[i] = *numbers.data(i) + 0.0;
+      if (!std::isfinite(column[i]))
+        throw InputError(fmt::format("{}[{}]: must be finite, got {}", name, i, column[i]));
     }
-    for (py::ssize_t i = 0; i < numbers.size(); ++i) column[i] = *numbers.data(i) + 0.0;
   };
   fill(x, "x", state.x());
   fill(y, "y", state.y());
@@ -68,42 +56,34 @@ class PythonIntegrator {
         integrator_(makeIntegrator(method_, chain_, options)) {}
 
   void advance(State& state, double time_step, std::int64_t steps) {
-    const Use use(*this);
+    const auto used = use();
     integrator_->advance(state, time_step, steps < 0 ? steps : 0);  // checks the arguments
     Interruption interruption;
     {
       const Computation computation;
       integrator_->advance(state, time_step, steps, [&] { return interruption(); });
     }
-    interruption.raise();
+    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
   }
 
   void restart() {
-    const Use use(*this);
+    const auto used = use();
     integrator_->restart();
   }
 
   const Method& method() const { return method_; }
   const Chain& chain() const { return chain_; }
   const Integrator& integrator() const {
-    const Use use(*this);
+    const auto used = use();
     return *integrator_;
   }
 
  private:
-  /// Refuses a second thread.
-  class Use {
-   public:
-    explicit Use(const PythonIntegrator& integrator) : busy_(integrator.busy_) {
-      if (busy_.exchange(true)) throw InputError("another thread uses this integrator");
-    }
-    ~Use() { busy_ = false; }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
-
-   private:
-    std::atomic<bool>& busy_;
-  };
+  /// Refuses a second thread during the lifetime of the result.
+  std::shared_ptr<void> use() const {
+    if (busy_.exchange(true)) throw InputError("another thread uses this integrator");
+    return {nullptr, [this](void*) { busy_ = false; }};
+  }
 
   const Method& method_;
   Chain chain_;
@@ -128,7 +108,7 @@ void defineChain(py::module_& module) {
       .def_property_readonly("masses",
                              [](const py::object& self) {
                                const auto& chain = self.cast<const Chain&>();
-                               py::array view = viewOf(chain.masses().data(), {chain.size()}, self);
+                               View view({chain.size()}, chain.masses().data(), self);
                                view.attr("setflags")("write"_a = false);
                                return view;
                              })
@@ -157,7 +137,7 @@ py::array stateView(const py::object& self) {
   auto& state = self.cast<State&>();
   std::vector<py::ssize_t> shape{state.size()};
   if (kColumns > 1) shape.push_back(kColumns);
-  return viewOf(state.values().data() + kFirst * state.size(), shape, self);
+  return View(shape, state.values().data() + kFirst * state.size(), self);
 }
 
 void defineState(py::module_& module) {
@@ -184,10 +164,9 @@ void defineIntegrator(py::module_& module) {
   const auto make = [](const std::string& name, const Chain& chain, std::optional<double> tolerance,
                        bool track_dissipation, int threads) {
     const Method& method = findMethod(name);
-    if (tolerance && method.hasFixedStep()) {
+    if (tolerance && method.hasFixedStep())
       throw InputError(fmt::format(
           "tolerance: {} takes fixed steps; choose the time_step of advance", method.name));
-    }
     return std::make_unique<PythonIntegrator>(
         method, chain,
         IntegratorOptions{tolerance.value_or(IntegratorOptions().tolerance), track_dissipation,

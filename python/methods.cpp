@@ -17,10 +17,9 @@ using namespace py::literals;
 ButcherTableau toTableau(const py::sequence& rows, const py::object& weights) {
   const Numbers b = toNumbers(weights, "b", 1);
   constexpr auto kMost = static_cast<py::ssize_t>(ButcherTableau::kMaxStages);
-  if (b.size() < 1 || b.size() > kMost || static_cast<py::ssize_t>(rows.size()) != b.size()) {
+  if (b.size() < 1 || b.size() > kMost || static_cast<py::ssize_t>(rows.size()) != b.size())
     throw InputError(
         fmt::format("a and b: must have one row and one weight for each of 1 to {} stages", kMost));
-  }
   ButcherTableau tableau;
   tableau.stages = static_cast<std::size_t>(b.size());
   std::copy_n(b.data(), b.size(), tableau.b.begin());
@@ -36,9 +35,8 @@ ButcherTableau toTableau(const py::sequence& rows, const py::object& weights) {
 
 const Method& addMethod(const std::string& name, const py::sequence& a, const py::object& b,
                         const std::string& reference, const std::string& use) {
-  if (Computation::running > 0) {
+  if (Computation::running > 0)
     throw InputError("register methods while no other thread integrates");
-  }
   const ButcherTableau tableau = toTableau(a, b);
   Method method = methodOfTableau(name, tableau);
   method.reference = reference;
@@ -69,9 +67,8 @@ void defineMethods(py::module_& module) {
       "methods",
       [] {
         py::list rows;
-        for (const Method& method : methodTable()) {
+        for (const Method& method : methodTable())
           rows.append(py::cast(&method, py::return_value_policy::reference));
-        }
         return rows;
       },
       "Returns all methods, in the order of the documentation.");

@@ -3,16 +3,20 @@
 
 #include <algorithm>
 #include <exception>
+#include <string_view>
 
 #include "binding.hpp"
 
 namespace spring_pendulum::python {
 
-std::atomic<int> Computation::running{0};
-
 std::string reprOf(const py::handle& value) {
   constexpr std::size_t kLongest = 60;
-  const py::str text = py::repr(value).attr("replace")("\n", " ");
+  auto text = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
+  if (!text) {  // an integer of over 4300 digits
+    PyErr_Clear();
+    return "a value without a text";
+  }
+  text = text.attr("replace")("\n", " ");
   std::string whole = py::str(text.attr("encode")("utf-8", "replace").attr("decode")());
   if (py::len(text) <= kLongest) return whole;
   return py::str(py::str(whole)[py::slice(0, kLongest, 1)]).cast<std::string>() + "...";
@@ -23,17 +27,17 @@ Numbers toNumbers(const py::object& argument, const std::string& name, py::ssize
     throw InputError(name + ": must be numbers in an array of " + std::to_string(dimensions) +
                      (dimensions == 1 ? " dimension, got " : " dimensions, got ") + got);
   };
+  py::array array;
   try {
-    const py::array array = py::module_::import("numpy").attr("asarray")(argument);
-    const auto kind = array.dtype().attr("kind").cast<std::string>();
-    if (kind != "f" && kind != "i" && kind != "u") refuse(reprOf(argument));
-    if (array.ndim() != dimensions) refuse("shape " + reprOf(array.attr("shape")));
-    return {array};
+    array = py::module_::import("numpy").attr("asarray")(argument);
   } catch (py::error_already_set& error) {  // NumPy cannot make an array of this
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+    refuse(reprOf(argument));
   }
-  refuse(reprOf(argument));
-  return {};
+  if (std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos)
+    refuse(reprOf(argument));
+  if (array.ndim() != dimensions) refuse("shape " + reprOf(array.attr("shape")));
+  return {array};
 }
 
 bool Interruption::operator()() {
@@ -43,10 +47,6 @@ bool Interruption::operator()() {
   asked_ = now;
   const py::gil_scoped_acquire acquired;
   return stopped_ = PyErr_CheckSignals() != 0;
-}
-
-void Interruption::raise() const {
-  if (stopped_) throw py::error_already_set();
 }
 
 namespace {
@@ -61,25 +61,22 @@ void setError(const py::handle& type, const std::exception& error) {
 }
 
 void defineErrors(py::module_& module) {
-  static PyObject* input_error = nullptr;  // for the lifetime of the interpreter
-  static PyObject* file_error = nullptr;
-  const auto define = [&](const char* name, const char* doc, PyObject* base) {
-    const std::string full_name = std::string("spring_pendulum.") + name;
-    PyObject* const type = PyErr_NewExceptionWithDoc(full_name.c_str(), doc, base, nullptr);
-    if (type == nullptr) throw py::error_already_set();
-    module.add_object(name, type);
-    return type;
-  };
-  input_error = define("InputError", "A wrong argument or a malformed file.", PyExc_ValueError);
-  file_error = define("FileError", "A file that cannot be read or written.", PyExc_OSError);
+  static PyObject* const kInputError =
+      PyErr_NewExceptionWithDoc("spring_pendulum.InputError",
+                                "A wrong argument or a malformed file.", PyExc_ValueError, nullptr);
+  static PyObject* const kFileError =
+      PyErr_NewExceptionWithDoc("spring_pendulum.FileError",
+                                "A file that cannot be read or written.", PyExc_OSError, nullptr);
+  module.add_object("InputError", kInputError);
+  module.add_object("FileError", kFileError);
   // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is that of pybind11
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);
     } catch (const InputError& error) {
-      setError(input_error, error);
+      setError(kInputError, error);
     } catch (const FileError& error) {
-      setError(file_error, error);
+      setError(kFileError, error);
     }
   });
 }

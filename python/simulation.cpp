@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <memory>
-#include <optional>
+#include <new>
 #include <pybind11/stl.h>
 #include <utility>
 #include <vector>
@@ -41,22 +39,20 @@ bool isPath(const py::object& value) {
 }
 
 /// Encodes a name as the file system does.
-std::string pathText(const py::object& value) {
+std::string textOf(const py::object& value, std::string_view key, std::string_view range) {
   PyObject* bytes = nullptr;
-  if (PyUnicode_FSConverter(value.ptr(), &bytes) == 0) throw py::error_already_set();
-  return py::reinterpret_steal<py::bytes>(bytes);
+  if (isPath(value) && PyUnicode_FSConverter(value.ptr(), &bytes) != 0)
+    return py::reinterpret_steal<py::bytes>(bytes);
+  PyErr_Clear();  // a null character, for example
+  throw InputError(fmt::format("{}: must be {}, got {}", key, range, reprOf(value)));
 }
 
 /// The text of a value as the option table reads it.
 std::string optionText(const Option& option, const py::object& value) {
-  if (option.isText()) {
-    if (isPath(value)) return pathText(value);
-    throw InputError(
-        fmt::format("{}: must be {}, got {}", option.key, option.range(), reprOf(value)));
-  }
+  if (option.isText()) return textOf(value, option.key, option.range());
   py::detail::make_caster<bool> flag;
   if (flag.load(value, false)) return flag ? "true" : "false";
-  if (PyIndex_Check(value.ptr()) != 0) return py::str(py::int_(value));
+  if (PyIndex_Check(value.ptr()) != 0) return reprOf(py::int_(value));
   const double number = PyFloat_AsDouble(value.ptr());  // does not parse text
   if (PyErr_Occurred() == nullptr) return py::repr(py::float_(number));
   PyErr_Clear();
@@ -69,11 +65,10 @@ Scenario scenarioOf(const py::dict& options) {
   std::vector<std::pair<std::string, std::string>> given;
   for (const auto& [key, value] : options) {
     const auto name = key.cast<std::string>();
-    const auto option = std::find_if(known.begin(), known.end(), [&](const auto& description) {
-      return description.key == name;
-    });
-    const auto object = py::reinterpret_borrow<py::object>(value);
-    given.emplace_back(name, option == known.end() ? "" : optionText(*option, object));
+    std::string text;
+    for (const Option& option : known)
+      if (option.key == name) text = optionText(option, py::reinterpret_borrow<py::object>(value));
+    given.emplace_back(name, text);
   }
   return makeScenario(given, scenario);
 }
@@ -92,7 +87,7 @@ std::string particleText(const Numbers& rows) {
 Scene sceneOf(const py::object& particles, Scenario& scenario) {
   scenario.particles.clear();
   if (isPath(particles)) {
-    scenario.particles = pathText(particles);
+    scenario.particles = textOf(particles, "particles", "a path");
     return readScene(scenario);
   }
   if (scenario.resume) throw InputError("resume: needs a file of save_state, not an array");
@@ -100,17 +95,13 @@ Scene sceneOf(const py::object& particles, Scenario& scenario) {
                    parseParticles(particleText(toNumbers(particles, "particles", 2)), "particles"));
 }
 
-double orNan(const std::optional<double>& number) {
-  return number.value_or(kNan);
-}
-
 /// Writes the numbers of a frame into a column of a table with a row for each quantity.
 void recordNumbers(const Run& run, double* column, py::ssize_t frames) {
   const EnergyEntry entry = run.energyEntry();
   for (const double number :
        {entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
-        entry.energy.total(), orNan(entry.dissipated), orNan(entry.residual),
-        orNan(entry.relative_residual), run.positionError().now}) {
+        entry.energy.total(), entry.dissipated.value_or(kNan), entry.residual.value_or(kNan),
+        entry.relative_residual.value_or(kNan), run.positionError().now}) {
     *column = number;
     column += frames;
   }
@@ -127,6 +118,8 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
   Run run(scene, scenario, {true, 0.0, [&] { return interruption(); }});
   const py::ssize_t frames = scenario.frames - scene.frame;
   const py::ssize_t state_size = run.state().values().size();
+  // NumPy would call it a wrong value.
+  if (frames > PY_SSIZE_T_MAX / 8 / std::max(state_size, kFrameNumbers)) throw std::bad_alloc();
   py::array_t<double> numbers({kFrameNumbers, frames});
   py::array_t<double> states({frames, py::ssize_t{4}, state_size / 4});
   double* const number = numbers.mutable_data();
@@ -136,8 +129,7 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
   std::vector<std::string> warnings;
   {
     const Computation computation;
-    if (std::string warning = remarksOn(run).warning; !warning.empty())
-      warnings.push_back(std::move(warning));
+    if (const auto warning = remarksOn(run).warning; !warning.empty()) warnings.push_back(warning);
     while (run.advance()) {
       std::copy_n(run.state().values().data(), state_size, state + count * state_size);
       recordNumbers(run, number + count++, frames);
@@ -149,7 +141,7 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
       warnings.insert(warnings.end(), outcome.lines.begin(), outcome.lines.end());
     }
   }
-  interruption.raise();
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
   return py::dict("states"_a = states[py::slice(0, count, 1)],
                   "numbers"_a = numbers[py::make_tuple(py::ellipsis(), py::slice(0, count, 1))],
                   "chain"_a = run.chain(), "method"_a = scenario.method.get().name,
@@ -168,7 +160,7 @@ py::tuple check(const py::object& particles, const py::dict& options) {
     const Computation computation;
     report = checkStability(scene.chain(), scene.state, scenario, [&] { return interruption(); });
   }
-  interruption.raise();
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
   return py::make_tuple(report.text, report.verdict ? tupleOf(*report.verdict) : py::tuple(),
                         report.position_error, report.stable.step, report.accurate_step);
 }
@@ -176,24 +168,16 @@ py::tuple check(const py::object& particles, const py::dict& options) {
 }  // namespace
 
 void defineSimulation(py::module_& module) {
-  module.def("simulate", &simulate, "particles"_a, "options"_a,
-             "Integrates particles (a path or an array) and returns the parts of a Run.");
-  module.def("check", &check, "particles"_a, "options"_a,
-             "Tries a run and returns the parts of a Report.");
-  module.def(
-      "options",
-      [] {
-        py::list rows;
-        Scenario defaults = pythonDefaults();
-        for (const Option& option : scenarioOptions(defaults)) {
-          rows.append(py::make_tuple(option.key, option.text(), option.isText(), option.unit,
-                                     option.range(), option.meaning, option.users()));
-        }
-        return rows;
-      },
-      "The options of a run: tuples of key, text of the default, whether it is no number, unit, "
-      "range, "
-      "meaning, users.");
+  module.def("simulate", &simulate);  // the parts of a Run
+  module.def("check", &check);        // the parts of a Report
+  module.def("options", [] {
+    py::list rows;
+    Scenario defaults = pythonDefaults();
+    for (const Option& option : scenarioOptions(defaults))
+      rows.append(py::make_tuple(option.key, option.text(), option.isText(), option.unit,
+                                 option.range(), option.meaning, option.users()));
+    return rows;
+  });
 }
 
 }  // namespace spring_pendulum::python

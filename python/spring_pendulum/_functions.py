@@ -12,17 +12,16 @@ from ._run import Report, Run, Verdict
 def _with_options(function):
     """Completes signature and documentation of a function of particles and options."""
     parameters, lines = [], []
-    for key, default, is_text, unit, accepted, meaning, users in _core.options():
+    rows = sorted(_core.options(), key=lambda row: row[0] != 'particles')  # they come first
+    for key, default, is_text, unit, accepted, meaning, users in rows:
         default = default if is_text else json.loads(default)
-        is_first = key == 'particles'
-        kind = inspect.Parameter.POSITIONAL_OR_KEYWORD if is_first else inspect.Parameter.KEYWORD_ONLY
-        parameters.insert(0 if is_first else len(parameters), inspect.Parameter(key, kind, default=default))
-        if is_first:
+        kind = inspect.Parameter.KEYWORD_ONLY if parameters else inspect.Parameter.POSITIONAL_OR_KEYWORD
+        parameters.append(inspect.Parameter(key, kind, default=default))
+        if key == 'particles':
             meaning = ('path of a particle file, or an array of shape (N, 3) with x, y in m and the mass in kg, or '
                        '(N, 5) with vx, vy in m/s as well; the first particle is fixed')
         text = '%s; %s [%r%s]' % (meaning + ('; ' + users if users else ''), accepted, default, unit and ' ' + unit)
-        lines.insert(0 if is_first else len(lines),
-                     textwrap.fill(key + ': ' + text, 96, initial_indent='    ', subsequent_indent='        '))
+        lines.append(textwrap.fill(key + ': ' + text, 96, initial_indent='    ', subsequent_indent='        '))
     function.__signature__ = inspect.Signature(parameters)
     function.__kwdefaults__ = None
     function.__defaults__ = (parameters[0].default,)
@@ -46,7 +45,7 @@ Returns:
 Raises:
     InputError: a wrong value, an unknown keyword or a malformed file
     FileError: a file that cannot be read or written
-    RuntimeError: the run needs more memory than there is
+    MemoryError, RuntimeError: its frames, or the run itself, need more memory than there is
 
 Warns:
     RuntimeWarning: the motion diverged, or its energy or positions are wrong

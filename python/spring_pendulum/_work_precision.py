@@ -72,7 +72,7 @@ def work_precision(particles, methods=None, *, duration=10.0, time_steps=TIME_ST
     chosen = all_methods() if names is None else [find_method(name) for name in names]
     time_steps, tolerances = list(time_steps), list(tolerances)
     for key, value in [('duration', duration), *(('time_steps', step) for step in time_steps)]:
-        if not 0 < value < float('inf'):
-            raise InputError(f'{key}: must be above 0 s and finite, got {value}')
+        if not (0 < value < float('inf') and duration / value < float('inf')):
+            raise InputError(f'{key}: must be above 0 s and finite, for a finite number of steps, got {value}')
     return [_measure(particles, method, value, duration, options) for method in chosen
             for value in (time_steps if method.fixed_step else tolerances)]

@@ -39,8 +39,8 @@ class Misuse(unittest.TestCase):
         self.refused("unknown option 'time_stp'; did you mean 'time_step'", sp.simulate, SCENE, time_stp=1)
         self.refused('tolerance: Euler takes fixed steps; use time_step', sp.simulate, SCENE, method='Euler',
                      tolerance=1)
-        wrong = {'method': (3, None, b'Euler', []), 'time_step': ('0.1', None, True, 1j, [0.1, 0.2], TWO, object),
-                 'frames': ('5', None, NAN, True, [5]), 'no_frames': (1, 'true', None), 'output': (5, None, TWO),
+        wrong = {'method': (3, None, b'Euler', [], 'a\0b', '\ud800'), 'time_step': ('0.1', None, True, 1j, [0.1, 0.2], TWO, object),
+                 'frames': ('5', None, NAN, True, [5], 10**5000), 'no_frames': (1, 'true', None), 'output': (5, None, TWO, 'a\0'),
                  'on_divergence': (True, None)}
         for key, values in wrong.items():
             for value in values:
@@ -63,7 +63,7 @@ class Misuse(unittest.TestCase):
     def test_files(self):
         self.refused('nowhere.txt', sp.simulate, 'nowhere.txt', error=sp.FileError)
         self.refused('nowhere.txt', sp.simulate, pathlib.Path('nowhere.txt'), error=OSError)
-        self.refused('null', sp.simulate, 'a\0b', error=ValueError)
+        self.refused('particles: must be a path', sp.simulate, 'a\0b')
         self.refused('.', sp.simulate, '', error=sp.FileError)
         self.refused('.', sp.simulate, SCENE, output='/proc/none', error=sp.FileError)
         with tempfile.TemporaryDirectory() as folder:
@@ -74,7 +74,8 @@ class Misuse(unittest.TestCase):
             self.refused('bad.txt:2: 2 numbers', sp.simulate, path)
 
     def test_too_large(self):
-        self.refused('.', sp.simulate, TWO, frames=10**16, error=(MemoryError, ValueError))
+        for frames in 10**16, 2 * 10**17:
+            self.refused('.', sp.simulate, TWO, frames=frames, steps_per_frame=1, error=MemoryError)
         self.refused('must be at most', sp.simulate, TWO, frames=2**62, steps_per_frame=100)
 
     def test_objects(self):
@@ -104,7 +105,7 @@ class Misuse(unittest.TestCase):
 
     def test_work_precision(self):
         for key, value in [('duration', NAN), ('duration', -1), ('duration', float('inf')), ('time_steps', [0.1, 0]),
-                           ('time_steps', [NAN])]:
+                           ('time_steps', [NAN]), ('time_steps', [1e-320])]:
             with self.subTest(key=key, value=value):
                 self.refused('^%s: must be above 0 s' % key, sp.work_precision, SCENE, ['Euler'], **{key: value})
         self.refused("unknown method 'Oiler'", sp.work_precision, SCENE, 'Oiler')
