@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -153,10 +154,15 @@ void defineState(py::module_& module) {
       .def("__repr__",
            [](const State& s) { return fmt::format("<State of {} particles>", s.size()); })
       .def(py::pickle(
-          [](const py::object& self) {
-            return py::make_tuple(self.attr("x"), self.attr("y"), self.attr("vx"), self.attr("vy"));
+          [](const State& s) {
+            return py::make_tuple(py::array_t<double>(s.values().size(), s.values().data()));
           },
-          [](const py::tuple& t) { return makeState(t[0], t[1], t[2], t[3]); }));
+          [](const py::tuple& t) {  // not by makeState: a state that diverged is not finite
+            const Numbers numbers = toNumbers(t[0], "state", 1);
+            State state(numbers.size() / 4);
+            std::copy_n(numbers.data(), state.values().size(), state.values().data());
+            return state;
+          }));
 }
 
 void defineIntegrator(py::module_& module) {

@@ -81,6 +81,15 @@ void defineErrors(py::module_& module) {
   });
 }
 
+/// Pickles with every protocol as with 2: 0 and 1 make an object of pybind11's base class, which aborts.
+py::tuple reduce(const py::object& self) {
+  const py::object type = py::type::of(self);
+  if (!py::hasattr(type, "__setstate__"))
+    throw py::type_error("cannot pickle " + reprOf(type.attr("__name__")) + " object");
+  return py::make_tuple(py::module_::import("copyreg").attr("__newobj__"), py::make_tuple(type),
+                        self.attr("__getstate__")());
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
@@ -89,6 +98,10 @@ PYBIND11_MODULE(_core, module) {
   defineMethods(module);
   defineIntegration(module);
   defineSimulation(module);
+  for (const char* name : {"Chain", "State", "Integrator", "Method"}) {
+    const py::object type = module.attr(name);
+    type.attr("__reduce__") = py::cpp_function(&reduce, py::is_method(type));
+  }
 }
 
 }  // namespace spring_pendulum::python

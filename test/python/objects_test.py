@@ -48,7 +48,13 @@ class Copies(unittest.TestCase):
     def test_are_equal_and_independent(self):
         chain = sp.Chain([1, 2, 3], stiffness=7, damping=.5, rest_length=2, gravity=-1)
         state = sp.State([0, 1, 2], [3, 4, 5], [0, 6, 7], [0, 8, 9])
-        for duplicate in (copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value))):
+        state.y[0], state.vx[1], state.vy[0] = float('nan'), float('inf'), -0.0  # a state that diverged
+        run, integrator = sp.simulate(SCENE, frames=3), sp.make_integrator('Euler', chain)
+        pickles = [lambda value, p=p: pickle.loads(pickle.dumps(value, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)]
+        for duplicate in (copy.copy, copy.deepcopy, *pickles):
+            self.assertEqual(duplicate(run).positions.tobytes(), run.positions.tobytes())
+            self.assertRaises(TypeError, duplicate, integrator)
+            self.assertRaises(TypeError, duplicate, sp.find_method('Euler'))
             other = duplicate(chain)
             for key in ('stiffness', 'damping', 'rest_length', 'gravity', 'air_drag'):
                 self.assertEqual(getattr(other, key), getattr(chain, key))
