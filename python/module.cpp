@@ -94,6 +94,7 @@ py::tuple reduce(const py::object& self) {
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The C++ library spring_pendulum; import spring_pendulum instead.";
+  py::dtype::of<double>();  // loads NumPy, where threads that do so at once wait forever
   defineErrors(module);
   defineMethods(module);
   defineIntegration(module);
