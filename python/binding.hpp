@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <string>
@@ -39,15 +40,27 @@ class Interruption {
 /// Counts the calls that compute without the interpreter lock. Meanwhile, no method can be registered.
 class Computation {
  public:
-  Computation() { ++running; }
-  ~Computation() { --running; }
-  Computation(const Computation&) = delete;
-  Computation& operator=(const Computation&) = delete;
+  /// \throws SystemExit, which ends a thread silently, if Python ends
+  Computation() {
+    if (isEnding()) throw py::error_already_set();
+    ++running;
+    released_ = std::make_unique<py::gil_scoped_release>();
+  }
+  ~Computation() {
+    released_.reset();  // while it counts: a thread that takes the lock of an ended Python aborts
+    --running;
+  }
+
+  /// Stops all computations and waits for them. Python calls it before it ends.
+  static void end();
+  /// Whether Python ends; sets SystemExit then. Call it with the lock.
+  static bool isEnding();
 
   inline static std::atomic<int> running{0};
 
  private:
-  py::gil_scoped_release released_;
+  inline static bool ending = false;
+  std::unique_ptr<py::gil_scoped_release> released_;
 };
 
 void defineIntegration(py::module_& module);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <string_view>
+#include <thread>
 
 #include "binding.hpp"
 
@@ -46,7 +47,18 @@ bool Interruption::operator()() {
   if (stopped_ || now - asked_ < 20ms) return stopped_;
   asked_ = now;
   const py::gil_scoped_acquire acquired;
-  return stopped_ = PyErr_CheckSignals() != 0;
+  return stopped_ = Computation::isEnding() || PyErr_CheckSignals() != 0;
+}
+
+bool Computation::isEnding() {
+  if (ending) PyErr_SetString(PyExc_SystemExit, "Python ends");
+  return ending;
+}
+
+void Computation::end() {
+  ending = true;
+  const py::gil_scoped_release released;
+  while (running > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 namespace {
@@ -99,6 +111,7 @@ PYBIND11_MODULE(_core, module) {
   defineMethods(module);
   defineIntegration(module);
   defineSimulation(module);
+  py::module_::import("atexit").attr("register")(py::cpp_function(&Computation::end));
   for (const char* name : {"Chain", "State", "Integrator", "Method"}) {
     const py::object type = module.attr(name);
     type.attr("__reduce__") = py::cpp_function(&reduce, py::is_method(type));

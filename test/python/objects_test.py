@@ -6,6 +6,8 @@ import multiprocessing
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -129,6 +131,15 @@ class Threads(unittest.TestCase):
         for kind in 'spawn', 'forkserver':
             with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context(kind)) as pool:
                 self.assertEqual(pool.submit(len, sp.Chain([1, 2])).result(), 2)
+
+    def test_start_at_once_and_end_with_python(self):
+        code = """import sys, threading, time, spring_pendulum as sp
+def work(steps):
+    while True: sp.simulate(sys.argv[1], frames=9, steps_per_frame=steps, reference='never')
+for steps in 1, 1, 1, 10**9: threading.Thread(target=work, args=[steps], daemon=True).start()
+time.sleep(0.3)"""
+        done = subprocess.run([sys.executable, '-c', code, SCENE], stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
 
 
 class CtrlC(unittest.TestCase):
