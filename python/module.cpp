@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <pthread.h>
 #include <string_view>
 #include <thread>
 
@@ -111,6 +112,7 @@ PYBIND11_MODULE(_core, module) {
   defineMethods(module);
   defineIntegration(module);
   defineSimulation(module);
+  pthread_atfork(nullptr, nullptr, [] { Computation::running = 0; });  // their threads are gone
   py::module_::import("atexit").attr("register")(py::cpp_function(&Computation::end));
   for (const char* name : {"Chain", "State", "Integrator", "Method"}) {
     const py::object type = module.attr(name);

@@ -107,7 +107,11 @@ class Threads(unittest.TestCase):
                 except sp.InputError as error:
                     refusals += 'thread' in str(error)
             time.sleep(0.001)
+            if ticks == 10 and (child := os.fork()) == 0:  # without the other thread
+                sp.register_method('forked', a=[[]], b=[1])
+                os._exit(0)
         thread.join()
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
         self.assertGreater(ticks, 10)
         self.assertGreater(refusals, 10)
         integrator.advance(state, 1e-6, 1)
