@@ -1,5 +1,4 @@
 """Lifetime, copies, threads and interruptions of the objects."""
-import concurrent.futures
 import copy
 import gc
 import multiprocessing
@@ -11,6 +10,7 @@ import sys
 import threading
 import time
 import unittest
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 from support import SCENE
@@ -36,8 +36,8 @@ class Views(unittest.TestCase):
         self.assertNotEqual(x[2], 7)
 
     def test_keep_their_owner_alive(self):
-        views = [sp.State(np.full(1000, 3.0), np.zeros(1000)).positions, sp.Chain(np.full(1000, 3.0)).masses,
-                 sp.simulate(SCENE, frames=5).positions]
+        run = sp.simulate(SCENE, frames=5).positions
+        views = sp.State(np.full(1000, 3.0), np.zeros(1000)).positions, sp.Chain(np.full(1000, 3.0)).masses, run
         gc.collect()
         others = [sp.State(np.full(1000, 9.0), np.zeros(1000)) for _ in range(100)]
         self.assertEqual(views[0][:, 0].tolist(), [3.0] * 1000)
@@ -51,19 +51,18 @@ class Copies(unittest.TestCase):
         chain = sp.Chain([1, 2, 3], stiffness=7, damping=.5, rest_length=2, gravity=-1)
         state = sp.State([0, 1, 2], [3, 4, 5], [0, 6, 7], [0, 8, 9])
         state.y[0], state.vx[1], state.vy[0] = float('nan'), float('inf'), -0.0  # a state that diverged
-        run, integrator = sp.simulate(SCENE, frames=3), sp.make_integrator('Euler', chain)
+        run, numbers = sp.simulate(SCENE, frames=3), [state.positions.tobytes(), state.velocities.tobytes()]
         pickles = [lambda value, p=p: pickle.loads(pickle.dumps(value, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)]
         for duplicate in (copy.copy, copy.deepcopy, *pickles):
             self.assertEqual(duplicate(run).positions.tobytes(), run.positions.tobytes())
-            self.assertRaises(TypeError, duplicate, integrator)
+            self.assertRaises(TypeError, duplicate, sp.make_integrator('Euler', chain))
             self.assertRaises(TypeError, duplicate, sp.find_method('Euler'))
             other = duplicate(chain)
             for key in ('stiffness', 'damping', 'rest_length', 'gravity', 'air_drag'):
                 self.assertEqual(getattr(other, key), getattr(chain, key))
             self.assertEqual(other.masses.tolist(), [1, 2, 3])
             moved = duplicate(state)
-            self.assertEqual(moved.positions.tobytes() + moved.velocities.tobytes(),
-                             state.positions.tobytes() + state.velocities.tobytes())
+            self.assertEqual([moved.positions.tobytes(), moved.velocities.tobytes()], numbers)
             moved.x[1] = 50
             self.assertEqual(state.x[1], 1)
 
@@ -71,46 +70,32 @@ class Copies(unittest.TestCase):
 class Threads(unittest.TestCase):
     def test_integrate_at_once_with_the_same_bits(self):
         rows = np.loadtxt(SCENE)
-        expected = [sp.simulate(rows, method=name, frames=200).positions.tobytes() for name in ('Auto', 'Taylor-8')]
-        found = [[] for _ in range(6)]
 
-        def work(results):
-            for name in ('Auto', 'Taylor-8') * 3:
-                results.append(sp.simulate(rows, method=name, frames=200).positions.tobytes())
+        def work(names):
+            return [sp.simulate(rows, method=name, frames=200).positions.tobytes() for name in names]
 
-        threads = [threading.Thread(target=work, args=(results,)) for results in found]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(found, [expected * 3] * 6)
+        names = ['Auto', 'Taylor-8']
+        with ThreadPoolExecutor(6) as pool:
+            self.assertEqual(list(pool.map(work, [names * 3] * 6)), [work(names) * 3] * 6)
 
     def test_leave_the_interpreter_free_but_not_the_integrator(self):
         chain, state = long_chain()
         integrator = sp.make_integrator('Runge-Kutta-4', chain)
-        done = threading.Event()
-
-        def work():
-            integrator.advance(state, 1e-6, 30000)
-            done.set()
-
-        thread = threading.Thread(target=work)
-        thread.start()
-        ticks, refusals = 0, 0
-        while not done.is_set():
+        pool, ticks, refusals = ThreadPoolExecutor(1), 0, 0
+        work = pool.submit(integrator.advance, state, 1e-6, 30000)
+        while not work.done():
+            time.sleep(0.001)
             ticks += 1
             for call in (lambda: integrator.advance(sp.State(state.x, state.y), 1e-6, 1), integrator.restart,
-                         lambda: integrator.dissipated_energy,
-                         lambda: sp.register_method('late', a=[[]], b=[1])):
+                         lambda: integrator.dissipated_energy, lambda: sp.register_method('late', a=[[]], b=[1])):
                 try:
                     call()
                 except sp.InputError as error:
                     refusals += 'thread' in str(error)
-            time.sleep(0.001)
             if ticks == 10 and (child := os.fork()) == 0:  # without the other thread
                 sp.register_method('forked', a=[[]], b=[1])
                 os._exit(0)
-        thread.join()
+        work.result()
         self.assertEqual(os.waitpid(child, 0)[1], 0)
         self.assertGreater(ticks, 10)
         self.assertGreater(refusals, 10)
@@ -133,7 +118,7 @@ class Threads(unittest.TestCase):
 
     def test_of_a_spawned_process_import_the_module(self):
         for kind in 'spawn', 'forkserver':
-            with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context(kind)) as pool:
+            with ProcessPoolExecutor(1, multiprocessing.get_context(kind)) as pool:
                 self.assertEqual(pool.submit(len, sp.Chain([1, 2])).result(), 2)
 
     def test_start_at_once_and_end_with_python(self):

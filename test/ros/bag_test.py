@@ -89,8 +89,7 @@ class Bag(unittest.TestCase):
                 with open(path, 'wb') as file:
                     file.write(text)
                 _, output = record(folder, 'one.bag', '--append', '--time-step', '0.5', status=1)
-                self.assertEqual(output, path + ': is not a complete bag, so nothing can be '
-                                 'appended to it\n')
+                self.assertEqual(output, path + ': is not a complete bag, so nothing can be appended to it\n')
                 with open(path, 'rb') as file:
                     self.assertEqual(file.read(), text)
 
@@ -119,8 +118,7 @@ class Bag(unittest.TestCase):
         with Folder() as folder, Folder() as expected_folder:
             expected = run_exercise(expected_folder, 'Euler', '--particles', SCENE, '--frames', '5',
                                     '--damping', '0', '--energy', expected_folder + '/energy.csv')
-            record(folder, 'one.bag', '--frames=5',
-                               '--energy', folder + '/energy.csv', '--output', folder + '/frames',
+            record(folder, 'one.bag', '--frames=5', '--energy', folder + '/energy.csv', '--output', folder + '/frames',
                                '--damping', '0', method='Euler')
             self.assertEqual(sorted(os.listdir(folder)), ['energy.csv', 'frames', 'one.bag'])
             self.assertEqual(read_frames(folder + '/frames'), expected)

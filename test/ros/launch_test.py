@@ -17,8 +17,7 @@ from pendulum_process import (SCENE, Folder, PendulumNode, files_in, program, pr
 
 def launch(file, *arguments, cwd='/'):
     done = subprocess.run(['roslaunch', '--wait', 'spring_pendulum', file, *arguments], cwd=cwd,
-                          capture_output=True, text=True, timeout=120,
-                          env=dict(os.environ, PWD=cwd))
+                          capture_output=True, text=True, timeout=120, env=dict(os.environ, PWD=cwd))
     return done.stdout + done.stderr
 
 
@@ -158,8 +157,7 @@ class Launch(unittest.TestCase):
                 os.chmod(folder + '/' + name, 0o755)
         changes = {'PATH': folder + ':' + os.environ['PATH'], 'QT_QPA_PLATFORM': 'offscreen', 'ROS_HOME': folder,
                    **environment}
-        return subprocess.run([project('scripts/view.py'), config, source],
-                              capture_output=True, text=True,
+        return subprocess.run([project('scripts/view.py'), config, source], capture_output=True, text=True,
                               env={k: v for k, v in dict(os.environ, **changes).items() if v is not None})
 
     def test_view_says_what_is_missing(self):

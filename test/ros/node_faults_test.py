@@ -59,8 +59,7 @@ class Node(unittest.TestCase):
         valid = 'http://127.0.0.1:1'
         for uri in ('', '127.0.0.1:1', 'https://127.0.0.1:1', 'http://127.0.0.1', 'http://127.0.0.1:x',
                     'http://127.0.0.1:65536', 'http://:1'):
-            for source, variable, arguments in (('ROS_MASTER_URI', uri, []),
-                                                ('__master', valid, ['__master:=' + uri])):
+            for source, variable, arguments in (('ROS_MASTER_URI', uri, []), ('__master', valid, ['__master:=' + uri])):
                 with case(variable=variable, arguments=arguments):
                     self.assertEqual(
                         self.fail_to_start({'ROS_MASTER_URI': variable}, arguments),

@@ -172,8 +172,7 @@ class RandomInputs(unittest.TestCase):
         self.dice = random.Random(SEED)
         judge = Judge()
         kinds = ((self.send_hand, 45), (self.send_pose, 8), (self.send_odometry, 8), (self.send_transforms, 8),
-                 (self.call_set, 8), (self.call_force, 9), (self.call_pause, 4),
-                 (self.call_trigger, 4))
+                 (self.call_set, 8), (self.call_force, 9), (self.call_pause, 4), (self.call_trigger, 4))
         self.unstable = {name for name, error_controlled in methods() if not error_controlled}
         with Folder() as folder, PendulumNode(
                 cwd=folder, particles=project('data/horizontal_11.txt'), frames=1000000, method='Auto',

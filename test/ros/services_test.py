@@ -158,8 +158,7 @@ class States(NodeTest):
                                  [tuple(map(float, line.split())) for line in expected])
             # Exercise3 goes on from it as well.
             os.mkdir(os.path.join(folder, 'resumed'))
-            resumed = run_exercise(os.path.join(folder, 'resumed'), 'Runge-Kutta-4', path, '--resume',
-                                   '--frames', '60')
+            resumed = run_exercise(os.path.join(folder, 'resumed'), 'Runge-Kutta-4', path, '--resume', '--frames', '60')
             self.assertEqual(sorted(resumed), sorted(frames)[frame:])
             self.assertTrue(all(frames[name] == text for name, text in resumed.items()))
 

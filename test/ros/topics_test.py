@@ -35,16 +35,14 @@ class Topics(NodeTest):
         self.assertEqual([m.frame for m in state.messages if m.at_frame and m.frame < 19], list(range(19)))
         self.assertEqual(state.messages[-1].frame, 19)
         self.assert_increasing(state.messages)
-        self.assertEqual(stamps(state.messages), [m.markers[0].header.stamp.to_nsec()
-                                                  for m in markers.messages])
+        self.assertEqual(stamps(state.messages), [m.markers[0].header.stamp.to_nsec() for m in markers.messages])
         for message in markers.messages:
             self.assertEqual(len({(m.header.stamp, m.header.frame_id) for m in message.markers}), 1)
         self.assertEqual(state.messages[0].header.frame_id, 'base')
         # Whether the node had to wait depends on who was faster.
         started = [m for m in status.messages if m.code != PendulumStatus.WAITING]
         self.assertEqual([m.code for m in started], [PendulumStatus.RUNNING, PendulumStatus.FINISHED])
-        self.assertTrue({m.header.stamp.to_nsec() for m in started}
-                        <= set(stamps(state.messages)))
+        self.assertTrue({m.header.stamp.to_nsec() for m in started} <= set(stamps(state.messages)))
 
     def test_markers_are_what_rviz_wants(self):
         markers = self.listen('markers', MarkerArray)
@@ -114,8 +112,7 @@ class Topics(NodeTest):
         self.assertAlmostEqual(last.tip_speed, math.hypot(last.velocities[-1].x, last.velocities[-1].z))
         _, when, kinetic, gravity, spring, _, dissipated, residual = map(float, row[:8])
         self.assertEqual((last.time, last.kinetic_energy, last.gravity_energy, last.spring_energy,
-                          last.dissipated_energy),
-                         (when, kinetic, gravity, spring, dissipated))
+                          last.dissipated_energy), (when, kinetic, gravity, spring, dissipated))
         self.assertGreater(dissipated, 1.0)
         self.assertAlmostEqual(last.total_energy, kinetic + gravity + spring + dissipated)
         self.assertEqual(last.energy_error, float(row[8]))

@@ -36,11 +36,10 @@ Scenario scenarioOf(const Method& method, const test::Scene& scene) {
 std::vector<State> framesOfThePlainProgram(const Scenario& scenario, const test::Scene& scene) {
   const Method& method = scenario.method;
   std::unique_ptr<Integrator> integrator;
-  if (method.hasFixedStep() && method.tableau != nullptr) {
+  if (method.hasFixedStep() && method.tableau != nullptr)
     integrator = std::make_unique<PlainRungeKutta>(scene.chain, *method.tableau, false);
-  } else {
+  else
     integrator = makeIntegrator(method, scene.chain, {scenario.tolerance, false, 1});
-  }
   std::vector<State> frames{scene.start};
   for (std::int64_t i = 1; i < scenario.frames; ++i) {
     frames.push_back(frames.back());
