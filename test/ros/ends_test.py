@@ -14,7 +14,6 @@ from pendulum_process import (HORIZONTAL, NO_MASTER, Folder, NodeTest, PendulumN
                               wait_until)
 
 
-
 def ignore_interrupts():
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -48,8 +47,7 @@ class Ends(NodeTest):
                 with PendulumNode(frames=100000, at_end='hold') as second:
                     wait_until(lambda: first.process.poll() is not None or second.process.poll() is not None, 'an end')
                     for node in (first, second):
-                        if node.process.poll() is None:
-                            node.interrupt()
+                        node.interrupt()
                         node.ends()
 
     def test_divergence_exits_3_and_leaves_a_latched_verdict(self):

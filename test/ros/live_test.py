@@ -8,7 +8,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback as Feedback
 from visualization_msgs.msg import MarkerArray
 
-from pendulum_process import Folder, NodeTest, connected, feedback, pose, transform, wait_until
+from pendulum_process import Folder, NodeTest, connected, feedback, files_in, pose, transform, wait_until
 
 BAD = ('gained energy', 'drift', 'diverged', 'inaccurate')
 
@@ -82,8 +82,7 @@ class Hands(LiveTest):
             self.assertEqual((v.x, v.z), (0.0, 0.0))
             with Folder() as folder:
                 self.call('save_state', folder + '/state.txt')
-                with open(folder + '/state.txt') as saved:
-                    self.assertRegex(saved.read(), r'(?m)^4(\.0)? 1(\.0)? ')
+                self.assertRegex(files_in(folder).popitem()[1], r'(?m)^4(\.0)? 1(\.0)? ')
             self.let_go(6)
             self.call('pause', False)
             self.wait_state(lambda m: m.positions[5].z < 0.5, 'it falls')
@@ -174,8 +173,20 @@ class Robots(LiveTest):
             return abs(self.last().positions[10].x - x) < 1e-3
         with self.node(held='last=gripper'):
             self.state.wait_for(5)
-            wait_until(lambda: move(9.0, 0.0), 'the particle meets its holder')
+            wait_until(lambda: move(9.0, 0.4), 'the particle meets its holder')
             wait_until(lambda: move(8.5, 3600.0), 'it does so again')
+
+    def test_at_rest_while_paused_is_for_where_the_holder_is_now(self):
+        with self.node(held='last'):
+            self.call('pause', True)
+            for _ in range(3):
+                self.topics[2].publish(pose(8.0, 0.0))
+                rospy.sleep(0.3)
+            self.call('at_rest')
+            self.wait_state(lambda m: max(math.hypot(v.x, v.z) for v in m.velocities) == 0.0, 'the chain hangs at rest')
+            self.call('pause', False)
+            rospy.sleep(0.5)
+            self.assertLess(max(math.hypot(v.x, v.z) for v in self.last().velocities), 1e-6)
 
     def test_bad_inputs_hold_the_particle(self):
         with self.node(held='last') as node:

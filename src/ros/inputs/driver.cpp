@@ -68,9 +68,8 @@ std::string Driver::on(const SetConstant& request) {
   const auto& [spring, gravity, air_drag] = wanted.constants;
   const double largest =
       std::max({spring.stiffness, spring.damping, spring.rest_length, std::abs(gravity), air_drag});
-  if (largest > kLargest) {
+  if (largest > kLargest)
     throw InputError(fmt::format("{}: must be at most {:g} while the chain moves", name, kLargest));
-  }
   if (!wanted.method.get().hasFixedStep())
     checkTolerance(wanted.tolerance, Chain(run_.chain().masses(), wanted.constants),
                    run_.isOver() ? run_.start() : run_.state());
@@ -88,10 +87,9 @@ std::string Driver::on(const ApplyForceTo& request) {
     throw InputError("start_time and duration must be finite");
   const double strongest = kLargestAcceleration * chain.masses()[particle] *
                            std::max(chainLength(chain, run_.start()), 1.0);
-  if (!(std::hypot(force.x, force.y) <= strongest)) {
+  if (!(std::hypot(force.x, force.y) <= strongest))
     throw InputError(
         fmt::format("force must be at most {:.3g} N on particle {}", strongest, particle + 1));
-  }
   if (forces_.size() >= kMostForces)
     throw InputError("too many forces act already; call ~clear_forces");
   const double begin = std::max(start_time, run_.time());

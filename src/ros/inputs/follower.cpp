@@ -12,9 +12,8 @@ constexpr double kSilence = 0.5;        // s
 constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its holder
 constexpr double kMet = 0.01;           // m
 constexpr double kLost = 0.5;           // m
-constexpr double kJitter = 0.1;         // s, largest believable delay of a message
-constexpr double kForget = 0.02;        // share of the delay, for each message
-constexpr double kRateTime = 10.0;      // s, over which the rates of two clocks are compared
+constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
+constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
 constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder is extrapolated
 constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
@@ -35,7 +34,7 @@ bool Follower::isNext(const Sample& before, const Sample& input) const {
 
 bool Follower::isBelievable(const Sample& input) {
   const auto& [position, velocity, acceleration] = input.holder;
-  const double now = input.received;
+  const double now = input.time;
   if (!std::isfinite(position.x + position.y + velocity.x + velocity.y))
     return refuse("has numbers that are not finite", now);
   const double fastest = kJumpsPerSecond * longest_;
@@ -54,7 +53,7 @@ bool Follower::isBelievable(const Sample& input) {
 }
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
-  Sample sample{input, stamp, now, now};
+  Sample sample{input, stamp, now};
   if (!isBelievable(sample)) return false;
   if (now >= refused_at_ + kSilence && std::exchange(warned_, false))
     warn_(name_ + " is followed again");
@@ -62,17 +61,10 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   if (isSilent(now)) {
     samples_.clear();
     left_ = 0.0;
-  }
-  if (step > 0.0 && step < kSilence) {
-    // Differences of stamps have no jitter, but their clock may run at another rate.
-    known_for_ += step;
-    rate_ += (now - samples_.back().received - rate_ * step) / std::min(known_for_, kRateTime);
-    const double expected = samples_.back().time + rate_ * step;
-    const double delay = now - expected;
-    if (std::abs(delay) < kJitter) sample.time = std::min(now, expected + kForget * delay);
-  } else {
-    rate_ = 1.0;
-    known_for_ = 0.0;
+  } else if (step > 0.0) {
+    // Differences of stamps have no jitter, but their clock may be slower.
+    const double expected = samples_.back().time + step;
+    sample.time = std::clamp(expected + kForget * (now - expected), now - kJitter, now);
   }
   samples_.push_back(sample);
   while (samples_.front().time < sample.time - kSilence) samples_.pop_front();

@@ -34,9 +34,8 @@ void setScenario(Scenario& scenario, const PendulumInput& input) {
   for (const Option& option : options.options()) {
     if (!isRecorded(option)) continue;
     const std::string start = fmt::format("{}=", option.key);
-    if (text == input.scenario.end() || text->rfind(start, 0) != 0) {
+    if (text == input.scenario.end() || text->rfind(start, 0) != 0)
       throw InputError(fmt::format("has no {}", option.key));
-    }
     options.set(option, (text++)->substr(start.size()), std::string(option.key));
   }
   checkScenario(scenario);
@@ -74,10 +73,9 @@ PendulumInput InputLog::messageOf(const Run& run, double time) {
   message.frame = run.frame();
   message.display_interval = display_interval_;
   Scenario scenario{run.plan(), run.chain().constants()};
-  for (const Option& option : scenarioOptions(scenario)) {
+  for (const Option& option : scenarioOptions(scenario))
     if (isRecorded(option))
       message.scenario.push_back(fmt::format("{}={}", option.key, option.text()));
-  }
   for (const auto& [particle, acceleration] : run.chain().drive().held) {
     message.held.push_back(static_cast<std::uint32_t>(particle + 1));
     message.accelerations.insert(message.accelerations.end(), {acceleration.x, acceleration.y});
@@ -135,9 +133,8 @@ Replay::Replay(const std::string& path) : path_(path) {
     throw InputError(fmt::format("{}: input {} is missing; record from the start of the node on",
                                  path, number - 1));
   }
-  if (end_ && *end_ + 1 != number) {
+  if (end_ && *end_ + 1 != number)
     throw InputError(fmt::format("{}: input {}: comes after the end", path, *end_ + 1));
-  }
   place_ = places_.begin();
   first_ = read();
   next_ = read();
@@ -151,10 +148,9 @@ void Replay::find() {
     const auto input = message.instantiate<PendulumInput>();
     if (!input) throw InputError(fmt::format("{}: has inputs of another version", path_));
     if (topic.empty()) topic = message.getTopic();
-    if (message.getTopic() != topic) {
+    if (message.getTopic() != topic)
       throw InputError(fmt::format("{}: has the inputs of several runs: {} and {}", path_, topic,
                                    message.getTopic()));
-    }
     if (input->began < began) continue;
     if (input->began > began) {
       places_.clear();
@@ -225,10 +221,9 @@ bool Replay::apply(Run& run) {
 }
 
 void Replay::act(const PendulumInput& input, Run& run) const {
-  if (input.time != run.time()) {
+  if (input.time != run.time())
     throw InputError(
         fmt::format("acted at t = {} s, where this run has no state", numberText(input.time)));
-  }
   if (input.start != 0 && input.masses != first_->masses) throw InputError("has other masses");
   Scenario scenario{run.plan(), run.chain().constants()};
   setScenario(scenario, input);

@@ -23,6 +23,7 @@ namespace {
 
 constexpr double kOutOfPlane = 1e-3;       // m
 constexpr double kStaleFrame = 1.0;        // s, until an unchanged frame is forgotten
+constexpr double kForgetInterval = 10.0;   // s, as other holders lose their frames for a moment
 constexpr double kUnknownInterval = 1e-3;  // s
 
 /// Returns the force on the holder of a particle, N, as the sensor of a gripper would feel it: springs,
@@ -49,14 +50,12 @@ std::vector<HolderFrame> parseHeld(const std::string& text, std::ptrdiff_t parti
   for (std::string word; words >> word;) {
     const std::string name = word.substr(0, word.find('='));
     const auto number = name == "last" ? particles : parseInteger(name).value_or(0);
-    if (number < 1 || number > particles) {
+    if (number < 1 || number > particles)
       throw InputError(fmt::format("held: {} is not a particle of the chain: use 1 to {}, or last",
                                    inQuotes(name), particles));
-    }
     const std::string frame = name == word ? "" : word.substr(name.size() + 1);
-    if (!held.emplace(number - 1, frame).second) {
+    if (!held.emplace(number - 1, frame).second)
       throw InputError(fmt::format("held: particle {} is given twice", number));
-    }
   }
   return {held.begin(), held.end()};
 }
@@ -114,13 +113,15 @@ void Robots::lookUp(Robot& robot, double now) {
   try {
     const StampedTransform found = frames_.from(robot.frame);
     if (found.stamp == robot.stamp && found.stamp != 0.0) {
-      if (robot.follower.isSilent(now - kStaleFrame)) frames_.forget();
+      // Transforms older than the last one, after a clock has started again, are seen after this only.
+      if (robot.follower.isSilent(now - kStaleFrame) && now > forget_at_) {
+        frames_.forget();
+        forget_at_ = now + kForgetInterval;
+      }
       return;
     }
     robot.stamp = found.stamp;
-    // It came when tf received it, not when it is looked up, unless its clock is another one.
-    const double age = ros::Time::now().toSec() - found.stamp;
-    take(robot, found, {}, std::nullopt, age > 0.0 && age < kStaleFrame ? now - age : now);
+    take(robot, found, {}, std::nullopt, now);
   } catch (const InputError& error) {
     if (robot.follower.isSilent(now) && robot.warnings.isDue())
       ROS_WARN_STREAM(robot.name << ": " << error.what());
@@ -139,6 +140,11 @@ void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_ms
     ROS_WARN_STREAM(robot.name << ": the input is " << std::abs(at.y())
                                << " m out of the plane of the motion: projected into it");
   }
+}
+
+bool Robots::haveFrames() const {
+  return std::any_of(robots_.begin(), robots_.end(),
+                     [](const Robot& r) { return !r.frame.empty(); });
 }
 
 void Robots::lookUp() {

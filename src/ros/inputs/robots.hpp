@@ -59,8 +59,7 @@ class Follower {
   struct Sample {
     Target holder;
     double stamp;  ///< s
-    double time;   ///< s, steady clock, without the jitter of
-    double received;
+    double time;   ///< s, steady clock
   };
   bool isNext(const Sample& before, const Sample& input) const;
   bool isBelievable(const Sample& input);
@@ -91,7 +90,9 @@ class Robots {
   Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Driver& driver,
          Frames& frames);
 
-  /// Reads tf. Must be called several times per second.
+  /// Whether some follow frames of tf.
+  bool haveFrames() const;
+  /// Reads tf. Must be called as often as frames come, for these come when they are looked up.
   void lookUp();
   /// Moves the particles, and stops those whose input is silent. Must be called before every state.
   /// \param real_time_factor simulated seconds per second; 0: unknown
@@ -126,6 +127,7 @@ class Robots {
   Driver& driver_;
   Frames& frames_;
   std::list<Robot> robots_;  ///< at addresses that stay
+  double forget_at_ = 0.0;   ///< s, from when on stale frames may be forgotten
 };
 
 }  // namespace spring_pendulum

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
+constexpr double kLookUpInterval = 0.002;   // s, between two looks at frames of tf
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
 constexpr double kLongestSending = 10.0;    // s, at the end, for subscribers that are slower
 constexpr double kPollInterval = 0.01;      // s between two checks for subscribers
@@ -131,7 +132,8 @@ void Node::serve() {
   const bool stands = run_.isOver() || paused_;
   const ros::SteadyTime next = stands ? show_at_ : pacer_.dueTime(run_.nextTime());
   const double wait = (next - ros::SteadyTime::now()).toSec();
-  if (wait > 0.0) callBack(std::min(wait, kLongestService));
+  if (wait > 0.0)
+    callBack(std::min(wait, robots_.haveFrames() ? kLookUpInterval : kLongestService));
 }
 
 void Node::callBack(double wait) {

@@ -87,6 +87,7 @@ std::vector<ros::ServiceServer> Node::advertiseServices() {
 std::string Node::take(const Request& request) {
   if (ended_) throw InputError("the node is ending");
   if (last_frame_.size() == 0) throw InputError("the run has not started yet");
+  if (paused_) change(run_.time(), true);  // a request is about what the holders do now
   std::string sentence = std::visit([this](const auto& each) { return on(each); }, request);
   show_at_ = ros::SteadyTime::now();
   return sentence;
@@ -99,7 +100,6 @@ std::string Node::on(const Pause& request) {
       fmt::format("{}{} at frame {}, t = {:.6g} s", paused == paused_ ? "already " : "",
                   paused ? "paused" : "running", run_.frame(), run_.time());
   if (paused == paused_) return sentence;
-  if (paused_) change(run_.time(), true);
   paused_ = paused;
   steps_wanted_ = 0;
   pacer_.start(run_.time(), ros::SteadyTime::now());
