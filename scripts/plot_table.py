@@ -74,13 +74,18 @@ class Table:
         return plain(value if key == 'method' else ('%s = %s %s' % (key, value, unit)).strip())
 
 
+def measured(row, key):
+    """The number in a row, NaN if it was measured only until the run diverged."""
+    return math.nan if row.get('verdict') == 'diverged' and key != 'diverged_at' else number(row[key])
+
+
 def draw_lines(axes, rows, table, options):
     for k, line in enumerate(table.values(options.lines)):
         points = {}
         for row in rows:
-            # What a diverged run measured, it measured until then only.
-            if (line is None or row[options.lines] == line) and row.get('verdict') != 'diverged':
-                points.setdefault(number(row[options.x]), []).append(number(row[options.y]))
+            y = measured(row, options.y)
+            if (line is None or row[options.lines] == line) and math.isfinite(y):
+                points.setdefault(number(row[options.x]), []).append(y)
         color, style = METHODS.get(line) or STYLES[k % len(STYLES)]
         x = sorted(v for v in points if math.isfinite(v))
         middle = [statistics.median(points[v]) for v in x]
@@ -139,7 +144,7 @@ def draw_map(axes, rows, table, options):
 
 
 def draw_histogram(axes, rows, _, options):
-    values = sorted(v for v in (number(row[options.x]) for row in rows if row.get('verdict') != 'diverged')
+    values = sorted(v for v in (measured(row, options.x) for row in rows)
                     if math.isfinite(v) and (v > 0 or 'x' not in options.log))
     if not values:
         return
@@ -155,6 +160,8 @@ def draw_histogram(axes, rows, _, options):
 
 def draw(table, options):
     panels = table.values(options.panels)
+    if len(panels) > 100:
+        refuse('panels: %s has %d values, and at most 100 can be drawn' % (options.panels, len(panels)))
     columns = min(len(panels), 4)
     lines = -(-len(panels) // columns)
     size = (8, 5.5) if len(panels) == 1 else (4.2 * columns, 4.0 * lines + 1)

@@ -68,7 +68,7 @@ class Lines(unittest.TestCase):
         self.assertEqual({tuple(line.get_xdata()) for line in lines}, {(1.0, 2.0)})
 
     def test_show_median_and_range_of_several_rows(self):
-        figure = draw('case,x,y\n0,1,5\n1,1,1\n2,1,2\n3,2,7\n', type='lines', x='x', y='y')
+        figure = draw('case,x,y\n0,1,5\n1,1,nan\n2,1,1\n3,1,2\n4,2,7\n', type='lines', x='x', y='y')
         self.assertEqual(figure.axes[0].lines[0].get_ydata().tolist(), [2, 7])
         low, high = figure.axes[0].collections[0].get_paths()[0].get_extents().intervaly
         self.assertEqual((low, high), (1, 7))
@@ -76,9 +76,10 @@ class Lines(unittest.TestCase):
 
 class Histograms(unittest.TestCase):
     def test_count_what_did_not_diverge(self):
-        rows = ''.join('%d,%s,%s\n' % (k, value, 'ok') for k, value in enumerate((3, 1, 2, 10)))
-        figure = draw('case,error [m],verdict\n' + rows + '4,0,diverged\n', type='histogram', x='error')
-        self.assertEqual(legend(figure), ['4 cases, median 2.5, 95 % at most 10'])
+        rows = '0,3,ok\n1,1,ok\n2,2,ok\n3,10,ok\n4,0,diverged\n'
+        for key, text in (('error', '4 cases, median 2.5'), ('diverged_at', '5 cases, median 2')):
+            figure = draw('case,%s,verdict\n%s' % (key, rows), type='histogram', x=key)
+            self.assertEqual(legend(figure), [text + ', 95 % at most 10'])
 
 
 class Tables(unittest.TestCase):

@@ -464,7 +464,7 @@ class LabTest(unittest.TestCase):
             self.element('own-run').click()
             self.wait(f'return pendulumLab.state().runs[{number}]?.end?.status === 0')
             self.assertEqual(self.element('own-note').text, f'{name} is in the table of runs.')
-        self.assertTrue(all(run['end']['status'] == 0 for run in self.state()['runs']))
+        self.wait('return pendulumLab.state().runs.every((run) => run?.end?.status === 0)')
         self.type('own-name', 'Bad09')
         field = self.browser.find_element(By.CSS_SELECTOR, '[aria-label="b 2"]')
         field.clear()
