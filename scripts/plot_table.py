@@ -4,6 +4,9 @@
 sweep --plot calls it with the options of the study's entry `plot`; docs/sweep.md explains them. It can also
 draw an existing table again. With --try, it only finds out whether it could; the table may lack columns.
 """
+import signal
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C is no reason for a traceback
+
 import argparse
 import csv
 import itertools

@@ -152,9 +152,8 @@ class Checker {
         if (!base.mistakes.empty()) break;
       }
     }
-    for (std::size_t i = first; i < table_.size() && !numbers && !search_limit_.isOver(); ++i) {
+    for (std::size_t i = first; i < table_.size() && !numbers && !search_limit_.isOver(); ++i)
       if (base.canMake(table_[i])) explains(base.with(table_[i]));
-    }
   }
 
   Agreement agreementWith(const StudentProgram& program, WorkLimit& limit) const {

@@ -35,13 +35,11 @@ struct Format {
     const std::size_t point = std::min(mantissa.find('.'), mantissa.size() - 1);
     auto after_point = static_cast<std::int64_t>(mantissa.size() - 1 - point);
     int count = 0;
-    for (const char c : mantissa) {
+    for (const char c : mantissa)
       if (('1' <= c && c <= '9') || (c == '0' && count > 0)) ++count;
-    }
-    if (mantissa.size() < word.size()) {
+    if (mantissa.size() < word.size())
       after_point -= std::clamp(parseInteger(word.substr(mantissa.size() + 1)).value_or(0),
                                 -kMostExponent, kMostExponent);
-    }
     digits = std::max(digits, count);
     decimals = std::max(decimals, static_cast<int>(after_point));
   }
@@ -77,10 +75,9 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
     }
   }
   const auto rows = static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  if (rows != particles) {
+  if (rows != particles)
     throw FileError(fmt::format("{}: has {}, but the particle file has {}", frame.name,
                                 counted(rows, "particle"), particles));
-  }
   using Rows = Eigen::Array<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
   return {frame.index, Eigen::Map<const Rows>(numbers.data(), rows, 2), {}};
 }
@@ -127,6 +124,8 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
 }
 
 AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles) {
+  const auto by_index = [](const auto& a, const auto& b) { return a.index < b.index; };
+  const auto first = std::min_element(texts.begin(), texts.end(), by_index);
   Format format;
   AllFrames all;
   all.start = particles.frame;
@@ -136,13 +135,13 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles
     Format with_frame = format;
     all.frames.push_back(read(text, particles.state.size(), with_frame));
     // The start may be a copy of the particle file, with more digits than the other frames.
-    const bool is_copy = text.index == all.start && (all.frames.back().positions == start).all();
+    const bool is_first = text.index == std::max(first->index, all.start);
+    const bool is_copy = is_first && (all.frames.back().positions == start).all();
     if (!is_copy || texts.size() == 1) format = with_frame;
   }
   if (all.frames.empty())
     throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
-  std::sort(all.frames.begin(), all.frames.end(),
-            [](const auto& a, const auto& b) { return a.index < b.index; });
+  std::sort(all.frames.begin(), all.frames.end(), by_index);
   for (FrameNumbers& frame : all.frames)
     frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
   all.digits = format.digits;

@@ -33,7 +33,7 @@ int drawPlot(const Study& study, const std::string& table, const std::string& pi
   if (status != 0) throw FileError(std::string("--plot: could not run ") + kPython);
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace spring_pendulum::sweep

@@ -276,10 +276,13 @@ def other_courses_are_judged(lab):
 def start_may_be_a_copy(lab):
     """Whether frames are accepted whose start is the particle file, with more digits than the others."""
     scene, path = lab.scene('random')
-    lab.verdict(student.frames(scene, count=40), '6g', path, 'Runge-Kutta-4')
-    folder = lab.folder / f'frames_{lab.count}'
-    np.savetxt(folder / 'frame_0000.txt', scene[:, :2], fmt='%.17g')
-    return subprocess.call([lab.check, folder, '--particles', path, '--frames', '40'], stdout=subprocess.DEVNULL) == 0
+    for first in (0, 1):
+        lab.verdict(student.frames(scene, count=40), '6g', path, 'Runge-Kutta-4', first=first)
+        folder = lab.folder / f'frames_{lab.count}'
+        np.savetxt(folder / f'frame_000{first}.txt', scene[:, :2], fmt='%.17g')
+        if subprocess.call([lab.check, folder, '-p', path, '--frames', '40'], stdout=subprocess.DEVNULL) != 0:
+            return False
+    return True
 
 
 def resumed_run_is_equal(lab, method):

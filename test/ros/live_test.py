@@ -82,7 +82,7 @@ class Hands(LiveTest):
             self.assertEqual((v.x, v.z), (0.0, 0.0))
             with Folder() as folder:
                 self.call('save_state', folder + '/state.txt')
-                self.assertRegex(files_in(folder).popitem()[1], r'(?m)^4(\.0)? 1(\.0)? ')
+                self.assertRegex(files_in(folder).popitem()[1], br'(?m)^4(\.0)? 1(\.0)? ')
             self.let_go(6)
             self.call('pause', False)
             self.wait_state(lambda m: m.positions[5].z < 0.5, 'it falls')
@@ -204,9 +204,7 @@ class Robots(LiveTest):
             send(9.0, 202.0, frame='nowhere')
             for k in range(15):  # steady for half a second
                 send(9.0, 203.0 + k, y=0.5)
-            rospy.sleep(0.3)
-            p = self.last().positions[10]
-            self.assertLess(math.hypot(p.x - 9.0, p.z - 1.0), 1e-3)
+            self.wait_state(lambda m: math.hypot(m.positions[10].x - 9.0, m.positions[10].z - 1.0) < 1e-3, 'it is there')
             warnings = '\n'.join(node.lines('WARN'))
             for text in ('backwards in time', 'followed again', 'out of the plane', 'nowhere'):
                 self.assertIn(text, warnings)

@@ -119,8 +119,7 @@ TEST(StabilityAdvice, CheckReportsTheVeryRun) {
   // 5.93e-6 m is known independently for the largest coordinate.
   EXPECT_THAT(text, StartsWith("Runge-Kutta-4 with a step size of 0.01 s over 5 s: ok\nlargest "
                                "position error 6.4e-06 m at t = 4.7 s, largest energy error "));
-  EXPECT_THAT(text, HasSubstr("\nlargest stable step size: 0.2"));
-  EXPECT_THAT(text, HasSubstr("\nlargest accurate step size: 0.1"));
+  EXPECT_THAT(text, testing::ContainsRegex("stable step size: 0.2.*\nlargest accurate .*: 0.1"));
   scenario.frames = 1;
   EXPECT_THAT(checkStability(scene.chain, scene.start, scenario).text, HasSubstr(" over 0 s: ok"));
 }

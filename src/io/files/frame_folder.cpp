@@ -96,11 +96,10 @@ std::vector<FrameText> readFrameFolder(const std::string& folder) {
     if (!without_size) bytes += size;
   }
   if (frames.empty()) refuse(fullPath(folder), "has no frames frame_0000.txt, frame_0001.txt, ...");
-  if (bytes > kMostBytes) {
+  if (bytes > kMostBytes)
     refuse(fullPath(folder),
            fmt::format("its frames have {} MB, more than the {} MB that can be compared",
                        bytes / 1'000'000, kMostBytes / 1'000'000));
-  }
   std::sort(frames.begin(), frames.end(),
             [](const FrameText& a, const FrameText& b) { return a.index < b.index; });
   for (FrameText& frame : frames) frame.text = readTextFile(frame.name);

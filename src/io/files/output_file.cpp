@@ -30,9 +30,8 @@ std::string targetOf(const std::string& path) {
   const std::string name = fs::path(target).filename().string();
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
-  if (!exists && errno != ENOENT) {
+  if (!exists && errno != ENOENT)
     throw FileError(fmt::format("{}: could not be written: {}", fullPath(path), messageForErrno()));
-  }
   if (name.empty() || (exists && !S_ISREG(status.st_mode))) {
     throw FileError(fullPath(path) + ": is a folder, a pipe or a device; give a regular file");
   }

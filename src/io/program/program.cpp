@@ -118,7 +118,9 @@ void printClosingLine(const std::string& text) {
 
 int printAdvice(const Run& run) {
   printError(noteLines(remarksOn(run)));
-  printOutput(checkStability(run.chain(), run.start(), run.plan()).text);
+  Plan plan = run.plan();
+  plan.frames -= run.firstFrame();
+  printOutput(checkStability(run.chain(), run.start(), plan).text);
   return kDone;
 }
 

@@ -15,6 +15,7 @@ constexpr double kLost = 0.5;           // m
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
 constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
 constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder is extrapolated
+constexpr double kSteepest = 5.0;       // m/s², beyond twice the speed: a larger change is a step
 constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
 
@@ -89,11 +90,11 @@ void Follower::estimateMotion(bool has_velocity) {
   const auto slope = [](const Vector& from, const Vector& to, double time) {
     return Vector{(to.x - from.x) / time, (to.y - from.y) / time};
   };
-  const auto is_step = [](const Vector& u, const Vector& v) {
-    const double slower = std::min(std::hypot(u.x, u.y), std::hypot(v.x, v.y));
-    return std::hypot(v.x - u.x, v.y - u.y) > slower + kApproachSpeed;
-  };
   const double h1 = samples_.back().time - first->time;
+  const auto is_step = [h1](const Vector& u, const Vector& v) {
+    const double slower = std::min(std::hypot(u.x, u.y), std::hypot(v.x, v.y));
+    return std::hypot(v.x - u.x, v.y - u.y) > slower + kSteepest * h1;
+  };
   if (has_velocity) {
     const Vector& earlier = first->holder.velocity;
     if (!is_step(earlier, now.velocity)) now.acceleration = slope(earlier, now.velocity, h1);

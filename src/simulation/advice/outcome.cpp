@@ -70,7 +70,6 @@ class Trials {
     if (total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_())) return {};
     plan.on_divergence = OnDivergence::kStop;
     plan.threads = 1;
-    plan.sleep = 0.0;
     const bool always = plan.reference == ReferenceUse::kAlways;
     plan.reference = always ? ReferenceUse::kAlways : ReferenceUse::kAuto;
     if (!measures(enough)) plan.reference = ReferenceUse::kNever;
@@ -96,6 +95,7 @@ class Trials {
     if (duration / step > 1e9) return {};  // would take too long
     const double interval = std::clamp(plan_.timeOfFrame(1), duration / 2000.0, duration);
     Plan plan = plan_;
+    plan.sleep = 0.0;
     plan.time_step = step;
     plan.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
     plan.frames = std::max<std::int64_t>(1, std::llround(duration / plan.timeOfFrame(1))) + 1;
