@@ -92,9 +92,7 @@ class PendulumNode:
         self.parameters.update(parameters)
         self.parameters = {k: v for k, v in self.parameters.items() if v is not None}
         master = rosgraph.Master('/test')
-        if master.hasParam(name):
-            master.deleteParam(name)
-        master.setParam(name, self.parameters)
+        master.setParam(name, self.parameters)  # replaces all that were there
         self.log = tempfile.TemporaryFile(mode='w+')
         namespace, _, base = name.rpartition('/')
         self.process = subprocess.Popen(
