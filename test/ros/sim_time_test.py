@@ -71,6 +71,8 @@ class SimTime(NodeTest):
             for second in (100, 101, 5, 1000000005, 1000, 3, 4000000000, 7):
                 clock.publish(Clock(rospy.Time(second)))
                 tf.publish(TFMessage([transform('gripper', stamp=rospy.Time())]))
+                if second == 4000000000:
+                    self.wait_state(lambda m: m.header.stamp.secs >= 4000000000, 'the clock')
                 for _ in range(5):
                     self.state.wait_for(len(self.state.messages) + 1)
                     pull = feedback(6, Feedback.POSE_UPDATE, 4.0, 1.0)
