@@ -154,7 +154,7 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
 py::tuple check(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
   const Scene scene = sceneOf(particles, scenario);
-  scenario.frames -= scene.frame;
+  scenario.frames -= scene.frame;  // a trial counts them from the start
   Interruption interruption;
   StabilityReport report;
   {

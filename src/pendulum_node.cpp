@@ -70,7 +70,8 @@ void stopStarting() {
 }
 
 /// Ends the run when the master asks for it. ROS itself would shut down at once, before the files are
-/// closed; and while topics are advertised, that aborts the program. What is bound first stays.
+/// closed; and while topics are advertised, that aborts the program. Must be called before
+/// ROS starts: the first handler stays.
 void endWhenTheMasterAsks() {
   using XmlRpc::XmlRpcValue;
   const auto end = [asked = false](XmlRpcValue& call, XmlRpcValue& answer) mutable {

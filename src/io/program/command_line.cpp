@@ -42,7 +42,7 @@ void addWithValue(po::options_description& description, const std::string& name,
                   const std::string& placeholder, const std::string& help) {
   const bool has_letter = name == "particles" || name == "output";
   const std::string names = has_letter ? name + ',' + name[0] : name;  // "particles,p"
-  // With its blank, also the longest option has two before its text, as help2man needs it.
+  // The blank separates the longest option from its text by two, as help2man needs it.
   auto* const value = po::value<std::string>()->value_name(placeholder + ' ');
   description.add_options()(names.c_str(), value, help.c_str());
 }

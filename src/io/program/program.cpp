@@ -119,7 +119,7 @@ void printClosingLine(const std::string& text) {
 int printAdvice(const Run& run) {
   printError(noteLines(remarksOn(run)));
   Plan plan = run.plan();
-  plan.frames -= run.firstFrame();
+  plan.frames -= run.firstFrame();  // a trial counts them from the start
   printOutput(checkStability(run.chain(), run.start(), plan).text);
   return kDone;
 }

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kSilence = 0.5;        // s
 constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its holder
-constexpr double kMet = 0.01;           // m
-constexpr double kLost = 0.5;           // m
+constexpr double kMet = 0.01;           // m, within which a particle is with its holder
+constexpr double kLost = 0.5;           // m, beyond which the log says that it is not
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
 constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
 constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder is extrapolated
-constexpr double kSteepest = 5.0;       // m/s², beyond twice the speed: a larger change is a step
+constexpr double kSteepest = 5.0;       // m/s², largest acceleration of a slow holder
 constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
 
@@ -58,11 +58,10 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   if (!isBelievable(sample)) return false;
   if (now >= refused_at_ + kSilence && std::exchange(warned_, false))
     warn_(name_ + " is followed again");
-  const double step = isSilent(now) ? 0.0 : stamp - samples_.back().stamp;
   if (isSilent(now)) {
     samples_.clear();
     left_ = 0.0;
-  } else if (step > 0.0) {
+  } else if (const double step = stamp - samples_.back().stamp; step > 0.0) {
     // Differences of stamps have no jitter, but their clock may be slower.
     const double expected = samples_.back().time + step;
     sample.time = std::clamp(expected + kForget * (now - expected), now - kJitter, now);

@@ -113,7 +113,7 @@ void Robots::lookUp(Robot& robot, double now) {
   try {
     const StampedTransform found = frames_.from(robot.frame);
     if (found.stamp == robot.stamp && found.stamp != 0.0) {
-      // Transforms older than the last one, after a clock has started again, are seen after this only.
+      // tf ignores the transforms of a clock that has started again until its buffer is empty.
       if (robot.follower.isSilent(now - kStaleFrame) && now > forget_at_) {
         frames_.forget();
         forget_at_ = now + kForgetInterval;

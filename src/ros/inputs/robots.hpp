@@ -48,7 +48,7 @@ class Follower {
   /// Returns where the particle shall be at the present state, so that it is with its holder in the next
   /// one, which is shown now; nothing before the first input.
   /// \param here     position of the particle, m
-  /// \param interval until the next state, s; 0: the particle is put to its holder at once
+  /// \param interval until the next state, s; 0: the particle is placed at its holder at once
   std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
   /// Whether no input came for half a second.
   bool isSilent(double now) const;
@@ -77,8 +77,6 @@ class Follower {
   double refused_at_ = 0.0;        ///< s, at the last refusal
   std::optional<PlaneVector<double>> place_;  ///< m, of a particle that waits for its input
   bool warned_ = false;                       ///< that the input is refused, or silent
-  double known_for_ = 0.0;
-  double rate_ = 1.0;  ///< of the steady clock, s per second of the stamps
   double left_ = 0.0;  ///< s, since when the particle has been far from its holder; 0: it is not
   double expected_ = 0.0;  ///< s, when it should have met it
 };
@@ -92,7 +90,7 @@ class Robots {
 
   /// Whether some follow frames of tf.
   bool haveFrames() const;
-  /// Reads tf. Must be called as often as frames come, for these come when they are looked up.
+  /// Reads tf. Must be called often: a frame counts as received when it is read.
   void lookUp();
   /// Moves the particles, and stops those whose input is silent. Must be called before every state.
   /// \param real_time_factor simulated seconds per second; 0: unknown
