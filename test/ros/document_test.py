@@ -43,6 +43,7 @@ class Document(NodeTest):
 
     def test_the_services_set_names_its_constants(self):
         with self.node():
+            self.state.wait_for(1)
             answer = service('set')('nothing', 1.0)
         row = next(row for row in document().split('\n') if row.startswith('| `~set`'))
         constants = re.findall('`(\\w+)`', row.split('|')[3])

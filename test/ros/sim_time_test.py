@@ -67,7 +67,8 @@ class SimTime(NodeTest):
         with self.node(held='last=gripper') as node:
             hand = connected('handles/feedback', Feedback)
             wait_until(lambda: clock.get_num_connections() and tf.get_num_connections(), 'the subscribers')
-            # The jump to 4e9 s is longer than a duration of ROS. interactive_markers computes it for another client.
+            # The jump to 4e9 s is longer than a duration of ROS. interactive_markers computes it for a handle that no
+            # client has pulled so far.
             for second in (100, 101, 5, 1000000005, 1000, 3, 4000000000, 7):
                 clock.publish(Clock(rospy.Time(second)))
                 tf.publish(TFMessage([transform('gripper', stamp=rospy.Time())]))
@@ -75,9 +76,7 @@ class SimTime(NodeTest):
                     self.wait_state(lambda m: m.header.stamp.secs >= 4000000000, 'the clock')
                 for _ in range(5):
                     self.state.wait_for(len(self.state.messages) + 1)
-                    pull = feedback(6, Feedback.POSE_UPDATE, 4.0, 1.0)
-                    pull.client_id = 'another' if second == 4000000000 else 'rviz'
-                    hand.publish(pull)
+                    hand.publish(feedback(4 if second == 4000000000 else 6, Feedback.POSE_UPDATE, 4.0, 1.0))
             self.wait_state(lambda m: math.hypot(m.positions[5].x - 4.0, m.positions[5].z - 1.0) < 1e-3, 'the pull')
             wait_until(lambda: 'refused: Duration is out of' in node.output(), 'the refusal')
             node.stop()
