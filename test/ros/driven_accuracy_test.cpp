@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kInputInterval = 0.02;   // s: 50 Hz
 constexpr double kStateInterval = 0.025;  // s: inputs are up to 0.02 s old when they act
-constexpr int kStates = 120;
 
 /// A hand that starts at rest at `from`, reaches out and moves about.
 Target handAt(double t, const PlaneVector<double>& from, double phase) {
@@ -102,7 +101,7 @@ Outcome carried(const std::string& method, double tolerance, std::int64_t steps 
   Driver driver(run);
   Robot left(0, scene.start, 0.3, 1), right(6, scene.start, 2.0, 2);
   Outcome outcome;
-  for (int k = 0; k < kStates; ++k) {
+  for (int k = 0; k < 120; ++k) {
     left.follow(run, driver);
     right.follow(run, driver);
     driver.apply(run, run.nextTime(), false);

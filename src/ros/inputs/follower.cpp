@@ -99,14 +99,15 @@ void Follower::estimateMotion(bool has_velocity) {
     if (!is_step(earlier, now.velocity)) now.acceleration = slope(earlier, now.velocity, h1);
     return;
   }
-  now.velocity = slope(first->holder.position, now.position, h1);
   const Sample* const second = before(h1 + kBaseline);
   if (second == nullptr) return;
+  now.velocity = slope(first->holder.position, now.position, h1);
   const double h2 = first->time - second->time;
   const Vector earlier = slope(second->holder.position, first->holder.position, h2);
   if (is_step(earlier, now.velocity)) {
-    if (std::hypot(earlier.x, earlier.y) < std::hypot(now.velocity.x, now.velocity.y))
-      now.velocity = earlier;
+    for (const Vector& other : {earlier, slope(second->holder.position, now.position, h1 + h2)})
+      if (std::hypot(other.x, other.y) < std::hypot(now.velocity.x, now.velocity.y))
+        now.velocity = other;
     return;
   }
   now.acceleration = slope(earlier, now.velocity, 0.5 * (h1 + h2));
