@@ -207,14 +207,12 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
 
 Verdict Judge::positionVerdict(const ReferenceRun* reference) const {
   const double time = entry_.time;
-  if (reference == nullptr) {
+  if (reference == nullptr)
     return {VerdictKind::kNotChecked, time, 0, "not checked: no reference run"};
-  }
-  if (!reference->isMeasuring()) {
+  if (!reference->isMeasuring())
     return {reference->verdict(), time, 0,
             fmt::format("{} from t = {:.6g} s on: {}", toString(reference->verdict()), time,
                         reference->reason())};
-  }
   const double error = position_error_.now, length = reference->length();
   if (error <= kInaccurateThreshold * length) return {VerdictKind::kOk, time, 0, "ok"};
   return {
@@ -237,9 +235,8 @@ std::string Judge::measurements() const {
                                             roundedText(error.largest, 2), error.largest_time)
                               : fmt::format("largest position error below {} m",
                                             roundedText(1.05 * error.bound, 2));
-    if (error.measured_until < entry_.time) {
+    if (error.measured_until < entry_.time)
       text += fmt::format(" (measured until t = {:.6g} s)", error.measured_until);
-    }
   }
   return text + (entry_.relative_residual
                      ? fmt::format(", largest energy error {} times the energy scale",
@@ -249,16 +246,14 @@ std::string Judge::measurements() const {
 
 std::string Judge::toleranceRemark() const {
   std::string text;
-  if (exceeded_time_ > 0.0) {
+  if (exceeded_time_ > 0.0)
     text = fmt::format("the position error exceeds ten times the tolerance from t = {:.6g} s on",
                        exceeded_time_);
-  }
-  if (sensitive_time_ > 0.0) {
+  if (sensitive_time_ > 0.0)
     text += fmt::format(
         "{}sensitive from t = {:.6g} s on: small errors grow so much that no method can "
         "promise a tolerance of {:.3g} m",
         text.empty() ? "" : "; ", sensitive_time_, options_.tolerance);
-  }
   return text;
 }
 

@@ -144,10 +144,9 @@ void ReferenceRun::measure(double run_work) {
   uncertainty_ = kSafety * distance_ + rounding_;
   const double believed = kBelieved * length_;
   if (uncertainty_ <= believed) return;
-  if (kSensitiveGrowth * rounding_ > believed) {
+  if (kSensitiveGrowth * rounding_ > believed)
     return stop(
         "positions are so large that their rounding errors matter; start nearer to the origin");
-  }
   stop("small errors grow so much that the true positions cannot be determined",
        VerdictKind::kSensitive);
 }

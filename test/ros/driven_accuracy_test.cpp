@@ -53,8 +53,7 @@ class Robot {
     }
     const PlaneVector<double> here{run.state().x()[particle_], run.state().y()[particle_]};
     const auto target = follower_.targetAt(run.nextTime(), here, run.nextTime() - run.time());
-    ASSERT_TRUE(target.has_value());
-    driver.on(Hold{particle_, *target});
+    driver.on(Hold{particle_, target.value()});
   }
 
   /// Distance of the particle from its holder, m.

@@ -180,9 +180,8 @@ TEST(Follower, FollowsASteadyInputAgain) {
   for (int round = 0; round < 200; ++round) {
     Follower follower("odom", 1.0, [](auto&) {});
     double now = 1.0;
-    for (int i = 0; i < 20; ++i, now += 0.03) {
+    for (int i = 0; i < 20; ++i, now += 0.03)
       follower.take({{draw(20.0), draw(20.0)}, {draw(30.0), 0.0}, {}}, true, draw(100.0), now);
-    }
     bool follows = false;
     const double stamp = draw(100.0), start = now;
     for (; now < start + 1.0; now += 0.03)

@@ -58,7 +58,7 @@ TEST(GrowthPerStep, ChangesSignAtTheLimitsOfTheTable) {
     EXPECT_LE(growthPerStep(method, 0.0, 0.999999 * real), 0.0);
     EXPECT_GT(growthPerStep(method, 0.0, 1.000001 * real), 0.0);
     const double imaginary = method.imaginary_stability_limit;
-    if (imaginary > 0.0) EXPECT_LE(growthPerStep(method, 0.999999 * imaginary, 0.0), 0.0);
+    EXPECT_LE(imaginary > 0.0 ? growthPerStep(method, 0.999999 * imaginary, 0.0) : 0.0, 0.0);
     EXPECT_GT(growthPerStep(method, std::max(1.000001 * imaginary, 1e-3), 0.0), 0.0);
   });
 }

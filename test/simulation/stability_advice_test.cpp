@@ -105,8 +105,7 @@ TEST(StabilityAdvice, ResemblesItselfWithAndWithoutSlightAir) {
   Scenario scenario = scenarioOf(scene, findMethod("Runge-Kutta-4"), 1e-3);
   const StabilityReport without = checkStability(scene.chain, scene.start, scenario);
   scenario.constants.air_drag = 1e-9;
-  const StabilityReport with =
-      checkStability(test::inAir(scene.chain, 1e-9), scene.start, scenario);
+  const auto with = checkStability(test::inAir(scene.chain, 1e-9), scene.start, scenario);
   EXPECT_EQ(with.stable.step, without.stable.step);
   EXPECT_NEAR(with.accurate_step, without.accurate_step, 0.04 * without.accurate_step);
 }
@@ -122,14 +121,17 @@ TEST(StabilityAdvice, CheckReportsTheVeryRun) {
   EXPECT_THAT(text, testing::ContainsRegex("stable step size: 0.2.*\nlargest accurate .*: 0.1"));
   scenario.frames = 1;
   EXPECT_THAT(checkStability(scene.chain, scene.start, scenario).text, HasSubstr(" over 0 s: ok"));
+  scenario.frames = 401;  // chaotic from 33 s on
+  const Chain undamped(scene.chain.masses(), {50.0, 0.0, 1.0}, 9.81);
+  EXPECT_THAT(checkStability(undamped, scene.start, scenario).text,
+              HasSubstr("s, when the motion is sensitive\n"));
 }
 
 TEST(StabilityAdvice, CheckSaysWhatIsTooLargeToTry) {
   const Scene scene = test::horizontalChain("", 30000, 1.0);
   EXPECT_THAT(
-      checkStability(scene.chain, scene.start, Scenario{}).text,
-      StartsWith("Runge-Kutta-4: takes too long to try\nlargest stable step size: 0.05 s (linear "
-                 "estimate)\n"));
+      checkStability(scene.chain, scene.start, {}).text,
+      HasSubstr("takes too long to try\nlargest stable step size: 0.05 s (linear estimate)"));
 }
 
 // The reference run reaches 14 s.

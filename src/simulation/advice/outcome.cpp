@@ -70,8 +70,7 @@ class Trials {
     if (total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_())) return {};
     plan.on_divergence = OnDivergence::kStop;
     plan.threads = 1;
-    const bool always = plan.reference == ReferenceUse::kAlways;
-    plan.reference = always ? ReferenceUse::kAlways : ReferenceUse::kAuto;
+    if (plan.reference == ReferenceUse::kNever) plan.reference = ReferenceUse::kAuto;
     if (!measures(enough)) plan.reference = ReferenceUse::kNever;
     std::optional<Run> run;
     const auto work = [&] {
@@ -90,7 +89,7 @@ class Trials {
   }
 
   /// The verdict on a run with another step size, with frames at about the same times.
-  std::optional<VerdictKind> verdictWithStep(double step, VerdictKind enough) {
+  std::optional<Verdict> verdictWithStep(double step, VerdictKind enough) {
     const double duration = durationOf(plan_);
     if (duration / step > 1e9) return {};  // would take too long
     const double interval = std::clamp(plan_.timeOfFrame(1), duration / 2000.0, duration);
@@ -100,7 +99,7 @@ class Trials {
     plan.steps_per_frame = std::max<std::int64_t>(1, std::llround(interval / step));
     plan.frames = std::max<std::int64_t>(1, std::llround(duration / plan.timeOfFrame(1))) + 1;
     const auto trial = run(plan, enough);
-    return trial ? std::optional(trial->verdict.kind) : std::nullopt;
+    return trial ? std::optional(trial->verdict) : std::nullopt;
   }
 
   /// Searches from `first` for the largest step size up to `most` whose verdict is better than `bad`, while
@@ -114,14 +113,19 @@ class Trials {
          ratio = std::min(ratio * ratio, 2.0)) {
       const auto tried = verdictWithStep(step, bad);
       if (!tried && std::isinf(failed)) break;
-      const VerdictKind kind = tried.value_or(VerdictKind::kOk);
+      const VerdictKind kind = tried.value_or(Verdict{}).kind;
       if (kind == VerdictKind::kNotChecked && measures(bad)) return std::nan("");
       (kind < bad ? low : failed) = step;
-      if (tried && kind < bad) found = step;
+      if (tried && kind < bad) {
+        found = step;
+        until_ = kind == VerdictKind::kSensitive
+                     ? fmt::format(" until t = {:.4g} s, when the motion is sensitive", tried->time)
+                     : "";
+      }
       if (found >= roundedDown(most)) return kInfinity;
       if (failed <= kPrecision * low) {
         // Nearly undamped chains have narrow intervals of unstable step sizes.
-        if (verdictWithStep(0.9 * low, bad).value_or(VerdictKind::kOk) < bad) break;
+        if (verdictWithStep(0.9 * low, bad).value_or(Verdict{}).kind < bad) break;
         failed = 0.9 * low;
         found = low = 0.0;
       }
@@ -132,6 +136,9 @@ class Trials {
     return found;
   }
 
+  /// When the motion becomes sensitive with the step size that was found, if it does.
+  const std::string& until() const { return until_; }
+
  private:
   /// Whether trials that end at a verdict need the position error.
   static bool measures(VerdictKind enough) { return enough != VerdictKind::kGainedEnergy; }
@@ -141,6 +148,7 @@ class Trials {
   std::function<bool()> stop_;
   double evaluation_time_;   ///< in addition to what the integrator counts, s
   double total_work_ = 0.0;  ///< s
+  std::string until_;
 };
 
 StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
@@ -157,11 +165,14 @@ StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
   return {std::isfinite(limit) ? roundedDown(limit) : limit, true};
 }
 
-std::string stepText(double step, bool is_estimate = false) {
+std::string stepText(double step, const std::string& remark) {
   if (std::isnan(step)) return "unknown, as a reference run would take too long";
   if (step == 0.0) return "unknown, as runs take too long to be tried";
-  const std::string text = std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", step);
-  return text + (is_estimate ? " (linear estimate)" : "");
+  return (std::isinf(step) ? "the whole run" : fmt::format("{:.3g} s", step)) + remark;
+}
+
+std::string stepText(const StableStep& stable) {
+  return stepText(stable.step, stable.is_estimate ? " (linear estimate)" : "");
 }
 
 }  // namespace
@@ -183,26 +194,25 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
     report.verdict = trial->verdict;
     report.position_error = trial->position_error;
     report.text =
-        fmt::format("{} with a {} over {:.4g} s: {}\n{}\n", method.name,
-                    fmt::format(fixed ? "step size of {} s" : "tolerance of {} m",
-                                numberText(fixed ? plan.time_step : plan.tolerance)),
+        fmt::format("{} with a {} of {} {} over {:.4g} s: {}\n{}\n", method.name,
+                    fixed ? "step size" : "tolerance",
+                    numberText(fixed ? plan.time_step : plan.tolerance), fixed ? "s" : "m",
                     plan.timeOfFrame(plan.frames - 1), trial->verdict.text, trial->measurements);
   }
   if (!fixed) return report;
   report.stable = stableStep(trials, chain, plan);
-  report.text += fmt::format("largest stable step size: {}\n",
-                             stepText(report.stable.step, report.stable.is_estimate));
+  report.text += fmt::format("largest stable step size: {}\n", stepText(report.stable));
   if (!report.verdict) return report;
   // The error grows with a power of the step size: the order of the method.
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
   const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
-  double failed = kInfinity;
-  if (isBad(report.verdict->kind)) failed = plan.time_step;
+  const double failed = isBad(report.verdict->kind) ? plan.time_step : kInfinity;
   report.accurate_step = trials.largestStep(plan.time_step * (std::isnan(factor) ? 1.0 : factor),
                                             std::min(report.stable.step, durationOf(plan)),
                                             VerdictKind::kInaccurate, failed);
   if (std::isinf(report.accurate_step)) report.accurate_step = report.stable.step;
-  report.text += fmt::format("largest accurate step size: {}\n", stepText(report.accurate_step));
+  report.text += fmt::format("largest accurate step size: {}\n",
+                             stepText(report.accurate_step, trials.until()));
   return report;
 }
 
@@ -220,8 +230,7 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Pl
   Trials trials(chain, start, plan, stop);
   const Method& method = plan.method;
   const StableStep stable = stableStep(trials, chain, plan);
-  std::string text = fmt::format("largest stable step for {}: {}", method.name,
-                                 stepText(stable.step, stable.is_estimate));
+  std::string text = fmt::format("largest stable step for {}: {}", method.name, stepText(stable));
   if (!method.hasFixedStep()) {
     text = fmt::format("try a tolerance below {} m", numberText(plan.tolerance));
   } else if (stable.step > plan.time_step) {
@@ -244,10 +253,9 @@ Remarks remarksOn(const Run& run) {
   Remarks remarks;
   const std::string memory = memoryRemark(run.plan(), run.chain().size());
   if (!memory.empty()) remarks.notes.push_back(memory);
-  if (const double gravity = run.chain().gravity(); gravity < 0.0) {
+  if (const double gravity = run.chain().gravity(); gravity < 0.0)
     remarks.notes.push_back(
         fmt::format("gravity of {} m/s² points up: the chain falls upwards", numberText(gravity)));
-  }
   remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan());
   return remarks;
 }

@@ -100,9 +100,8 @@ Choice::Choice(const std::vector<std::string_view>& words, const std::function<s
 
 void Option::assign(std::string_view text) const {
   if (value.assign(text)) return;
-  if (!isText() && hasDecimalComma(text)) {
+  if (!isText() && hasDecimalComma(text))
     throw InputError(fmt::format("{} is not a number; use a decimal point", inQuotes(text)));
-  }
   throw InputError(fmt::format("must be {}, got {}", range(), inQuotes(text)));
 }
 

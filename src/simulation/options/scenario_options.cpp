@@ -97,11 +97,10 @@ Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& op
                       Scenario scenario) {
   OptionSet set(scenarioOptions(scenario));
   for (const auto& [key, text] : options) set.set(set.find(key, "", "option"), text, key);
-  if (const auto unused = unusedKeys(scenario, set); !unused.empty()) {
+  if (const auto unused = unusedKeys(scenario, set); !unused.empty())
     throw InputError(fmt::format(
         "{}: {}", unused.front(),
         whyUnused(scenario.method, [](std::string_view key) { return std::string(key); })));
-  }
   checkScenario(scenario);
   return scenario;
 }
