@@ -75,7 +75,7 @@ class Hands(LiveTest):
             self.wait_state(lambda m: m.positions[10].z < 0.0, 'the tip falls')
 
     def test_a_paused_particle_is_placed_at_rest(self):
-        with self.start():
+        with self.start(display_rate=100):  # most states are between frames
             self.call('pause', True)
             self.drag(6, 4.0, 1.0)
             v = self.last().velocities[5]

@@ -95,13 +95,14 @@ std::string Node::take(const Request& request) {
 
 std::string Node::on(const Pause& request) {
   if (run_.isOver()) throw InputError(overMessage(run_));
-  const bool paused = request.paused;
-  std::string sentence =
-      fmt::format("{}{} at frame {}, t = {:.6g} s", paused == paused_ ? "already " : "",
-                  paused ? "paused" : "running", run_.frame(), run_.time());
-  if (paused == paused_) return sentence;
+  const bool paused = request.paused, is_new = paused != paused_;
+  if (is_new) steps_wanted_ = paused && !run_.isAtFrame() ? 1 : 0;  // a frame can be saved
+  const std::int64_t frame = run_.frame() + (paused ? steps_wanted_ : 0);
+  std::string sentence = fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
+                                     paused ? "paused" : "running", frame,
+                                     paused ? run_.plan().timeOfFrame(frame) : run_.time());
+  if (!is_new) return sentence;
   paused_ = paused;
-  steps_wanted_ = 0;
   pacer_.start(run_.time(), ros::SteadyTime::now());
   return sentence;
 }
