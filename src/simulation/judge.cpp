@@ -186,7 +186,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
     const double elapsed = time - options_.start_time;
     allowance += elapsed > 0.0 ? options_.symplectic_step / elapsed : 0.0;
   }
-  if (gain > kGainThreshold + allowance) {
+  if (gain > kGainThreshold + allowance)
     return {VerdictKind::kGainedEnergy, time, 0,
             fmt::format(
                 "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy "
@@ -194,7 +194,6 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
                 entry_.gain, time, 100.0 * entry_.relative_gain,
                 supplied == 0.0 ? "no force drives the chain"
                                 : "the energy supplied to the chain is counted")};
-  }
   if (!(std::abs(residual) <= kDriftThreshold + allowance)) {
     return {
         VerdictKind::kDrift, time, 0,

@@ -206,7 +206,8 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   // The error grows with a power of the step size: the order of the method.
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
   const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
-  const double failed = isBad(report.verdict->kind) ? plan.time_step : kInfinity;
+  double failed = kInfinity;
+  if (isBad(report.verdict->kind)) failed = plan.time_step;
   report.accurate_step = trials.largestStep(plan.time_step * (std::isnan(factor) ? 1.0 : factor),
                                             std::min(report.stable.step, durationOf(plan)),
                                             VerdictKind::kInaccurate, failed);
