@@ -45,11 +45,10 @@ const Method& registerTableau(const std::string& path) {
     std::vector<double> row;
     for (std::string word; words >> word;) row.push_back(coefficientOf(word, path));
     if (row.empty()) continue;
-    if (row.size() != ++tableau.stages || tableau.stages >= ButcherTableau::kMaxStages) {
+    if (row.size() != ++tableau.stages || tableau.stages >= ButcherTableau::kMaxStages)
       throw InputError(
           fmt::format("{}: line n must have n numbers, the last one the weights; at most {}", path,
                       ButcherTableau::kMaxStages - 1));
-    }
     std::copy(row.begin(), row.end(), tableau.a[tableau.stages].begin());
   }
   tableau.b = std::exchange(tableau.a[tableau.stages], {});

@@ -94,9 +94,8 @@ class Checker {
   /// Looks for mistakes in the wanted method, then for another method, then for mistakes in others.
   Programs explain() {
     Methods written;
-    for (const Method* method : wanted_) {  // the best first
+    for (const Method* method : wanted_)  // the best first
       if (kindOf(*method) != 0) written.insert(written.begin(), method);
-    }
     Programs found = findMistakes(written, 1);
     if (!found.empty()) return found;
     compareWith(others_);

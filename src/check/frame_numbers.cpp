@@ -69,10 +69,9 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
       if (columns < 2) numbers.push_back(*value);
       if (std::isfinite(*value)) format.note(word);
     }
-    if (columns != 0 && columns != 2) {
+    if (columns != 0 && columns != 2)
       refuse(counted(columns, "number") +
              " in this line; a line of a frame is 'x y' with decimal points");
-    }
   }
   const auto rows = static_cast<std::ptrdiff_t>(numbers.size() / 2);
   if (rows != particles)

@@ -247,15 +247,15 @@ Motion::Motion(const Plan& plan, const Scene& particles)
   if (kindOf(plan.method) == StudentProgram::kImplicit) precision_ = kPrecisionOfSolvers;
 }
 
-void Motion::disturb(std::mt19937& random) {
+void Motion::disturb(std::mt19937& random, bool off_line) {
   // Errors of a step in units of the last digit; measured: at most 3 in other orders of summation.
   constexpr double kRoundingErrors = 16.0;
   const double size = kRoundingErrors * std::sqrt(static_cast<double>(plan_.steps())) * precision_;
   for (Eigen::Index row = 0; row < state_.rows(); ++row) {
     auto numbers = state_.row(row);
     // Nothing if all are equal, like x in a vertical chain: their differences are exact.
-    if (numbers.minCoeff() == numbers.maxCoeff()) continue;
-    const double error = size * numbers.abs().maxCoeff();
+    if (!off_line && numbers.minCoeff() == numbers.maxCoeff()) continue;
+    const double error = size * (off_line ? state_.abs().maxCoeff() : numbers.abs().maxCoeff());
     for (Eigen::Index i = 1; i < numbers.size(); ++i) {
       const double share = static_cast<double>(random()) / std::mt19937::max();
       numbers[i] += (2.0 * share - 1.0) * error;
@@ -273,13 +273,13 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
 }
 
 Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
-                  WorkLimit& limit) {
+                  WorkLimit& limit, bool off_line) {
   constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
   std::mt19937 random(1);               // the same on every machine
   const auto motion = make();
   // One alone may hardly move in the direction in which errors grow.
   const std::array companions{make(), make()};
-  for (const auto& companion : companions) companion->disturb(random);
+  for (const auto& companion : companions) companion->disturb(random, off_line);
   Agreement agreement;
   double rounding = 0.0;  // m
   double scale = 0.0;     // largest coordinate, m
@@ -294,11 +294,15 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
       const Eigen::ArrayX2d spread = (positions - companion->positions()).abs();
       rounding = std::max(rounding, spread.maxCoeff());
       if (!spread.allFinite()) rounding = std::numeric_limits<double>::infinity();
-      if (motion->tolerance() == 0.0) companion->disturb(random);
+      if (motion->tolerance() == 0.0) companion->disturb(random, off_line);
     }
     if (limit.isOver() || !(rounding <= kComparable * scale)) break;
     if (index < frame->index) continue;  // missing
     agreement.departure = departureOf(*frame, positions, scale, rounding + motion->tolerance());
+    // Programs that use angles leave a straight line: cos(π/2) is no 0.
+    if (agreement.departure && !off_line &&
+        (positions.rowwise() - positions.row(0)).abs().colwise().maxCoeff().minCoeff() == 0.0)
+      return compare(frames, make, limit, true);
     if (agreement.departure) return agreement;
     ++agreement.frames;
     agreement.last_frame = index;

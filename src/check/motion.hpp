@@ -182,7 +182,8 @@ class Motion {
   /// N×2 positions as the program prints them, m.
   virtual Eigen::ArrayX2d positions() const { return state_.topRows<2>().transpose(); }
   /// Changes all numbers by some rounding errors of the steps of a frame.
-  void disturb(std::mt19937& random);
+  /// \param off_line also those that are equal in all particles of a straight chain
+  void disturb(std::mt19937& random, bool off_line);
   /// Error in m that two right results may have besides rounding. If it is not 0, `disturb` must be
   /// called at the start only.
   double tolerance() const { return plan_.method.get().hasFixedStep() ? 0.0 : plan_.tolerance; }
@@ -221,6 +222,6 @@ struct Agreement {
 /// of the size of the motion, after which nothing can be compared, or until the limit is reached.
 /// \param make  makes the motion, also for its companions
 Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
-                  WorkLimit& limit);
+                  WorkLimit& limit, bool off_line = false);
 
 }  // namespace spring_pendulum

@@ -88,11 +88,11 @@ WITH_NUMBERS = [
 ]
 
 
-def random_scene(rng):
-    """A chain of springs stretched or compressed a little, with masses of 0.3 to 2 kg."""
+def random_scene(rng, is_vertical):
+    """A chain of springs stretched or compressed a little, vertical ones much, with masses of 0.3 to 2 kg."""
     p = [np.array([0.0, 0.0])]
     for _ in range(rng.randint(2, 9)):
-        angle, length = rng.uniform(-np.pi, 0.5), rng.uniform(0.8, 1.2)
+        angle, length = (-np.pi / 2, 0.5) if is_vertical else (rng.uniform(-np.pi, 0.5), rng.uniform(0.8, 1.2))
         p.append(p[-1] + length * np.array([np.cos(angle), np.sin(angle)]))
     return np.array([[round(x, 6), round(y, 6), round(rng.uniform(0.3, 2), 2)] for x, y in p])
 
@@ -105,12 +105,12 @@ class Lab:
 
     def scene(self, name):
         """Particles and their file."""
-        if name != 'random':
+        if name not in ('random', 'vertical'):
             path = PROJECT / 'data' / (name + '.txt')
             return student.read_scene(path), path
         self.count += 1
         path = self.folder / f'scene_{self.count}.txt'
-        scene = random_scene(self.rng)
+        scene = random_scene(self.rng, name == 'vertical')
         np.savetxt(path, scene, fmt='%.17g')
         return scene, path
 
@@ -173,14 +173,14 @@ def try_right(lab, frames, number):
     """Half of the programs are those of student.py, half are Exercise3 with every method."""
     listed = subprocess.run([lab.exercise, '--list-methods'], stdout=subprocess.PIPE, check=True).stdout.decode()
     methods = [line.split()[0] for line in listed.splitlines() if line.startswith('  ') and line[2] != ' ']
-    scenes = sorted(path.stem for path in (PROJECT / 'data').glob('*.txt')) + ['random'] * 3
+    scenes = sorted(path.stem for path in (PROJECT / 'data').glob('*.txt')) + ['random', 'vertical', 'random']
     accused = 0
     for i in range(number):
         scene_name, form = scenes[i // 2 % len(scenes)], lab.rng.choice(FORMS)
         scene, path = lab.scene(scene_name)
         if i % 2:
             method = lab.rng.choice(METHODS)
-            result = student.frames(scene, method, count=frames)
+            result = student.frames(scene, method, count=frames, wrong=[lab.rng.choice(('', 'angles'))])
         else:
             method = methods[i // 2 % len(methods)]
             result = exercise_frames(lab, path, method, frames)

@@ -21,8 +21,8 @@ def accelerations(p, v, m, c, wrong, real):
     d = p[1:] - p[:-1]
     length = np.sqrt((d * d).sum(axis=1, dtype=real))[:, None]
     r = d / length
-    if 'degrees' in wrong:
-        angle = np.degrees(np.arctan2(d[:, 1], d[:, 0]))
+    if 'degrees' in wrong or 'angles' in wrong:
+        angle = np.arctan2(d[:, 1], d[:, 0]) * (180 / np.pi if 'degrees' in wrong else 1)
         r = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     if 'length_squared' in wrong:
         length = length * length
