@@ -232,6 +232,8 @@ def main():
         parser.add_argument('--' + key, default='')
     parser.add_argument('--log', choices=['x', 'y', 'xy'], default='')
     options = parser.parse_args()
+    if not options.picture.endswith('.png'):
+        refuse("the name of the picture must end in .png, got '%s'" % options.picture)
     warnings.simplefilter('ignore')  # of matplotlib, about what a picture cannot show
     try:
         draw_table(options)

@@ -15,10 +15,11 @@ int drawPlot(const Study& study, const std::string& table, const std::string& pi
              bool only_try) {
   constexpr const char* kPython = "/usr/bin/python3";  // the one that has matplotlib from Debian
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  std::vector<std::string> arguments{kPython,      "-B",    program.parent_path() / "plot_table.py",
-                                     "/dev/stdin", picture, "--title=" + study.name};
+  std::vector<std::string> arguments{kPython, "-B", program.parent_path() / "plot_table.py",
+                                     "--title=" + study.name};
   arguments.insert(arguments.end(), study.plot.begin(), study.plot.end());
   if (only_try) arguments.emplace_back("--try");
+  arguments.insert(arguments.end(), {"--", "/dev/stdin", picture});
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());

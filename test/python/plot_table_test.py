@@ -84,15 +84,15 @@ class Histograms(unittest.TestCase):
 
 class Tables(unittest.TestCase):
     def test_that_cannot_be_drawn_are_refused_in_one_line(self):
-        for text, reason in ((b'', 'the table has no rows'), (b'case,x,y\n', 'the table has no rows'),
+        for text, reason in ((b'', 'the table has no rows'), (b'png', 'the name of the picture must end in .png'),
                              (b'case,x,y\n\xff,1,1\n', "can't decode byte"), (None, 'No such file or directory'),
                              (b'case,x,y\n0,1,1e308\n1,1,-1e308\n', 'cannot draw'),
                              (b'case,x,y\n0,2,1\n1,0,1\n', 'x = 0 cannot be on a logarithmic axis')):
             with tempfile.TemporaryDirectory() as folder:
                 if text is not None:
                     pathlib.Path(folder, 'a.csv').write_bytes(text)
-                arguments = 'a.csv a.png --type map --x x --y y --color y --log x'.split()
-                done = subprocess.run([plot_table.__file__, *arguments], cwd=folder, capture_output=True, text=True)
+                arguments = 'a.csv a.%s --type map --x x --y y --color y --log x' % ('csv' if text == b'png' else 'png')
+                done = subprocess.run([plot_table.__file__, *arguments.split()], cwd=folder, capture_output=True, text=True)
             self.assertRegex(done.stderr, r'^plot: .*%s.*\n$' % reason)
             self.assertEqual(done.returncode, 2 if text is not None else 1)
 
