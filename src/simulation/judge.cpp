@@ -194,13 +194,12 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
                 entry_.gain, time, 100.0 * entry_.relative_gain,
                 supplied == 0.0 ? "no force drives the chain"
                                 : "the energy supplied to the chain is counted")};
-  if (!(std::abs(residual) <= kDriftThreshold + allowance)) {
+  if (!(std::abs(residual) <= kDriftThreshold + allowance))
     return {
         VerdictKind::kDrift, time, 0,
         fmt::format("drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of the "
                     "energy scale",
                     *entry_.residual, time, 100.0 * *entry_.relative_residual)};
-  }
   return {VerdictKind::kOk, time, 0, "ok"};
 }
 

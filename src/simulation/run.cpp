@@ -275,7 +275,7 @@ double Run::referenceWork() const {
 }
 
 EnergyEntry Run::energyEntry() const {
-  return isAtFrame() ? judge_->entry() : judge_->balanceOf(time(), state_, dissipated_, supplied_);
+  return isJudged() ? judge_->entry() : judge_->balanceOf(time(), state_, dissipated_, supplied_);
 }
 
 double Run::largestEnergyError() const {
@@ -284,7 +284,7 @@ double Run::largestEnergyError() const {
 
 PositionError Run::positionError() const {
   PositionError error = judge_->positionError();
-  if (!isAtFrame()) error.now = reference_ ? reference_->errorOf(state_) : PositionError{}.now;
+  if (!isJudged()) error.now = reference_ ? reference_->errorOf(state_) : PositionError{}.now;
   return error;
 }
 

@@ -219,7 +219,6 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
     EXPECT_FALSE(isBad(pair.run.verdict().kind)) << pair.run.verdict().text;
   };
   Scenario scenario{pair.run.plan(), pair.run.chain().constants()};
-  State state = pair.run.state();
   EXPECT_NE(pair.run.closingLine().find("switches"), std::string::npos);
   for (const double factor : {0.0, 3.0}) {
     go_on();
@@ -231,12 +230,13 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   go_on();
   // The new integrator knows the methods since the last change only.
   EXPECT_EQ(pair.run.closingLine().find("switches"), std::string::npos);
-  state = pair.run.state();
+  State state = pair.run.state();
   state.vx()[5] += 3.0;
   scenario.method = findMethod("Runge-Kutta-4");
   scenario.constants.spring.rest_length = 0.5;
   const double time = pair.run.time();
   pair.run.change(scenario, scenario.constants, {}, state);
+  EXPECT_NEAR(pair.run.energyEntry().energy.kinetic, 0.5 * state.velocities().squaredNorm(), 1e-9);
   EXPECT_NEAR(pair.run.time(), time, 1e-12);
   pair.run.advance();
   EXPECT_NEAR(pair.run.time(), time + kInterval, 1e-12);
