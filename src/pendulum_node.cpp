@@ -1,4 +1,5 @@
 // The ROS node: integrates the motion of a chain, writes its frames and shows it.
+#include "io/files/frame_folder.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/program.hpp"
 #include "ros/node/node.hpp"
@@ -56,9 +57,8 @@ std::string helpText(const OptionSet& options) {
       "Simulates a chain of springs and publishes it for rviz.\n\n"
       "Usage: rosrun spring_pendulum pendulum_node [_PARAMETER:=VALUE ...]\n\n"
       "Parameters, with their defaults in brackets:\n";
-  for (const Option& option : options.options()) {
+  for (const Option& option : options.options())
     text += fmt::format("  _{}\n      {}\n", option.key, optionHelp(option));
-  }
   return text;
 }
 
@@ -108,10 +108,9 @@ std::string startRos(int argc, char** argv) {
         error.path1().string(), error.code().message()));
   }
   if (ros::this_node::getName() == "/") throw InputError("the name of the node must not be empty");
-  if (argc > 1) {
+  if (argc > 1)
     throw InputError(fmt::format(
         "unexpected argument '{}': the node takes parameters, for example _frames:=100", argv[1]));
-  }
   return "";
 }
 
@@ -129,9 +128,16 @@ Scene readNodeScene(const NodeConfiguration& configuration) {
   return scene;
 }
 
-int runNode() {
+int runNode(std::optional<ros::NodeHandle>& keeps_ros_started) {
   const NodeConfiguration configuration = readPrivateParameters();
   const Scene scene = readNodeScene(configuration);
+  const std::string& output = configuration.scenario.output;
+  if (!output.empty() && boost::filesystem::is_directory(output))
+    AtomicFile(OutputFolder(output), kFramesLock, output, AtomicFile::Lock::kOneWriter);
+  // A run that is refused does no harm: registering ends an earlier node of the same name.
+  keeps_ros_started.emplace();
+  catchInterruptions();  // only recorded from now on: ROS continues until the files are closed
+  if (interruption() != 0 || !ros::ok()) return kDone;
   if (!configuration.unused.empty())
     ROS_INFO_STREAM(configuration.scenario.method.get().name << " does not use "
                                                              << configuration.unused);
@@ -144,18 +150,18 @@ int runNode() {
 int main(int argc, char** argv) {
   using namespace spring_pendulum;
   std::optional<ros::NodeHandle> keeps_ros_started;
+  bool are_arguments_right = false;
   const auto run = [&] {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffered, also in a file
     const std::string answer = startRos(argc, argv);
     printOutput(answer);
     if (!answer.empty()) return static_cast<int>(kDone);
+    are_arguments_right = true;
     endWhenTheMasterAsks();
-    keeps_ros_started.emplace();
-    catchInterruptions();  // only recorded from now on: ROS continues until the files are closed
-    return interruption() == 0 && ros::ok() ? runNode() : kDone;
+    return runNode(keeps_ros_started);
   };
   return runProgram(run, [&](const std::string& message) {
-    if (!keeps_ros_started) return printError(message + "\n");
+    if (!are_arguments_right) return printError(message + "\n");
     ROS_FATAL_STREAM(message);
   });
 }

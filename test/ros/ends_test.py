@@ -142,6 +142,15 @@ class Signals(unittest.TestCase):
                 wait_until(lambda: 'master' in node.output(), 'a try to find a master')
                 node.stop(number)
 
+    def test_a_second_node_that_is_refused_leaves_the_first_alone(self):
+        with Folder() as folder, PendulumNode(output=folder, frames=100000, real_time_factor=1.0) as first:
+            wait_until(lambda: len(read_frames(folder)) > 1, 'frames')
+            self.assertIn('another run is writing here', ended_node(1, output=folder).output())
+            ended_node(2, frames=-1)
+            count = len(read_frames(folder))
+            wait_until(lambda: len(read_frames(folder)) > count + 5, 'more frames')
+            self.assertIsNone(first.process.poll())
+
     def test_in_every_phase(self):
         def has(text):
             return lambda node, _: text in node.output()

@@ -79,6 +79,7 @@ std::string Driver::on(const SetConstant& request) {
 
 std::string Driver::on(const ApplyForceTo& request) {
   const auto& [particle, force, start_time, duration] = request;
+  if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
   const Chain& chain = run_.chain();
   Drive drive{{}, {{particle, force}}};
   for (const auto& [i, target] : targets_) drive.held.push_back({i, {}});
@@ -168,10 +169,7 @@ Scenario Driver::possible() const {
 void Driver::apply(Run& run, double next_time, bool paused) {
   if (run.isOver()) return;
   // Most runs are left alone: for them, no state is copied.
-  if (targets_.empty() && forces_.empty() && !jump_ && !run.chain().isDriven() &&
-      isSame(wanted_, run)) {
-    return;
-  }
+  if (!isActing() && !jump_ && !run.chain().isDriven() && isSame(wanted_, run)) return;
   State state = jump_ ? *jump_ : run.state();
   Drive drive;
   if (paused) {

@@ -32,6 +32,8 @@ class Driver {
   /// Lets go of a particle, which keeps its velocity; P_1 stops where it is.
   std::string on(const Release& request);
 
+  /// Whether particles are held, or forces act or will act.
+  bool isActing() const { return !targets_.empty() || !forces_.empty(); }
   bool isHeld(std::ptrdiff_t particle) const { return targets_.count(particle) > 0; }
 
   /// Changes the run for the interval until `next_time` s, if anything has changed.

@@ -124,9 +124,8 @@ Replay::Replay(const std::string& path) : path_(path) {
   } catch (const std::exception& error) {  // a damaged bag; rosbag throws many kinds
     throw FileError(fmt::format("{}: cannot be read as a bag: {}", path, error.what()));
   }
-  if (places_.empty()) {
+  if (places_.empty())
     throw InputError(fmt::format("{}: has no inputs; record the topic inputs of a node", path));
-  }
   std::uint32_t number = 0;
   for (const auto& place : places_) {
     if (place.first == number++) continue;

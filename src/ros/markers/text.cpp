@@ -32,10 +32,9 @@ std::string label(const Picture& picture) {
   const std::string judged =
       fmt::format("{}{}", toString(verdict.kind),
                   isBad(verdict.kind) ? fmt::format(" at {:.4g} s", verdict.time) : "");
-  if (picture.options.text_row > 0) {
+  if (picture.options.text_row > 0)
     return joined(
         {plan.method.get().name + ": " + clock, position.empty() ? energy : position, judged});
-  }
   const std::string control = plan.method.get().hasFixedStep()
                                   ? fmt::format("time step {:.3g} s", plan.time_step)
                                   : fmt::format("tolerance {:.3g} m", plan.tolerance);

@@ -122,7 +122,7 @@ void Node::end() {
 bool Node::isDue() const {
   if (run_.isOver()) return false;
   if (paused_) return steps_wanted_ > 0;
-  return ros::SteadyTime::now() >= pacer_.dueTime(run_.nextTime());
+  return ros::SteadyTime::now() >= pacer_.dueTime(nextTime());
 }
 
 void Node::serve() {
@@ -130,7 +130,7 @@ void Node::serve() {
   robots_.lookUp();
   if (isDue()) return;
   const bool stands = run_.isOver() || paused_;
-  const ros::SteadyTime next = stands ? show_at_ : pacer_.dueTime(run_.nextTime());
+  const ros::SteadyTime next = stands ? show_at_ : pacer_.dueTime(nextTime());
   const double wait = (next - ros::SteadyTime::now()).toSec();
   if (wait > 0.0)
     callBack(std::min(wait, robots_.haveFrames() ? kLookUpInterval : kLongestService));
@@ -144,18 +144,21 @@ void Node::callBack(double wait) {
   }
 }
 
-void Node::advance() {
-  if (steps_wanted_ > 0) --steps_wanted_;
+double Node::nextTime() const {
+  const bool is_live = options_.real_time_factor > 0.0 || publisher_.isWatched();
   const bool is_late = pacer_.isLate(run_.nextTime(), ros::SteadyTime::now());
-  if (paused_ || is_late || !publisher_.isWatched()) {
-    change(run_.nextFrameTime(), false);
-    run_.advance();
-  } else {
-    change(run_.nextTime(), false);
-    run_.advancePart();
-    // Inside a frame nobody would call this a divergence.
-    if (!run_.isFinite()) run_.advance();
-  }
+  const bool by_parts = driver_.isActing() || (is_live && !is_late && !paused_);
+  return by_parts ? run_.nextTime() : run_.nextFrameTime();
+}
+
+void Node::advance() {
+  const double next = nextTime();
+  const bool is_part = next < run_.nextFrameTime();
+  change(next, false);
+  if (is_part) run_.advancePart();
+  // Inside a frame nobody would call this a divergence.
+  if (!is_part || !run_.isFinite()) run_.advance();
+  if (steps_wanted_ > 0 && run_.isAtFrame()) --steps_wanted_;
   finishState();
 }
 

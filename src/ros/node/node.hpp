@@ -50,6 +50,8 @@ class Node {
 
   void waitForSubscribers();
   bool isDue() const;
+  /// Simulated time to which the run advances next, s: the next state, or the next frame.
+  double nextTime() const;
   void serve();
   /// Calls what has come in, or waits this number of seconds for it.
   void callBack(double wait);

@@ -98,9 +98,9 @@ std::string Node::on(const Pause& request) {
   const bool paused = request.paused, is_new = paused != paused_;
   if (is_new) steps_wanted_ = paused && !run_.isAtFrame() ? 1 : 0;  // a frame can be saved
   const std::int64_t frame = run_.frame() + (paused ? steps_wanted_ : 0);
-  std::string sentence = fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
-                                     paused ? "paused" : "running", frame,
-                                     paused ? run_.plan().timeOfFrame(frame) : run_.time());
+  std::string sentence =
+      fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
+                  paused ? "paused" : "running", frame, run_.plan().timeOfFrame(frame));
   if (!is_new) return sentence;
   paused_ = paused;
   pacer_.start(run_.time(), ros::SteadyTime::now());

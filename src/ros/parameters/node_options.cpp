@@ -98,9 +98,8 @@ std::vector<Option> playOptions(NodeOptions& o) {
 }
 
 void checkNodeOptions(const NodeOptions& options) {
-  if (options.camera_frame == options.frame_id) {
+  if (options.camera_frame == options.frame_id)
     throw InputError(fmt::format("camera_frame: must not be frame_id, '{}'", options.frame_id));
-  }
 }
 
 OptionSet nodeOptions(NodeConfiguration& configuration) {
@@ -131,17 +130,13 @@ NodeConfiguration readPrivateParameters() {
   const std::string& node = ros::this_node::getName();
   XmlRpcValue request, response, exist, parameters;
   request[0] = request[1] = node;
-  const auto read = [&] {
-    return ros::master::execute("hasParam", request, response, exist, false) &&
-           (!static_cast<bool>(exist) || ros::param::get(node, parameters));
-  };
-  bool answered = read();
-  if (!answered) answered = read();  // a signal interrupts one call, and ends the node later
-  if (!answered) {
+  // Waits for a master.
+  const bool answered = ros::master::execute("hasParam", request, response, exist, true) &&
+                        (!static_cast<bool>(exist) || ros::param::get(node, parameters));
+  if (!answered)
     throw FileError(
         fmt::format("{}: the ROS master at {} did not answer when the parameters were read", node,
                     ros::master::getURI()));
-  }
   NodeConfiguration configuration;
   OptionSet options = nodeOptions(configuration);
   try {
