@@ -1,5 +1,4 @@
 // The ROS node: integrates the motion of a chain, writes its frames and shows it.
-#include "io/files/frame_folder.hpp"
 #include "io/program/command_line.hpp"
 #include "io/program/program.hpp"
 #include "ros/node/node.hpp"
@@ -62,8 +61,8 @@ std::string helpText(const OptionSet& options) {
   return text;
 }
 
-/// Ends a program that a signal stops while it starts. Once ROS has begun to wait for its master, only a
-/// shutdown of ROS ends the wait.
+/// Ends a program that a signal stops while it starts. While ROS waits for its master, only a shutdown
+/// of ROS ends the wait.
 void stopStarting() {
   if (!ros::isStarted()) std::_Exit(kDone);
   ros::requestShutdown();
@@ -121,27 +120,27 @@ Scene readNodeScene(const NodeConfiguration& configuration) {
   const bool hangs = scenario.start == Start::kAtRest && !held.empty();
   if (hangs) scenario.start = Start::kFile;
   Scene scene = readScene(scenario, "_particles:=FILE");
-  if (!hangs) return scene;
   Drive drive;
   for (const auto& [i, frame] : parseHeld(held, scene.masses.size())) drive.held.push_back({i, {}});
+  if (!hangs) return scene;
   scene.state = equilibrium(scene.chain().drivenBy(drive), scene.state);
   return scene;
 }
 
 int runNode(std::optional<ros::NodeHandle>& keeps_ros_started) {
   const NodeConfiguration configuration = readPrivateParameters();
+  const auto& [scenario, options, unused] = configuration;
   const Scene scene = readNodeScene(configuration);
-  const std::string& output = configuration.scenario.output;
-  if (!output.empty() && boost::filesystem::is_directory(output))
-    AtomicFile(OutputFolder(output), kFramesLock, output, AtomicFile::Lock::kOneWriter);
-  // A run that is refused does no harm: registering ends an earlier node of the same name.
+  catchInterruptions(ros::requestShutdown);  // while files are open, the program must not exit
+  const bool track_dissipation = options.track_dissipation || !scenario.energy.empty();
+  Run run(scene, scenario, {track_dissipation, options.displayInterval(), interruption});
+  RunFiles files(run, scenario);
+  // Whatever may be refused has been: this ends an earlier node of the same name.
   keeps_ros_started.emplace();
   catchInterruptions();  // only recorded from now on: ROS continues until the files are closed
   if (interruption() != 0 || !ros::ok()) return kDone;
-  if (!configuration.unused.empty())
-    ROS_INFO_STREAM(configuration.scenario.method.get().name << " does not use "
-                                                             << configuration.unused);
-  return Node(configuration.scenario, configuration.options, scene).spin();
+  if (!unused.empty()) ROS_INFO_STREAM(scenario.method.get().name << " does not use " << unused);
+  return Node(scenario, options, run, files).spin();
 }
 
 }  // namespace

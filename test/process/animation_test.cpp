@@ -9,8 +9,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-
 constexpr const char* kData = PROJECT_DIR "/data";
 constexpr const char* kScript = PROJECT_DIR "/data/animate_pendulum.plt";
 

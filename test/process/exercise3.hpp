@@ -14,6 +14,10 @@
 
 namespace spring_pendulum {
 
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
 /// Two particles of 1 kg, a metre apart.
 inline constexpr const char* kTwoParticles = "0 0 1\n1 0 1\n";
 

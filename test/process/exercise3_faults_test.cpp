@@ -10,8 +10,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-
 /// A run of a few seconds that tests disturb.
 class Disturbed : public Exercise3Test {
  protected:

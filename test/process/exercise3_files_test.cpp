@@ -15,9 +15,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::EndsWith;
-using testing::HasSubstr;
-using testing::MatchesRegex;
-using testing::StartsWith;
 
 constexpr const char* kEnergyStart = "frame,time [s],";
 

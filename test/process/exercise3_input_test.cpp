@@ -9,9 +9,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
-
 struct BadInput {
   std::string options;  ///< after the program, see wordsOf
   int status;
@@ -60,6 +57,7 @@ TEST_F(Exercise3Refuses, Files) {
       {"Euler /dev/zero", 1, "/dev/zero: could not be read: it is a pipe or a device"},
       {"Euler secret.txt", 1, "secret.txt: could not be read: Permission denied\n"},
       {"Euler same_place.txt", 2, "same_place.txt:2: same position as the particle in line 1"},
+      {"Euler --config none.yaml", 1, "none.yaml: could not be read: No such file"},
       {"Euler --config unknown.yaml", 2,
        "unknown.yaml:3: unknown parameter 'framse'; did you mean 'frames'? Known parameters: "},
       {"Euler --config value.yaml", 2,

@@ -10,10 +10,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-using testing::MatchesRegex;
-using testing::StartsWith;
-
 std::string frame(int index) {
   std::string number = std::to_string(index);
   number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');

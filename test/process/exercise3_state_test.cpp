@@ -9,8 +9,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-
 class Exercise3State : public Exercise3Test {
  protected:
   Exercise3State() : Exercise3Test(chainOf(50, "0.1")) {}

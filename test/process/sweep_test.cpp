@@ -24,8 +24,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::HasSubstr;
-
 /// 400 cases of 20 scenes; some diverge. Takes a second on one core.
 constexpr const char* kStudy = R"(base:
   particles: chain.txt

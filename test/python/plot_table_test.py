@@ -84,7 +84,8 @@ class Histograms(unittest.TestCase):
 
 class Tables(unittest.TestCase):
     def test_that_cannot_be_drawn_are_refused_in_one_line(self):
-        for text, reason in ((b'', 'the table has no rows'), (b'png', 'the name of the picture must end in .png'),
+        for text, reason in ((b'', 'the table has no rows'), (b'case,x,y\n', 'the table has no rows'),
+                             (b'png', 'the name of the picture must end in .png'),
                              (b'case,x,y\n\xff,1,1\n', "can't decode byte"), (None, 'No such file or directory'),
                              (b'case,x,y\n0,1,1e308\n1,1,-1e308\n', 'cannot draw'),
                              (b'case,x,y\n0,2,1\n1,0,1\n', 'x = 0 cannot be on a logarithmic axis')):

@@ -119,7 +119,11 @@ TEST(Driver, SwitchBetweenStepControlsAtAFrame) {
   ASSERT_FALSE(live.run.isAtFrame());
   live.go(1.0);
   EXPECT_EQ(live.run.plan().method.get().name, "Auto");
+  live.driver.on(SetConstant{"method", "Euler"});
+  live.run.advancePart();
   live.driver.reset(live.run);
+  EXPECT_EQ(live.run.plan().method.get().name, "Euler");  // from the start on
+  EXPECT_FALSE(live.run.isChanged());
   EXPECT_EQ(live.run.time(), 0.0);
   EXPECT_EQ(live.run.state().values(), live.run.start().values());
 }

@@ -143,10 +143,14 @@ class Signals(unittest.TestCase):
                 node.stop(number)
 
     def test_a_second_node_that_is_refused_leaves_the_first_alone(self):
-        with Folder() as folder, PendulumNode(output=folder, frames=100000, real_time_factor=1.0) as first:
+        with Folder() as folder, Folder() as other, \
+                PendulumNode(output=folder, energy=other + '/e', save_state=other + '/s', frames=100000,
+                             real_time_factor=1.0) as first:
             wait_until(lambda: len(read_frames(folder)) > 1, 'frames')
-            self.assertIn('another run is writing here', ended_node(1, output=folder).output())
+            for parameters in (dict(output=folder), dict(energy=other + '/e'), dict(save_state=other + '/s')):
+                self.assertIn('another run is writing here', ended_node(1, **parameters).output())
             ended_node(2, frames=-1)
+            ended_node(2, held='99')
             count = len(read_frames(folder))
             wait_until(lambda: len(read_frames(folder)) > count + 5, 'more frames')
             self.assertIsNone(first.process.poll())

@@ -89,6 +89,16 @@ class Changing(NodeTest):
             rospy.sleep(0.3)
             self.assertFalse([line for line in node.lines('ERROR') if 'refused' in line])
 
+    def test_forces_push_a_resumed_chain(self):
+        with Folder() as folder:
+            run_exercise(folder, 'Euler', '--particles', HORIZONTAL, '--frames', 3, '--save-state', folder + '/s')
+            with self.node(method='Auto', gravity=0.0, particles=folder + '/s', resume=True):
+                self.state.wait_for(5)
+                self.call('apply_force', 11, '', Vector3(0.0, 7.0, 20.0), 0.0, 0.5)
+                self.wait_state(lambda m: m.velocities[10].z > 1.0, 'the push')
+                self.assertLess(abs(self.last().energy_error), 1e-4)
+                self.assertIn('back to frame 2', self.call('reset'))
+
     def test_forces_push_when_they_should_though_nobody_watches(self):
         self.listeners.pop().close()
         with Folder() as folder, self.node(output=folder, steps_per_frame=200, wait_for_subscribers=0,

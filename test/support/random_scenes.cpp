@@ -64,22 +64,23 @@ Draft chainOf(Random& random, Eigen::Index size, double turn = 1.2) {
   return draft;
 }
 
-Draft shortChain(Random& random, double turn = 1.2) {
-  return chainOf(random, random.whole(2, 12), turn);
-}
-
 struct Family {
   std::string name;
   std::function<Draft(Random&)> draw;
 };
 
-/// Draws a short chain and changes it.
-std::function<Draft(Random&)> with(const std::function<void(Random&, Draft&)>& change) {
-  return [change](Random& r) {
-    Draft d = shortChain(r);
+/// Draws a chain of `least` to `most` particles and changes it.
+std::function<Draft(Random&)> with(int least, int most, double turn,
+                                   const std::function<void(Random&, Draft&)>& change) {
+  return [=](Random& r) {
+    Draft d = chainOf(r, r.whole(least, most), turn);
     change(r, d);
     return d;
   };
+}
+
+std::function<Draft(Random&)> with(const std::function<void(Random&, Draft&)>& change) {
+  return with(2, 12, 1.2, change);
 }
 
 /// Redraws the start with springs of nearly equal length, which is `least` to `most` m.
@@ -92,7 +93,7 @@ std::function<Draft(Random&)> withLengths(double least, double most) {
 
 std::vector<Family> shapes() {
   return {
-      {"equal", [](Random& r) { return shortChain(r); }},
+      {"equal", with([](Random&, Draft&) {})},
       {"two particles", [](Random& r) { return chainOf(r, 2); }},
       {"long", [](Random& r) { return chainOf(r, r.whole(13, 60), 0.3); }},
       {"folded", with([](Random& r, Draft& d) {
@@ -135,12 +136,7 @@ std::vector<Family> shapes() {
 
 std::vector<Family> springs() {
   return {
-      {"undamped",
-       [](Random& r) {
-         Draft d = shortChain(r, 0.5);
-         d.spring.damping = 0.0;
-         return d;
-       }},
+      {"undamped", with(2, 12, 0.5, [](Random&, Draft& d) { d.spring.damping = 0.0; })},
       {"weakly damped", with([](Random& r, Draft& d) { d.spring.damping = r.decades(-4, -1); })},
       {"overdamped", with([](Random& r, Draft& d) {
          d.spring.damping = r.pick({20.0, 200.0});
@@ -150,14 +146,12 @@ std::vector<Family> springs() {
          d.spring.stiffness = r.decades(3, 6);
          d.spring.damping = r.pick({1.0, 10.0, 100.0});
        })},
-      {"very stiff",
-       [](Random& r) {
-         Draft d = chainOf(r, r.whole(2, 5));
-         d.start = walk(r, d.size(), 0.99999, 1.00001, 1.2);
-         d.spring.stiffness = r.decades(6, 9);
-         d.spring.damping = r.decades(2, 5);
-         return d;
-       }},
+      {"very stiff", with(2, 5, 1.2,
+                          [](Random& r, Draft& d) {
+                            d.start = walk(r, d.size(), 0.99999, 1.00001, 1.2);
+                            d.spring.stiffness = r.decades(6, 9);
+                            d.spring.damping = r.decades(2, 5);
+                          })},
       {"soft", with([](Random& r, Draft& d) { d.spring.stiffness = r.decades(-1, 1); })},
       {"no rest length", with([](Random&, Draft& d) { d.spring.rest_length = 0.0; })},
       {"weightless", with([](Random& r, Draft& d) {
@@ -181,23 +175,13 @@ std::vector<Family> masses() {
        })},
       {"light tail", with([](Random& r, Draft& d) { d.masses[d.size() - 1] = r.decades(-5, -2); })},
       {"very light tail",
-       [](Random& r) {
-         Draft d = chainOf(r, r.whole(2, 6));
-         d.masses[d.size() - 1] = r.decades(-9, -5);
-         return d;
-       }},
+       with(2, 6, 1.2, [](Random& r, Draft& d) { d.masses[d.size() - 1] = r.decades(-9, -5); })},
       {"light middle",
-       [](Random& r) {
-         Draft d = chainOf(r, r.whole(3, 12));
-         d.masses[r.whole(1, d.size() - 2)] = r.decades(-5, -2);
-         return d;
-       }},
+       with(3, 12, 1.2,
+            [](Random& r, Draft& d) { d.masses[r.whole(1, d.size() - 2)] = r.decades(-5, -2); })},
       {"very light middle",
-       [](Random& r) {
-         Draft d = chainOf(r, r.whole(3, 6));
-         d.masses[r.whole(1, d.size() - 2)] = r.decades(-9, -5);
-         return d;
-       }},
+       with(3, 6, 1.2,
+            [](Random& r, Draft& d) { d.masses[r.whole(1, d.size() - 2)] = r.decades(-9, -5); })},
       {"one light",
        [](Random& r) {
          Draft d = chainOf(r, 2);
@@ -209,13 +193,11 @@ std::vector<Family> masses() {
          d.spring.stiffness = 500.0;
          d.masses[d.size() - 1] = r.pick({20.0, 50.0});
        })},
-      {"undamped with a light tail",
-       [](Random& r) {
-         Draft d = chainOf(r, r.whole(2, 6), 0.5);
-         d.spring.damping = 0.0;
-         d.masses[d.size() - 1] = r.decades(-5, -2);
-         return d;
-       }},
+      {"undamped with a light tail", with(2, 6, 0.5,
+                                          [](Random& r, Draft& d) {
+                                            d.spring.damping = 0.0;
+                                            d.masses[d.size() - 1] = r.decades(-5, -2);
+                                          })},
   };
 }
 

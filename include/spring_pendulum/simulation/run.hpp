@@ -148,7 +148,7 @@ class Run {
   void begin(std::int64_t frame, const State& state);
   void checkState(const State& state) const;
   void divideFrames();
-  bool isJudged() const { return isAtFrame() && !changed_; }  // a change may follow the judge
+  bool isJudged() const { return isAtFrame() && !changed_; }  // a change makes the entry stale
   void makeIntegrator();
   bool advanceTo(std::int64_t part);
   bool integrate(std::int64_t steps);

@@ -209,7 +209,8 @@ void Driver::reset(Run& run, const Scene* to) {
   targets_.clear();
   forces_.clear();
   jump_.reset();
-  if (run.isChanged()) {
+  if (run.isChanged() || !isSame(wanted_, run)) {
+    run.reset();  // methods may change at a frame only
     try {
       run.change(possible(), wanted_.constants, {}, state);
     } catch (const InputError&) {  // what was wanted for another state is impossible at the start

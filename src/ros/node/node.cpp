@@ -30,12 +30,11 @@ constexpr std::size_t kMostBytes = 32'000'000;
 
 }  // namespace
 
-Node::Node(Scenario scenario, NodeOptions options, const Scene& scene)
+Node::Node(Scenario scenario, NodeOptions options, Run& run, RunFiles& files)
     : options_(std::move(options)),
       scenario_(std::move(scenario)),
-      run_(scene, scenario_,
-           {options_.track_dissipation || !scenario_.energy.empty(), options_.displayInterval(),
-            interruption}),
+      run_(run),
+      files_(files),
       publisher_(node_, run_, options_),
       pacer_(options_.real_time_factor, options_.display_rate),
       inputs_(node_.advertise<PendulumInput>("inputs", kMostInputs,
@@ -50,8 +49,7 @@ Node::Node(Scenario scenario, NodeOptions options, const Scene& scene)
       handles_(node_, run_, options_, driver_, frames_,
                [this](const Request& request) { return take(request); }),
       robots_(node_, run_, options_, driver_, frames_),
-      services_(advertiseServices()),
-      files_(run_, scenario_) {}
+      services_(advertiseServices()) {}
 
 void Node::record(PendulumInput input) {
   input.header.stamp = input_stamps_.next(input.time);

@@ -17,9 +17,8 @@ namespace spring_pendulum {
 
 class Node {
  public:
-  /// Removes the frames of earlier runs.
-  /// \throws InputError, FileError before that for a run that is impossible
-  Node(Scenario scenario, NodeOptions options, const Scene& scene);
+  /// \param run, files must outlive the node
+  Node(Scenario scenario, NodeOptions options, Run& run, RunFiles& files);
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
@@ -71,7 +70,8 @@ class Node {
   ros::NodeHandle node_;
   NodeOptions options_;
   Scenario scenario_;
-  Run run_;
+  Run& run_;
+  RunFiles& files_;
   Publisher publisher_;
   Pacer pacer_;
   std::vector<PendulumInput> sent_;  ///< inputs, for subscribers that come late
@@ -84,7 +84,6 @@ class Node {
   Handles handles_;
   Robots robots_;
   std::vector<ros::ServiceServer> services_;
-  RunFiles files_;
 
   Logged logged_;
   bool ended_ = false;

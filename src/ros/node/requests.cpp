@@ -115,10 +115,10 @@ std::string Node::on(const Step& /*request*/) {
 }
 
 std::string Node::on(const Reset& /*request*/) {
-  std::string sentence =
-      fmt::format("back to frame 0 from frame {}{}", run_.frame(), paused_ ? ", paused" : "");
+  const std::int64_t from = run_.frame();
   goTo(nullptr);
-  return sentence;
+  return fmt::format("back to frame {} from frame {}{}", run_.frame(), from,
+                     paused_ ? ", paused" : "");
 }
 
 std::string Node::on(const SaveState& request) {
