@@ -103,8 +103,7 @@ TEST(Driver, PlaceParticlesWhilePaused) {
 
 TEST(Driver, GiveTheImpulseOfAForce) {
   Scenario weightless;
-  weightless.constants.gravity = weightless.constants.spring.stiffness =
-      weightless.constants.spring.damping = 0.0;
+  weightless.constants = {{0.0, 0.0, 1.0}, 0.0};
   Live live(weightless);
   live.driver.on(ApplyForceTo{4, {2.0, -1.0}, 0.05, 0.56});
   live.go(1.0);
@@ -201,6 +200,7 @@ struct Inputs {
   double clock = 1.0;   ///< of the stamps, seconds per second
   double jitter = 0.0;  ///< s, of the time on the way
   double end = 8.0;     ///< s
+  int bundle = 1;       ///< inputs that come at once
 };
 
 /// The tip of a chain follows a holder with a position and a velocity at each time.
@@ -210,14 +210,17 @@ void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
   Follower follower("odom", 3.0, [](auto&) {});
   std::mt19937 random(1);
   std::uniform_real_distribution<double> delay(0.0, inputs.jitter);
-  double next = 0.0, delayed = 0.0;
-  while (live.run.time() < 8.0) {
+  const auto time_of = [&](int input) { return input / inputs.rate; };
+  double delayed = 0.0;
+  for (int next = 0; live.run.time() < 8.0;) {
     const double now = live.run.nextTime();  // the state that is computed is shown now
-    for (; next < inputs.end && next + delayed <= now;
-         next += 1.0 / inputs.rate, delayed = delay(random)) {
-      Target input = holder_at(next);
+    for (; time_of(next) < inputs.end; ++next, delayed = delay(random)) {
+      const int last = next - next % inputs.bundle + inputs.bundle - 1;
+      if (time_of(last) + delayed > now) break;
+      Target input = holder_at(time_of(next));
       if (!inputs.have_velocity) input.velocity = {};
-      follower.take(input, inputs.have_velocity, inputs.clock * next, next + delayed);
+      follower.take(input, inputs.have_velocity, inputs.clock * time_of(next),
+                    time_of(last) + delayed);
     }
     const State& state = live.run.state();
     const auto target = follower.targetAt(now, {state.x()[5], state.y()[5]}, now - live.run.time());
@@ -247,6 +250,10 @@ TEST(Follower, IsWithItsHolderOnACircle) {
     EXPECT_LT(largest_distance({false, 30.0, clock}), clock > 0.0 && clock < 1.0 ? 0.07 : 2e-3);
   EXPECT_LT(largest_distance({true, 30.0}), 2e-3);  // odometry
   EXPECT_LT(largest_distance({false, 30.0, 1.0, 0.01}), 5e-3);
+  for (const double clock : {0.9, 1.0, 2.0})
+    for (const int bundle : {2, 5, 10})
+      EXPECT_LT(largest_distance({false, 100.0, clock, 0.0, 8.0, bundle}),
+                clock < 1.0 ? 0.05 : 3e-3);
 }
 
 TEST(Follower, ComesSlowlyAfterAStepOfItsHolder) {

@@ -101,14 +101,9 @@ bool fails(const char* call, const std::string& path) {
 
 /// Number of bytes of a read or write; -1 if it fails.
 ssize_t allowed(const char* call, int file, std::size_t size) {
-  switch (faultOf(call, pathOf(file), true)) {
-    case Fault::kFail:
-      return -1;
-    case Fault::kShort:
-      return static_cast<ssize_t>(size > 1 ? size / 2 : size);
-    default:
-      return static_cast<ssize_t>(size);
-  }
+  const Fault fault = faultOf(call, pathOf(file), true);
+  if (fault == Fault::kFail) return -1;
+  return static_cast<ssize_t>(fault == Fault::kShort && size > 1 ? size / 2 : size);
 }
 
 mode_t modeOf(int flags, va_list arguments) {

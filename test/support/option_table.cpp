@@ -23,7 +23,7 @@ std::string inJson(std::string_view text) {
 }
 
 void print(std::string_view group, const std::vector<Option>& options) {
-  for (const Option& option : options) {
+  for (const Option& option : options)
     fmt::print(
         R"({{"group": {}, "key": {}, "default": {}, "unit": {}, "range": {}, "placeholder": {}, )"
         R"("meaning": {}, "users": {}, "is_text": {}, "is_flag": {}}})"
@@ -31,7 +31,6 @@ void print(std::string_view group, const std::vector<Option>& options) {
         inJson(group), inJson(option.key), inJson(option.text()), inJson(option.unit),
         inJson(option.range()), inJson(option.placeholder()), inJson(option.meaning),
         inJson(option.users()), option.isText(), option.isFlag());
-  }
 }
 
 }  // namespace

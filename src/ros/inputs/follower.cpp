@@ -13,6 +13,7 @@ constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its ho
 constexpr double kMet = 0.01;           // m, within which a particle is with its holder
 constexpr double kLost = 0.5;           // m, beyond which the log says that it is not
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
+constexpr double kAtOnce = 3.0;         // seconds of stamps per second in a bundle of inputs
 constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
 constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder is extrapolated
 constexpr double kSteepest = 5.0;       // m/s², largest acceleration of a slow holder
@@ -54,7 +55,7 @@ bool Follower::isBelievable(const Sample& input) {
 }
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
-  Sample sample{input, stamp, now};
+  Sample sample{input, stamp, now, now};
   if (!isBelievable(sample)) return false;
   if (now >= refused_at_ + kSilence && std::exchange(warned_, false))
     warn_(name_ + " is followed again");
@@ -65,6 +66,16 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
     // Differences of stamps have no jitter, but their clock may be slower.
     const double expected = samples_.back().time + step;
     sample.time = std::clamp(expected + kForget * (now - expected), now - kJitter, now);
+  }
+  // Inputs that come at once were late, all but the last: they are spread from the one before them on.
+  const Sample* last = nullptr;
+  for (Sample& earlier : samples_) {
+    if (stamp - earlier.stamp <= kAtOnce * (now - earlier.arrival)) {
+      last = &earlier;
+    } else if (last != nullptr) {
+      const double share = (earlier.stamp - last->stamp) / (stamp - last->stamp);
+      earlier.time = last->time + share * (sample.time - last->time);
+    }
   }
   samples_.push_back(sample);
   while (samples_.front().time < sample.time - kSilence) samples_.pop_front();

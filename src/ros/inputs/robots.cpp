@@ -142,11 +142,6 @@ void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_ms
   }
 }
 
-bool Robots::haveFrames() const {
-  return std::any_of(robots_.begin(), robots_.end(),
-                     [](const Robot& r) { return !r.frame.empty(); });
-}
-
 void Robots::lookUp() {
   for (Robot& robot : robots_)
     if (!robot.frame.empty()) lookUp(robot, ros::SteadyTime::now().toSec());

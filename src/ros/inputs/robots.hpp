@@ -58,8 +58,9 @@ class Follower {
  private:
   struct Sample {
     Target holder;
-    double stamp;  ///< s
-    double time;   ///< s, steady clock
+    double stamp;    ///< s
+    double time;     ///< s, steady clock
+    double arrival;  ///< s, steady clock
   };
   bool isNext(const Sample& before, const Sample& input) const;
   bool isBelievable(const Sample& input);
@@ -88,8 +89,6 @@ class Robots {
   Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Driver& driver,
          Frames& frames);
 
-  /// Whether some follow frames of tf.
-  bool haveFrames() const;
   /// Reads tf. Must be called often: a frame counts as received when it is read.
   void lookUp();
   /// Moves the particles, and stops those whose input is silent. Must be called before every state.

@@ -127,11 +127,10 @@ void Node::serve() {
   callBack(0.0);
   robots_.lookUp();
   if (isDue()) return;
-  const bool stands = run_.isOver() || paused_;
-  const ros::SteadyTime next = stands ? show_at_ : pacer_.dueTime(nextTime());
+  const ros::SteadyTime next = run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(nextTime());
   const double wait = (next - ros::SteadyTime::now()).toSec();
-  if (wait > 0.0)
-    callBack(std::min(wait, robots_.haveFrames() ? kLookUpInterval : kLongestService));
+  const bool looks_up = options_.held.find('=') != std::string::npos;
+  if (wait > 0.0) callBack(std::min(wait, looks_up ? kLookUpInterval : kLongestService));
 }
 
 void Node::callBack(double wait) {
