@@ -107,7 +107,7 @@ class Parameters(unittest.TestCase):
                 os.mkdir(folder + '/' + guess)
                 open(folder + '/' + guess + '/frame_0007.txt', 'w').close()
                 node = ended_node(2, arguments=['_output:=' + text], output=None, frames=2, cwd=folder)
-                self.assertIn('write _output:=./NAME', node.lines('FATAL')[0])
+                self.assertIn('for a file, _output:=./NAME', node.lines('FATAL')[0])
                 self.assertEqual(os.listdir(folder + '/' + guess), ['frame_0007.txt'])
                 ended_node(arguments=['_output:=./' + text], output=None, frames=2, cwd=folder)
                 self.assertEqual(len(read_frames(folder + '/' + text)), 2)

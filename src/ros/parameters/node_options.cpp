@@ -34,8 +34,8 @@ void refuseGuess(XmlRpcValue& value, const std::string& text, const Option& opti
   // A particle is a number.
   if (is_text || !option.is<std::string>() || option.key == "held") return;
   throw InputError(fmt::format(
-      "{}: must be text, but ROS has read it as the {} {}; write _{}:=./NAME for a file, "
-      "type=\"str\" in a launch file, or quotes in YAML",
+      "{}: must be text, but ROS has read it as the {} {}; write quotes in YAML, type=\"str\" in a "
+      "launch file, or, for a file, _{}:=./NAME",
       place, value.getType() == XmlRpcValue::TypeBoolean ? "truth value" : "number", text,
       option.key));
 }
@@ -59,7 +59,7 @@ void set(OptionSet& options, XmlRpcValue& parameters, const std::string& node) {
 std::vector<Option> displayOptions(NodeOptions& o) {
   return {
       {"frame_id",
-       Text{&o.frame_id, "NAME", "a name without a leading '/'",
+       Text{&o.frame_id, "NAME", "a name without blanks or a leading '/'",
             [](std::string_view text) { return !text.empty() && isFrame(text); }},
        "", "tf frame of all messages; the chain moves in its x-z plane"},
       {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
@@ -76,8 +76,8 @@ std::vector<Option> displayOptions(NodeOptions& o) {
        "0: the only chain in the picture; else its line of text, counted upwards from 1: the first "
        "chain draws the grid and sets the camera, and the others are behind it and wider"},
       {"camera_frame",
-       Text{&o.camera_frame, "NAME", "a name without a leading '/', or empty for none", isFrame},
-       "", "tf frame of the camera that shows the whole scene"},
+       Text{&o.camera_frame, "NAME", "a name without blanks or a leading '/', or empty", isFrame},
+       "", "tf frame of the camera that shows the whole scene; empty: none"},
   };
 }
 
