@@ -1,8 +1,8 @@
 // The ROS node: integrates the motion of a chain, writes its frames and shows it.
 #include "io/program/command_line.hpp"
 #include "io/program/program.hpp"
+#include "ros/messages/run_messages.hpp"
 #include "ros/node/node.hpp"
-#include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/model/dynamics.hpp>
@@ -122,8 +122,7 @@ Scene readNodeScene(const NodeConfiguration& configuration) {
   Scene scene = readScene(scenario, "_particles:=FILE");
   Drive drive;
   for (const auto& [i, frame] : parseHeld(held, scene.masses.size())) drive.held.push_back({i, {}});
-  if (!hangs) return scene;
-  scene.state = equilibrium(scene.chain().drivenBy(drive), scene.state);
+  if (hangs) scene.state = equilibrium(scene.chain().drivenBy(drive), scene.state);
   return scene;
 }
 
@@ -134,6 +133,7 @@ int runNode(std::optional<ros::NodeHandle>& keeps_ros_started) {
   catchInterruptions(ros::requestShutdown);  // while files are open, the program must not exit
   const bool track_dissipation = options.track_dissipation || !scenario.energy.empty();
   Run run(scene, scenario, {track_dissipation, options.displayInterval(), interruption});
+  const RunMessages probe(run, options, options.publish_clock);  // refuses times beyond stamps
   RunFiles files(run, scenario);
   // Whatever may be refused has been: this ends an earlier node of the same name.
   keeps_ros_started.emplace();
