@@ -22,10 +22,15 @@ trap 'rm -f "$part" "$part.active"' EXIT
 has_messages() { [ "$(stat -c %s "$1" 2> /dev/null || echo 0)" -gt 4117 ]; }  # the size of an empty bag
 
 # In a separate process group, so that the recorder gets only the SIGINT of this script.
+asked=
+trap 'asked=1; [ -z "${recorder-}" ] || kill -INT "$recorder" 2> /dev/null || :' HUP INT TERM
 setsid env --default-signal=INT rosrun rosbag record -O "$part" "${topics[@]}" & recorder=$!
-trap 'kill -INT "$recorder" 2> /dev/null' HUP INT TERM
 status=0
-until wait "$recorder"; do status=$?; kill -0 "$recorder" 2> /dev/null || break; done
+[ -n "$asked" ] || wait "$recorder" || status=$?
+if [ -n "$asked" ]; then
+  while kill -INT "$recorder" 2> /dev/null; do sleep 0.2; done  # at first, the recorder ignores it
+  wait "$recorder" || status=$?
+fi
 if has_messages "$part.active"; then
   mv -fT "$part.active" "$bag.active"
   fail "the recorder ended with status $status; rosbag reindex may repair $bag.active"
