@@ -16,6 +16,7 @@ Energy computeEnergy(const Chain& chain, const State& state) {
     Energy part;
     // Two loops: the call of fma in the first one makes all sums leave their registers.
     for (std::ptrdiff_t i = first; i < last; ++i) {  // spring i is to the right of particle i
+      if (chain.isHeld(i) && chain.isHeld(i + 1)) continue;
       const double stretch = springLength(state, i) - spring.rest_length;
       part.spring += 0.5 * spring.stiffness * stretch * stretch;
     }
@@ -38,7 +39,8 @@ double dissipatedPower(const Chain& chain, const State& state) {
   for (Eigen::Index i = 1; i < chain.size(); ++i) {
     const Eigen::RowVector4d spring = state.values().row(i) - state.values().row(i - 1);
     const auto rate = elongationRate<double>({spring[0], spring[1]}, {spring[2], spring[3]});
-    power = fused(chain.spring().damping, rate * rate, power);
+    const bool is_idle = chain.isHeld(i - 1) && chain.isHeld(i);
+    if (!is_idle) power = fused(chain.spring().damping, rate * rate, power);
     if (chain.airDrag() == 0.0 || chain.isHeld(i)) continue;
     const PlaneVector<double> velocity{state.vx()[i], state.vy()[i]};
     power = fused(chain.airDrag(), dotProduct(velocity, velocity), power);

@@ -13,7 +13,7 @@ namespace spring_pendulum {
 struct Energy {
   double kinetic = 0.0;  ///< sum of m v²/2; held particles count as massless here and below
   double gravity = 0.0;  ///< sum of m g (y - y_1): 0 at the height of the fixed particle
-  double spring = 0.0;   ///< sum of k_s (L - L_0)²/2
+  double spring = 0.0;   ///< sum of k_s (L - L_0)²/2, without springs between two held particles
 
   double total() const { return kinetic + gravity + spring; }
 };
@@ -35,8 +35,8 @@ struct EnergyEntry {
 /// \throws InputError if the size of the state is not that of the chain
 Energy computeEnergy(const Chain& chain, const State& state);
 
-/// Returns the power dissipated by the dashpots and the air, the sum of k_d (w·r)² and of k_air v² of
-/// all particles that are not held, W; never negative.
+/// Returns the power dissipated by the dashpots and the air, the sum of k_d (w·r)² of all springs that are
+/// not between two held particles, and of k_air v² of all particles that are not held, W; never negative.
 /// \throws InputError if the size of the state is not that of the chain
 double dissipatedPower(const Chain& chain, const State& state);
 

@@ -23,9 +23,8 @@ class EnergyFlow {
         spring_(chain.spring()),
         forces_(chain.drive().forces) {
     if (track_dissipation) dissipated_ = AlignedNumbers(StateBuffer::pitchFor(chain.size()));
-    for (Eigen::Index i = 0; chain.isDriven() && i < chain.size(); ++i) {
+    for (Eigen::Index i = 0; chain.isDriven() && i < chain.size(); ++i)
       if (chain.isHeld(i)) held_.push_back(i);
-    }
   }
 
   bool isNeeded() const { return dissipated_.data() != nullptr || !held_.empty(); }
@@ -42,9 +41,8 @@ class EnergyFlow {
     const Eigen::Index block = sumBlockSize(springs_);
     for (Eigen::Index first = 0; first < springs_; first += block) {
       std::array<double, 8> sums{};
-      for (Eigen::Index i = first; i < std::min(springs_, first + block); ++i) {
-        sums[static_cast<std::size_t>((i - first) % 8)] += dissipated_.data()[i];
-      }
+      for (Eigen::Index i = first; i < std::min(springs_, first + block); ++i)
+        if (!isIdle(i)) sums[static_cast<std::size_t>((i - first) % 8)] += dissipated_.data()[i];
       total +=
           ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
     }
@@ -64,6 +62,12 @@ class EnergyFlow {
   }
 
  private:
+  /// Whether both ends of a spring are held: it moves nothing, and has no energy. See computeEnergy.
+  bool isIdle(Eigen::Index spring) const {
+    const auto end = std::lower_bound(held_.begin(), held_.end(), spring);
+    return held_.end() - end > 1 && end[0] == spring && end[1] == spring + 1;
+  }
+
   /// Sum over the particles that are not held.
   double squaredVelocities(const KernelChain& chain, const StateBuffer& state) const {
     double sum = 0.0;
@@ -82,13 +86,12 @@ class EnergyFlow {
     for (const Eigen::Index i : held_) {
       const double* z = state.particle(i);
       for (const Eigen::Index other : {-1, 1}) {
-        if (i + other < 0 || i + other >= state.size()) continue;
+        if (i + other < 0 || i + other >= state.size() || isIdle(std::min(i, i + other))) continue;
         const auto difference = [&](Eigen::Index column) {
           return z[column * pitch + other] - z[column * pitch];
         };
-        const PlaneVector<double> separation{difference(0), difference(1)};
-        const PlaneVector<double> relative_velocity{difference(2), difference(3)};
-        const PlaneVector<double> force = springForce(spring_, separation, relative_velocity);
+        const PlaneVector<double> force = springForce<double>(
+            spring_, {difference(0), difference(1)}, {difference(2), difference(3)});
         power -= force.x * z[2 * pitch] + force.y * z[3 * pitch];
       }
     }
