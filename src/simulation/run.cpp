@@ -24,7 +24,7 @@ constexpr double kCheapWork = 0.05;  // s
 /// energy at a cost of less than 10 %.
 constexpr Eigen::Index kLongChain = 100;
 /// Largest number of parts of a frame: more than any display needs, few enough to avoid overflow.
-constexpr double kMostParts = 1024.0;
+constexpr double kMostParts = 1048576.0;
 constexpr std::int64_t kMostThreads = 1024;
 
 bool dissipationIsCheap(const Chain& chain, const Plan& plan) {
@@ -146,7 +146,8 @@ bool Run::advanceTo(std::int64_t part) {
   judgeFrame(integrator_->work() - work_at_start_);
   if (!isShown()) return false;
   ++totals_.frames;
-  ++(asleep_ ? totals_.slept_frames : totals_.integrated_frames);
+  if (asleep_) ++totals_.slept_frames;
+  if (!asleep_ && plan_.method.get().hasFixedStep()) totals_.steps += steps_;
   return true;
 }
 
@@ -302,7 +303,7 @@ std::string Run::closingLine(const std::string& output) const {
       counted(totals_.frames, "frame"),
       totals_.slept_frames > 0 ? fmt::format(" ({} at rest, not integrated)", totals_.slept_frames)
                                : "",
-      method.hasFixedStep() ? counted(totals_.integrated_frames * steps_, "step") + ", " : "",
+      method.hasFixedStep() ? counted(totals_.steps, "step") + ", " : "",
       counted(evaluations_before_ + integrator_->forceEvaluations(), "force evaluation"),
       durationText(totals_.seconds), output, durationText(totals_.reference_seconds),
       measurements(), toString(verdict().kind));
