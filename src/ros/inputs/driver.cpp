@@ -17,6 +17,8 @@
 namespace spring_pendulum {
 namespace {
 
+using Vector = Eigen::Vector2d;
+
 /// A held particle nearer to its target than this, m and m/s, is at rest.
 constexpr double kSettled = 1e-9;
 /// Constants that change while the chain moves.
@@ -50,9 +52,10 @@ bool isSame(const Scenario& wanted, const Run& run) {
 
 }  // namespace
 
-Driver::Driver(const Run& run, InputLog* log)
+Driver::Driver(const Run& run, InputLog* log, double settling)
     : run_(run),
       log_(log),
+      settling_(settling),
       fastest_(kLengthsPerSecond * std::max(chainLength(run.chain(), run.start()), 1.0)),
       wanted_{run.plan(), run.chain().constants()} {}
 
@@ -109,7 +112,9 @@ std::string Driver::on(const ClearForces& /*request*/) {
 std::string Driver::on(const ComeToRest& /*request*/) {
   if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
   const Chain wanted = Chain(run_.chain().masses(), wanted_.constants);
-  jump_ = std::make_unique<State>(equilibrium(wanted.drivenBy(run_.chain().drive()), run_.state()));
+  State state = run_.state();
+  const Drive drive = driveUntil(run_.nextTime(), state);  // that of the run may be out of date
+  jump_ = std::make_unique<State>(equilibrium(wanted.drivenBy(drive), state));
   return "the chain hangs at rest from the next state on";
 }
 
@@ -127,17 +132,21 @@ std::string Driver::on(const Release& request) {
 Drive Driver::driveUntil(double next_time, State& state) {
   Drive drive;
   const double interval = std::max(next_time - run_.time(), 1e-6);
+  const double settling = std::max(interval, settling_);
+  // With these gains, both eigenvalues of the distance and the velocity are at 1 - interval / settling.
+  const double pull = 1.0 / (settling * settling);
+  const double brake = (2.0 - 0.5 * interval / settling) / settling;
   for (const auto& [i, target] : targets_) {
-    const double x = state.x()[i] - target.position.x, y = state.y()[i] - target.position.y;
-    const double vx = state.vx()[i] - target.velocity.x, vy = state.vy()[i] - target.velocity.y;
+    const Vector x(state.x()[i] - target.position.x, state.y()[i] - target.position.y);
+    const Vector v(state.vx()[i] - target.velocity.x, state.vy()[i] - target.velocity.y);
     HeldParticle held{i, {}};
-    if (std::max({std::abs(x), std::abs(y), std::abs(vx), std::abs(vy)}) > kSettled) {
-      // The double integrator with these gains has both eigenvalues at 0.
-      const double distance = std::sqrt(x * x + y * y);
-      const double longest = 1.5 * fastest_ * interval;
-      const double share = distance > longest ? longest / distance : 1.0;
-      held.acceleration = {target.acceleration.x - (share * x / interval + 1.5 * vx) / interval,
-                           target.acceleration.y - (share * y / interval + 1.5 * vy) / interval};
+    if (!x.isZero(kSettled) || !v.isZero(kSettled)) {
+      const double fastest = target.fastest > 0.0 ? target.fastest : fastest_;
+      const double share = std::min(1.0, fastest * brake / pull / x.norm());
+      const Vector next = v - interval * (share * pull * x + brake * v);
+      const double most = std::max(fastest, (1.0 - interval / settling) * v.norm());
+      const Vector a = (std::min(1.0, most / next.norm()) * next - v) / interval;
+      held.acceleration = {target.acceleration.x + a.x(), target.acceleration.y + a.y()};
     } else if (target.velocity.x == 0.0 && target.velocity.y == 0.0) {
       state.vx()[i] = state.vy()[i] = 0.0;
     }
@@ -158,14 +167,6 @@ Drive Driver::driveUntil(double next_time, State& state) {
   return drive;
 }
 
-Scenario Driver::possible() const {
-  Scenario scenario = wanted_;
-  const Method& method = run_.plan().method;
-  if (wanted_.method.get().hasFixedStep() != method.hasFixedStep() && !run_.isAtFrame())
-    scenario.method = method;
-  return scenario;
-}
-
 void Driver::apply(Run& run, double next_time, bool paused) {
   if (run.isOver()) return;
   // Most runs are left alone: for them, no state is copied.
@@ -182,12 +183,12 @@ void Driver::apply(Run& run, double next_time, bool paused) {
   }
   jump_.reset();
   // An anchor at rest needs no drive.
-  if (drive.held.size() == 1 && drive.held[0].particle == 0 && drive.forces.empty() &&
-      drive.held[0].acceleration.x == 0.0 && drive.held[0].acceleration.y == 0.0 &&
-      state.vx()[0] == 0.0 && state.vy()[0] == 0.0) {
+  if (numbersOf(drive) == std::vector{1.0, 0.0, 0.0, 0.0} && state.velocities().row(0).isZero(0.0))
     drive = {};
-  }
-  const Scenario scenario = possible();
+  Scenario scenario = wanted_;
+  const Method& method = run.plan().method;
+  if (wanted_.method.get().hasFixedStep() != method.hasFixedStep() && !run.isAtFrame())
+    scenario.method = method;  // fixed steps and error control alternate at frames only
   const bool same = numbersOf(drive) == numbersOf(run.chain().drive()) && isSame(scenario, run) &&
                     state.values() == run.state().values();
   if (same) return;
@@ -212,7 +213,7 @@ void Driver::reset(Run& run, const Scene* to) {
   if (run.isChanged() || !isSame(wanted_, run)) {
     run.reset();  // methods may change at a frame only
     try {
-      run.change(possible(), wanted_.constants, {}, state);
+      run.change(wanted_, wanted_.constants, {}, state);
     } catch (const InputError&) {  // what was wanted for another state is impossible at the start
       wanted_ = {run.plan(), run.chain().constants()};
       run.change(wanted_, wanted_.constants, {}, state);

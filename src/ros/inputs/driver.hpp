@@ -15,12 +15,13 @@
 namespace spring_pendulum {
 
 /// Collects what acts on a run, and changes the run between two of its states. Particles are counted
-/// from 0. In each interval between two states a held particle has the constant acceleration that
-/// brings it to rest relative to its target within two intervals.
+/// from 0. In each interval between two states a held particle has a constant acceleration, so that it
+/// comes to rest relative to its target: within two intervals, or smoothly if they are short.
 class Driver {
  public:
   /// \param log learns of every change; must outlive the driver
-  explicit Driver(const Run& run, InputLog* log = nullptr);
+  /// \param settling s, interval from which on a particle comes to rest within two; its time constant else
+  explicit Driver(const Run& run, InputLog* log = nullptr, double settling = 0.0);
 
   /// Act on a request from the next state on, see RequestHandler.
   std::string on(const SetConstant& request);
@@ -46,12 +47,11 @@ class Driver {
 
  private:
   Drive driveUntil(double next_time, State& state);
-  /// What is wanted, with the method of the run if the methods can change at a frame only.
-  Scenario possible() const;
 
   const Run& run_;
   InputLog* log_;
-  double fastest_;  ///< m/s, of a particle on the way to its target
+  double settling_;  ///< s
+  double fastest_;   ///< m/s, of a particle relative to a target that does not say
   Scenario wanted_;
   std::map<std::ptrdiff_t, Target> targets_;
   std::vector<ApplyForceTo> forces_;  ///< with infinite durations instead of negative ones

@@ -35,7 +35,7 @@ bool Follower::isNext(const Sample& before, const Sample& input) const {
 }
 
 bool Follower::isBelievable(const Sample& input) {
-  const auto& [position, velocity, acceleration] = input.holder;
+  const PlaneVector<double>&position = input.holder.position, &velocity = input.holder.velocity;
   const double now = input.time;
   if (!std::isfinite(position.x + position.y + velocity.x + velocity.y))
     return refuse("has numbers that are not finite", now);
@@ -142,13 +142,13 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
     target.position.*axis += age * (target.velocity.*axis + 0.5 * age * target.acceleration.*axis);
     target.velocity.*axis += age * target.acceleration.*axis;
   }
-  if (interval > 0.0) approach(target, here, now, interval);
+  if (interval > 0.0) approach(target, here, now);
   return target;
 }
 
 /// Lets the particle come to its holder with a limited speed relative to it.
-void Follower::approach(Target& target, const PlaneVector<double>& here, double now,
-                        double interval) {
+void Follower::approach(Target& target, const PlaneVector<double>& here, double now) {
+  target.fastest = kApproachSpeed;
   const double distance = std::hypot(target.position.x - here.x, target.position.y - here.y);
   if (distance < kMet) {
     left_ = 0.0;
@@ -161,11 +161,6 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
     warn_(name_ + fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away",
                               now - left_, distance));
   }
-  const double longest = 1.5 * kApproachSpeed * interval;
-  if (distance <= longest) return;
-  const double share = longest / distance;
-  target.position.x = here.x + share * (target.position.x - here.x);
-  target.position.y = here.y + share * (target.position.y - here.y);
 }
 
 bool Follower::isSilent(double now) const {

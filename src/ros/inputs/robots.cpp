@@ -159,6 +159,7 @@ void Robots::follow(double real_time_factor, double next_time) {
     auto target = robot.follower.targetAt(now, here, interval);
     if (!target) continue;
     // From seconds to simulated seconds.
+    if (share > 0.0) target->fastest *= share;
     target->velocity = {share * target->velocity.x, share * target->velocity.y};
     target->acceleration = {share * share * target->acceleration.x,
                             share * share * target->acceleration.y};

@@ -68,7 +68,7 @@ class Follower {
   /// The last input that is at least this much older than the newest one; null: none.
   const Sample* before(double seconds) const;
   void estimateMotion(bool has_velocity);
-  void approach(Target& target, const PlaneVector<double>& here, double now, double interval);
+  void approach(Target& target, const PlaneVector<double>& here, double now);
 
   std::string name_;
   double longest_;
