@@ -134,9 +134,10 @@ int runNode(std::optional<ros::NodeHandle>& keeps_ros_started) {
   const bool track_dissipation = options.track_dissipation || !scenario.energy.empty();
   Run run(scene, scenario, {track_dissipation, options.displayInterval(), interruption});
   const RunMessages probe(run, options, options.publish_clock);  // refuses times beyond stamps
+  if (interruption() != 0) return kDone;
   RunFiles files(run, scenario);
   // Whatever may be refused has been: this ends an earlier node of the same name.
-  keeps_ros_started.emplace();
+  if (interruption() == 0) keeps_ros_started.emplace();
   catchInterruptions();  // only recorded from now on: ROS continues until the files are closed
   if (interruption() != 0 || !ros::ok()) return kDone;
   if (!unused.empty()) ROS_INFO_STREAM(scenario.method.get().name << " does not use " << unused);

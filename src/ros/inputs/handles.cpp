@@ -116,10 +116,8 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
 }
 
 void Handles::release(std::ptrdiff_t particle) {
-  const auto drag = drags_.find(particle);
-  if (drag == drags_.end()) return;
-  if (!drag->second.was_held) ask(Release{particle});
-  drags_.erase(drag);
+  const auto drag = drags_.extract(particle);  // first: asking may call this again
+  if (!drag.empty() && !drag.mapped().was_held) ask(Release{particle});
 }
 
 void Handles::releaseSilent() {

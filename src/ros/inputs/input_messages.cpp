@@ -228,6 +228,7 @@ void Replay::act(const PendulumInput& input, Run& run) const {
   setScenario(scenario, input);
   State state = run.state();
   setStates(state, input);
+  if (input.start != 0) run.reset();  // methods may change at a frame only
   run.change(scenario, scenario.constants, driveOf(input), state);
   if (input.start != 0) run.goTo(input.frame, state);
 }

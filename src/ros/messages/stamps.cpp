@@ -15,7 +15,7 @@ ros::Time Stamps::next(double simulated_time) {
   if (!fits && simulated_)
     throw InputError(
         fmt::format("simulated time {:g} s is too large for ROS time stamps, which end at {:g} s",
-                    simulated_time, kLatest));
+                    played_.toSec() + more, kLatest));
   if (fits && more > 0.0) played_ += ros::Duration(more);
   last_simulated_time_ = simulated_time;
   // With use_sim_time and no publisher of /clock, ROS time is 0.

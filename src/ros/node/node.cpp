@@ -23,6 +23,7 @@ constexpr double kLongestService = 0.1;     // s, between two looks at signals
 constexpr double kLookUpInterval = 0.002;   // s, between two looks at frames of tf
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
 constexpr double kLongestSending = 10.0;    // s, at the end, for subscribers that are slower
+constexpr double kSettling = 1.0 / 30.0;    // s, of a particle that follows its target
 constexpr double kPollInterval = 0.01;      // s between two checks for subscribers
 /// A subscriber that comes later than this number of inputs, or bytes of them, misses some.
 constexpr std::uint32_t kMostInputs = 20000;
@@ -44,7 +45,7 @@ Node::Node(Scenario scenario, NodeOptions options, Run& run, RunFiles& files)
       // Unlike ros::Time, the wall clock differs for each run, also with use_sim_time.
       input_log_(options_.displayInterval(), ros::Time().fromNSec(ros::WallTime::now().toNSec()),
                  [this](const PendulumInput& input) { record(input); }),
-      driver_(run_, &input_log_),
+      driver_(run_, &input_log_, kSettling * options_.real_time_factor),
       frames_(options_.frame_id),
       handles_(node_, run_, options_, driver_, frames_,
                [this](const Request& request) { return take(request); }),

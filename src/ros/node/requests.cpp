@@ -94,14 +94,14 @@ std::string Node::take(const Request& request) {
 }
 
 std::string Node::on(const Pause& request) {
-  if (run_.isOver()) throw InputError(overMessage(run_));
   const bool paused = request.paused, is_new = paused != paused_;
-  if (is_new) steps_wanted_ = paused && !run_.isAtFrame() ? 1 : 0;  // a frame can be saved
-  const std::int64_t frame = run_.frame() + (paused ? steps_wanted_ : 0);
-  std::string sentence =
-      fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
-                  paused ? "paused" : "running", frame, run_.plan().timeOfFrame(frame));
+  // A whole frame can be saved.
+  while (paused && is_new && !run_.isAtFrame() && !run_.isOver()) advance();
+  if (run_.isOver()) throw InputError(overMessage(run_));
+  std::string sentence = fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
+                                     paused ? "paused" : "running", run_.frame(), run_.time());
   if (!is_new) return sentence;
+  steps_wanted_ = 0;
   paused_ = paused;
   pacer_.start(run_.time(), ros::SteadyTime::now());
   return sentence;
@@ -117,8 +117,7 @@ std::string Node::on(const Step& /*request*/) {
 std::string Node::on(const Reset& /*request*/) {
   const std::int64_t from = run_.frame();
   goTo(nullptr);
-  return fmt::format("back to frame {} from frame {}{}", run_.frame(), from,
-                     paused_ ? ", paused" : "");
+  return fmt::format("back to frame {} from frame {}", run_.frame(), from);
 }
 
 std::string Node::on(const SaveState& request) {
