@@ -62,6 +62,7 @@ class Repeated(NodeTest):
                 service('set_method')(dice.choice(('Auto', 'Runge-Kutta-4', 'Taylor-8', method)))
             elif choice < 0.95 and jumps < 4:
                 jumps += 1
+                service('set_method')(dice.choice(('Auto', method)))
                 service(dice.choice(('reset', 'at_rest')))()
             else:
                 service('pause')(True)

@@ -75,17 +75,19 @@ class Hands(LiveTest):
             self.wait_state(lambda m: m.positions[10].z < 0.0, 'the tip falls')
 
     def test_a_paused_particle_is_placed_at_rest(self):
-        with self.start(display_rate=100):  # most states are between frames
-            self.call('pause', True)
+        with self.start(display_rate=100) as node:  # most states are between frames
+            self.drag(6, 4.0, 0.0)
+            frame = self.call('pause', True).split()[3]
             self.drag(6, 4.0, 1.0)
             v = self.last().velocities[5]
             self.assertEqual((v.x, v.z), (0.0, 0.0))
             with Folder() as folder:
-                self.call('save_state', folder + '/state.txt')
+                self.assertIn('frame ' + frame, self.call('save_state', folder + '/state.txt'))
                 self.assertRegex(files_in(folder).popitem()[1], br'(?m)^4(\.0)? 1(\.0)? ')
-            self.let_go(6)
+            wait_until(lambda: node.lines('WARN'), 'the release of a silent hand')
             self.call('pause', False)
             self.wait_state(lambda m: m.positions[5].z < 0.5, 'it falls')
+            self.assertEqual(len(node.lines('WARN')), 1)
             self.check_energy()
 
 

@@ -207,6 +207,23 @@ TEST(DrivenRun, KeepsTheVelocityOfAReleasedParticle) {
   EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6);
 }
 
+// No free particle limits the step with which the work of the holder would be summed.
+TEST(DrivenRun, LeavesOutSpringsBetweenHeldParticles) {
+  const Scene scene = test::horizontalChain("pair", 2, 1.0);
+  for (const Method& method : methodTable()) {
+    DrivenPair pair(scenarioOf(method.name, scene), scene);
+    State passing = scene.start;
+    passing.y()[1] = 0.001;
+    passing.vx()[1] = -1.0;
+    pair.run.change(pair.run.plan(), pair.run.chain().constants(), {{{1, {}}}, {}}, passing);
+    const double before = pair.run.energyEntry().supplied;
+    while (pair.run.time() < 2.0) pair.run.advance();
+    EXPECT_EQ(pair.run.energyEntry().supplied, before) << method.name;
+    EXPECT_NEAR(pair.run.energyEntry().relative_residual.value(), 0.0, 1e-12) << method.name;
+    EXPECT_EQ(dissipatedPower(pair.run.chain(), pair.run.state()), 0.0);
+  }
+}
+
 TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   const Scene scene = test::horizontalChain("horizontal", 6, 1.0);
   Scenario undamped = scenarioOf("Auto", scene);
@@ -240,6 +257,7 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   EXPECT_NEAR(pair.run.time(), time, 1e-12);
   pair.run.advance();
   EXPECT_NEAR(pair.run.time(), time + kInterval, 1e-12);
+  EXPECT_NE(pair.run.closingLine().find(" 2 steps, "), std::string::npos);
 }
 
 // So a saved state has the time of its frame, whatever methods have computed it.

@@ -72,6 +72,13 @@ TEST(Run, NeverCutsFinerThanAStep) {
   EXPECT_FALSE(run.isAtFrame());
 }
 
+TEST(Run, ShowsALongFrameInSmallParts) {
+  Scenario scenario = scenarioOf("Auto");
+  scenario.frame_interval = 1000.0;
+  test::ProgramRun run(scenario, scene(), {false, 1.0 / 30.0});
+  EXPECT_LE(run.nextTime(), 1.0 / 30.0);
+}
+
 TEST(Run, ResetGivesTheSameRunAgain) {
   test::ProgramRun run(scenarioOf("Runge-Kutta-2"), scene(), {true, 0.05});
   const auto first = frames(run, true);

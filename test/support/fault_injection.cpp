@@ -144,25 +144,11 @@ timespec clockNow(clockid_t clock) {
     if (fails(#function, pathOf(folder, path))) return -1;     \
     return NEXT(function)(folder, path, flags, mode);          \
   }
-#define FOPEN(function)                                           \
-  FILE* function(const char* path, const char* mode) {            \
-    if (fails(#function, pathOf(AT_FDCWD, path))) return nullptr; \
-    return NEXT(function)(path, mode);                            \
-  }
-#define STAT(function, Status)                               \
-  int function(const char* path, Status* status) noexcept {  \
-    if (fails(#function, pathOf(AT_FDCWD, path))) return -1; \
-    return NEXT(function)(path, status);                     \
-  }
-#define FSTAT(function, Status)                     \
-  int function(int file, Status* status) noexcept { \
-    if (fails(#function, pathOf(file))) return -1;  \
-    return NEXT(function)(file, status);            \
-  }
-#define FSTATAT(function, Status)                                                  \
-  int function(int folder, const char* path, Status* status, int flags) noexcept { \
-    if (fails(#function, pathOf(folder, path))) return -1;                         \
-    return NEXT(function)(folder, path, status, flags);                            \
+#define HERE pathOf(AT_FDCWD, path)
+// A function that calls the next one of its name with these arguments unless it fails.
+#define CALL(Result, function, failure, path_of, parameters, ...)               \
+  Result function parameters {                                                  \
+    return fails(#function, path_of) ? (failure) : NEXT(function)(__VA_ARGS__); \
   }
 
 extern "C" {
@@ -171,14 +157,35 @@ OPEN(open)
 OPEN(open64)
 OPENAT(openat)
 OPENAT(openat64)
-FOPEN(fopen)
-FOPEN(fopen64)
-STAT(stat, struct stat)
-STAT(stat64, struct stat64)
-FSTAT(fstat, struct stat)
-FSTAT(fstat64, struct stat64)
-FSTATAT(fstatat, struct stat)
-FSTATAT(fstatat64, struct stat64)
+CALL(FILE*, fopen, nullptr, HERE, (const char* path, const char* mode), path, mode)
+CALL(FILE*, fopen64, nullptr, HERE, (const char* path, const char* mode), path, mode)
+CALL(int, stat, -1, HERE, (const char* path, struct stat* to) noexcept, path, to)
+CALL(int, stat64, -1, HERE, (const char* path, struct stat64* to) noexcept, path, to)
+CALL(int, fstat, -1, pathOf(file), (int file, struct stat* to) noexcept, file, to)
+CALL(int, fstat64, -1, pathOf(file), (int file, struct stat64* to) noexcept, file, to)
+CALL(int, fstatat, -1, pathOf(folder, path),
+     (int folder, const char* path, struct stat* to, int flags) noexcept, folder, path, to, flags)
+CALL(int, fstatat64, -1, pathOf(folder, path),
+     (int folder, const char* path, struct stat64* to, int flags) noexcept, folder, path, to, flags)
+CALL(int, faccessat, -1, pathOf(folder, path),
+     (int folder, const char* path, int mode, int flags) noexcept, folder, path, mode, flags)
+CALL(size_t, fwrite, 0, pathOf(fileno(file)),
+     (const void* data, size_t size, size_t count, FILE* file), data, size, count, file)
+CALL(int, fseeko, -1, pathOf(fileno(file)), (FILE * file, off_t offset, int from), file, offset,
+     from)
+CALL(int, rename, -1, HERE, (const char* from, const char* path) noexcept, from, path)
+CALL(int, renameat, -1, pathOf(to, path),
+     (int from, const char* old, int to, const char* path) noexcept, from, old, to, path)
+CALL(int, unlink, -1, HERE, (const char* path) noexcept, path)
+CALL(int, remove, -1, HERE, (const char* path) noexcept, path)
+CALL(int, unlinkat, -1, pathOf(folder, path), (int folder, const char* path, int flags) noexcept,
+     folder, path, flags)
+CALL(int, mkdir, -1, HERE, (const char* path, mode_t mode) noexcept, path, mode)
+CALL(int, ftruncate, -1, pathOf(file), (int file, off_t size) noexcept, file, size)
+CALL(int, flock, -1, pathOf(file), (int file, int operation) noexcept, file, operation)
+CALL(int, fsync, -1, pathOf(file), (int file), file)
+CALL(DIR*, fdopendir, nullptr, pathOf(file), (int file), file)
+CALL(dirent*, readdir, nullptr, pathOf(dirfd(folder)), (DIR * folder), folder)
 
 ssize_t write(int file, const void* data, size_t size) {
   const ssize_t part = allowed("write", file, size);
@@ -190,19 +197,9 @@ ssize_t read(int file, void* data, size_t size) {
   return part < 0 ? -1 : NEXT(read)(file, data, static_cast<size_t>(part));
 }
 
-size_t fwrite(const void* data, size_t size, size_t count, FILE* file) {
-  if (fails("fwrite", pathOf(fileno(file)))) return 0;
-  return NEXT(fwrite)(data, size, count, file);
-}
-
 int fflush(FILE* file) {
   if (file != nullptr && fails("fflush", pathOf(fileno(file)))) return EOF;
   return NEXT(fflush)(file);
-}
-
-int fseeko(FILE* file, off_t offset, int from) {
-  if (fails("fseeko", pathOf(fileno(file)))) return -1;
-  return NEXT(fseeko)(file, offset, from);
 }
 
 // A failing close still closes the descriptor, as on Linux, but data may be lost.
@@ -231,39 +228,6 @@ int fcntl(int file, int command, ...) {
   return NEXT(fcntl)(file, command, argument);
 }
 
-int rename(const char* from, const char* to) noexcept {
-  return fails("rename", pathOf(AT_FDCWD, to)) ? -1 : NEXT(rename)(from, to);
-}
-
-int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
-  if (fails("renameat", pathOf(to_folder, to))) return -1;
-  return NEXT(renameat)(from_folder, from, to_folder, to);
-}
-
-int unlink(const char* path) noexcept {
-  return fails("unlink", pathOf(AT_FDCWD, path)) ? -1 : NEXT(unlink)(path);
-}
-
-int remove(const char* path) noexcept {
-  return fails("remove", pathOf(AT_FDCWD, path)) ? -1 : NEXT(remove)(path);
-}
-
-int unlinkat(int folder, const char* path, int flags) noexcept {
-  return fails("unlinkat", pathOf(folder, path)) ? -1 : NEXT(unlinkat)(folder, path, flags);
-}
-
-int mkdir(const char* path, mode_t mode) noexcept {
-  return fails("mkdir", pathOf(AT_FDCWD, path)) ? -1 : NEXT(mkdir)(path, mode);
-}
-
-int ftruncate(int file, off_t size) noexcept {
-  return fails("ftruncate", pathOf(file)) ? -1 : NEXT(ftruncate)(file, size);
-}
-
-int flock(int file, int operation) noexcept {
-  return fails("flock", pathOf(file)) ? -1 : NEXT(flock)(file, operation);
-}
-
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                    void* argument) noexcept {
   static std::atomic<long> threads{0};
@@ -271,23 +235,6 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
   const bool later = setting("FAULT_KIND") == "broken" && wanted > 0 && number > wanted;
   if (number == wanted || later) return EAGAIN;
   return NEXT(pthread_create)(thread, attributes, start, argument);
-}
-
-int fsync(int file) {
-  return fails("fsync", pathOf(file)) ? -1 : NEXT(fsync)(file);
-}
-
-int faccessat(int folder, const char* path, int mode, int flags) noexcept {
-  if (fails("faccessat", pathOf(folder, path))) return -1;
-  return NEXT(faccessat)(folder, path, mode, flags);
-}
-
-DIR* fdopendir(int file) {
-  return fails("fdopendir", pathOf(file)) ? nullptr : NEXT(fdopendir)(file);
-}
-
-dirent* readdir(DIR* folder) {
-  return fails("readdir", pathOf(dirfd(folder))) ? nullptr : NEXT(readdir)(folder);
 }
 
 int clock_gettime(clockid_t clock, timespec* time) noexcept {
