@@ -97,14 +97,13 @@ std::string wrongCount(const std::string& line, const std::string& numbers) {
 
 std::vector<BadText> wordsThatAreNoNumbers() {
   std::vector<BadText> rows;
-  for (const std::string word : {"zero", "nan", "1e400", "1.0x", "1;", "-inf", "infinity", "0x10",
-                                 "+-1", "++1", "+"})
+  for (const std::string word :
+       {"zero", "nan", "1e400", "1.0x", "1;", "-inf", "infinity", "0x10", "+-1", "++1", "+"})
     rows.push_back({"0 0 1\n" + word + " 0 1\n", noNumber("2", "'" + word + "'")});
   return rows;
 }
 
-INSTANTIATE_TEST_SUITE_P(BadWords, ParticleFileRefuses,
-                         testing::ValuesIn(wordsThatAreNoNumbers()));
+INSTANTIATE_TEST_SUITE_P(BadWords, ParticleFileRefuses, testing::ValuesIn(wordsThatAreNoNumbers()));
 
 const std::string kNoParticles = "particle.txt: no particles; write one line 'x y m' per particle";
 
