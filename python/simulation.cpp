@@ -52,7 +52,9 @@ std::string optionText(const Option& option, const py::object& value) {
   if (option.isText()) return textOf(value, option.key, option.range());
   py::detail::make_caster<bool> flag;
   if (flag.load(value, false)) return flag ? "true" : "false";
-  if (PyIndex_Check(value.ptr()) != 0) return reprOf(py::int_(value));
+  if (PyObject* index = PyNumber_Index(value.ptr()))
+    return reprOf(py::reinterpret_steal<py::object>(index));
+  PyErr_Clear();
   const double number = PyFloat_AsDouble(value.ptr());  // does not parse text
   if (PyErr_Occurred() == nullptr) return py::repr(py::float_(number));
   PyErr_Clear();
@@ -85,11 +87,9 @@ std::string particleText(const Numbers& rows) {
 
 /// \param particles a path or an array; sets `scenario.particles`
 Scene sceneOf(const py::object& particles, Scenario& scenario) {
-  scenario.particles.clear();
-  if (isPath(particles)) {
-    scenario.particles = textOf(particles, "particles", "a path");
-    return readScene(scenario);
-  }
+  const bool is_path = isPath(particles);
+  scenario.particles = is_path ? textOf(particles, "particles", "a path") : "";
+  if (is_path) return readScene(scenario);
   if (scenario.resume) throw InputError("resume: needs a file of save_state, not an array");
   return makeScene(scenario,
                    parseParticles(particleText(toNumbers(particles, "particles", 2)), "particles"));

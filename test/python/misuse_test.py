@@ -48,6 +48,7 @@ class Misuse(unittest.TestCase):
                     self.refused('^%s: must be ' % key, sp.simulate, SCENE, **{key: value})
                     self.refused('^%s: must be ' % key, sp.check, SCENE, **{key: value})
         self.assertEqual(len(sp.simulate(SCENE, frames=np.int8(3), time_step=np.float32(0.01), no_frames=np.True_).time), 3)
+        self.assertEqual(sp.simulate(SCENE, method='Auto', frames=2, frame_interval=np.array(1.5)).time[1], 1.5)
 
     def test_wrong_particles(self):
         for wrong in (None, 3, [1, 2, 3], np.zeros((2, 3, 4)), [['a', 'b', 'c']], [[0, 0, 1], [1, 0]], [[1j, 0, 0]],
