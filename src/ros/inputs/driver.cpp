@@ -160,8 +160,8 @@ Drive Driver::driveUntil(double next_time, State& state) {
   for (const ApplyForceTo& force : forces_) {
     if (isHeld(force.particle) || force.start_time >= next_time) continue;
     // The impulse of the part of the interval in which the force acts.
-    const double share =
-        (std::min(end_of(force), next_time) - std::max(force.start_time, now)) / interval;
+    const double acts = std::min(end_of(force), next_time) - std::max(force.start_time, now);
+    const double share = acts < next_time - now ? acts / (next_time - now) : 1.0;
     drive.forces.push_back({force.particle, {share * force.force.x, share * force.force.y}});
   }
   return drive;
