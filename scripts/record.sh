@@ -3,6 +3,11 @@
 # Usage: record.sh BAG TOPIC ...
 set -euo pipefail
 
+# A script starts its jobs with SIGINT ignored, which no trap undoes.
+[ -n "${RECORD_TAKES_SIGINT-}" ] || RECORD_TAKES_SIGINT=1 exec env --default-signal=INT bash "$0" "$@"
+asked=
+trap 'asked=1; [ -z "${recorder-}" ] || kill -INT "$recorder" 2> /dev/null || :' HUP INT TERM
+
 [ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 bag=$1; shift
 [[ $bag = *.bag ]] || bag+=.bag
@@ -22,13 +27,12 @@ trap 'rm -f "$part" "$part.active"' EXIT
 has_messages() { [ "$(stat -c %s "$1" 2> /dev/null || echo 0)" -gt 4117 ]; }  # the size of an empty bag
 
 # In a separate process group, so that the recorder gets only the SIGINT of this script.
-asked=
-trap 'asked=1; [ -z "${recorder-}" ] || kill -INT "$recorder" 2> /dev/null || :' HUP INT TERM
 setsid env --default-signal=INT rosrun rosbag record -O "$part" "${topics[@]}" & recorder=$!
 status=0
 [ -n "$asked" ] || wait "$recorder" || status=$?
 if [ -n "$asked" ]; then
   while kill -INT "$recorder" 2> /dev/null; do sleep 0.2; done  # at first, the recorder ignores it
+  status=0
   wait "$recorder" || status=$?
 fi
 if has_messages "$part.active"; then

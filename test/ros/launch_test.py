@@ -120,12 +120,14 @@ class Launch(unittest.TestCase):
                     ('exit 1', 'earlier', 'no bag was written to ' + bag),
                     ('head -c 4117 /dev/zero > "$4.active"; mv "$4.active" "$4"', 'earlier', 'nothing was recorded'),
                     ('yes new | head -n 2000 > "$4.active"; exit 1', 'earlier', 'may repair %s.active' % bag),
-                    ('yes new | head -n 2000 > "$4.active"; mv "$4.active" "$4"', 'new', '')):
+                    ('yes new | head -n 2000 > "$4.active"; mv "$4.active" "$4"', 'new', ''),
+                    ('trap "mv $4.active $4; exit" INT; yes new | head -n 2000 > "$4.active"; kill -INT $PPID; '
+                     'for i in $(seq 50); do sleep 0.1; done', 'new', '')):  # a signal, though ignored by the caller
                 write(bag, 'earlier\n')
                 write(rosrun, '#!/bin/sh\n' + recorder + '\n')
                 os.chmod(rosrun, 0o755)
-                done = subprocess.run([project('scripts/record.sh'), link, '/state'], capture_output=True,
-                                      text=True, env=dict(os.environ, PATH=folder + ':/usr/bin:/bin'))
+                done = subprocess.run(['sh', '-c', 'trap "" INT; "$@"', '', project('scripts/record.sh'), link, '/state'],
+                                      capture_output=True, text=True, env=dict(os.environ, PATH=folder + ':/usr/bin:/bin'))
                 self.assertEqual(done.returncode, 1 if message else 0)
                 self.assertIn(message, done.stderr)
                 with open(bag) as file:
