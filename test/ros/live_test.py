@@ -55,6 +55,10 @@ class Hands(LiveTest):
             self.let_go(1)
             rospy.sleep(0.5)
             self.assertAlmostEqual(self.last().positions[0].x, 0.5, places=3)  # P_1 stays
+            self.hand.publish(feedback(1, Feedback.POSE_UPDATE, 9.0, 0.5))
+            self.let_go(1)  # on its way
+            rospy.sleep(0.5)
+            self.assertLess(abs(self.last().positions[0].x - 0.5), 2.0)
             self.check_energy()
             self.assertIsNone(node.process.poll())
 

@@ -172,14 +172,11 @@ void Driver::apply(Run& run, double next_time, bool paused) {
   // Most runs are left alone: for them, no state is copied.
   if (!isActing() && !jump_ && !run.chain().isDriven() && isSame(wanted_, run)) return;
   State state = jump_ ? *jump_ : run.state();
-  Drive drive;
-  if (paused) {
-    for (const auto& [i, target] : targets_) {
-      state.values().row(i) << target.position.x, target.position.y, 0.0, 0.0;
-      drive.held.push_back({i, {}});
-    }
-  } else {
-    drive = driveUntil(next_time, state);
+  Drive drive = paused ? Drive{} : driveUntil(next_time, state);
+  for (const auto& [i, target] : targets_) {
+    if (!paused) break;
+    state.values().row(i) << target.position.x, target.position.y, 0.0, 0.0;
+    drive.held.push_back({i, {}});
   }
   jump_.reset();
   // An anchor at rest needs no drive.
@@ -219,11 +216,10 @@ void Driver::reset(Run& run, const Scene* to) {
       run.change(wanted_, wanted_.constants, {}, state);
     }
   }
-  if (to != nullptr) {
+  if (to != nullptr)
     run.goTo(to->frame, to->state);
-  } else {
+  else
     run.reset();
-  }
   if (log_ != nullptr) log_->started(run, time);
 }
 

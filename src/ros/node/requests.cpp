@@ -95,13 +95,19 @@ std::string Node::take(const Request& request) {
 
 std::string Node::on(const Pause& request) {
   const bool paused = request.paused, is_new = paused != paused_;
-  // A whole frame can be saved.
-  while (paused && is_new && !run_.isAtFrame() && !run_.isOver()) advance();
+  // A whole frame can be saved. If it takes long, inputs must not seem silent meanwhile.
+  const ros::SteadyTime latest = ros::SteadyTime::now() + ros::WallDuration(0.1);
+  while (paused && is_new && !run_.isAtFrame() && !run_.isOver() && ros::SteadyTime::now() < latest)
+    advance();
   if (run_.isOver()) throw InputError(overMessage(run_));
+  const std::int64_t missing = paused && !run_.isAtFrame() ? 1 : 0, frame = run_.frame() + missing;
   std::string sentence = fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
-                                     paused ? "paused" : "running", run_.frame(), run_.time());
+                                     !paused       ? "running"
+                                     : missing > 0 ? "pausing"
+                                                   : "paused",
+                                     frame, run_.plan().timeOfFrame(frame));
   if (!is_new) return sentence;
-  steps_wanted_ = 0;
+  steps_wanted_ = missing;
   paused_ = paused;
   pacer_.start(run_.time(), ros::SteadyTime::now());
   return sentence;
