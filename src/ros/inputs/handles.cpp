@@ -107,7 +107,7 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
   const bool pulls = event == Event::POSE_UPDATE, grabs = pulls || event == Event::MOUSE_DOWN;
   const std::optional<Target> target = pulls ? targetOf(particle, feedback) : std::nullopt;
   if ((pulls && !target) || (!grabs && event != Event::KEEP_ALIVE)) return;
-  const bool was_held = driver_.isHeld(particle) && particle != 0;  // P_1 stops when it is let go
+  const bool was_held = driver_.isHeld(particle) || particle == 0;
   const bool is_new = grabs && drags_.try_emplace(particle, Drag{{}, was_held}).second;
   const auto drag = drags_.find(particle);
   if (drag == drags_.end()) return;
@@ -117,7 +117,8 @@ void Handles::onFeedback(std::ptrdiff_t particle, const Feedback& feedback) {
 
 void Handles::release(std::ptrdiff_t particle) {
   const auto drag = drags_.extract(particle);  // first: asking may call this again
-  if (!drag.empty() && !drag.mapped().was_held) ask(Release{particle});
+  if (drag.empty()) return;
+  ask(drag.mapped().was_held ? Request(Hold{particle, {}}) : Request(Release{particle}));
 }
 
 void Handles::releaseSilent() {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
-constexpr double kLookUpInterval = 0.002;   // s, between two looks at frames of tf
+constexpr double kShortWait = 0.002;        // s, for tf, or for recorders between parts of a step
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
 constexpr double kLongestSending = 10.0;    // s, at the end, for subscribers that are slower
 constexpr double kSettling = 1.0 / 30.0;    // s, of a particle that follows its target
@@ -125,13 +125,13 @@ bool Node::isDue() const {
 }
 
 void Node::serve() {
-  callBack(0.0);
+  callBack(steps_wanted_ > 0 ? kShortWait : 0.0);
   robots_.lookUp();
   if (isDue()) return;
   const ros::SteadyTime next = run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(nextTime());
   const double wait = (next - ros::SteadyTime::now()).toSec();
   const bool looks_up = options_.held.find('=') != std::string::npos;
-  if (wait > 0.0) callBack(std::min(wait, looks_up ? kLookUpInterval : kLongestService));
+  if (wait > 0.0) callBack(std::min(wait, looks_up ? kShortWait : kLongestService));
 }
 
 void Node::callBack(double wait) {

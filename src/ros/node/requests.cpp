@@ -26,6 +26,7 @@ namespace {
 constexpr const char* kDefaultStateFile = "pendulum_state.txt";
 
 std::string overMessage(const Run& run) {
+  if (run.wasStopped()) return "the node is ending";
   return fmt::format("the run ended at frame {}{}; call ~reset to start it again", run.frame(),
                      run.isShown() ? "" : ", because the motion diverged");
 }
@@ -95,9 +96,9 @@ std::string Node::take(const Request& request) {
 
 std::string Node::on(const Pause& request) {
   const bool paused = request.paused, is_new = paused != paused_;
-  // A whole frame can be saved. If it takes long, inputs must not seem silent meanwhile.
-  const ros::SteadyTime latest = ros::SteadyTime::now() + ros::WallDuration(0.1);
-  while (paused && is_new && !run_.isAtFrame() && !run_.isOver() && ros::SteadyTime::now() < latest)
+  // A whole frame can be saved. Of a long one, the rest follows: inputs must not seem silent meanwhile.
+  const bool finishes = paused && is_new;
+  for (int part = 0; finishes && part < 50 && !run_.isAtFrame() && !run_.isOver(); ++part)
     advance();
   if (run_.isOver()) throw InputError(overMessage(run_));
   const std::int64_t missing = paused && !run_.isAtFrame() ? 1 : 0, frame = run_.frame() + missing;

@@ -46,11 +46,10 @@ void set(OptionSet& options, XmlRpcValue& parameters, const std::string& node) {
     const Option& option = options.find(key, node);
     const std::string text = parameterText(value, place);
     refuseGuess(value, text, option, place);
-    if (key == "output" && text.empty()) {  // a launch file can't omit a parameter
+    if (key == "output" && text.empty())  // a launch file can't omit a parameter
       options.set(options.find("no_frames", node), "true", place);
-    } else {
+    else
       options.set(option, text, place);
-    }
   }
 }
 
