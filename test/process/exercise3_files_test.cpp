@@ -13,9 +13,6 @@
 namespace spring_pendulum {
 namespace {
 
-using testing::ElementsAre;
-using testing::EndsWith;
-
 constexpr const char* kEnergyStart = "frame,time [s],";
 
 class Exercise3Files : public Exercise3Test {
@@ -111,7 +108,7 @@ TEST_F(Exercise3Files, ALinkStaysAndItsFileIsWritten) {
     EXPECT_TRUE(std::filesystem::is_symlink(path(link)));
     EXPECT_THAT(read(link), StartsWith(kEnergyStart));
   }
-  EXPECT_THAT(list("far"), ElementsAre("new.csv", "old.csv"));
+  EXPECT_THAT(list("far"), testing::ElementsAre("new.csv", "old.csv"));
 }
 
 TEST_F(Exercise3Files, DotsAfterALinkMeanTheFolderThatTheLinkLeadsTo) {
@@ -159,7 +156,7 @@ TEST_F(Exercise3Files, ClosedStandardStreamsChangeNoFile) {
 TEST_F(Exercise3Files, TheEnergyFileMayLieInTheNewFolderOfTheFrames) {
   EXPECT_EQ(run(command("--output new/frames --energy new/frames/e.csv")).errors, "");
   EXPECT_THAT(list("new/frames"),
-              ElementsAre("e.csv", "frame_0000.txt", "frame_0001.txt", "frame_0002.txt"));
+              testing::ElementsAre("e.csv", "frame_0000.txt", "frame_0001.txt", "frame_0002.txt"));
 }
 
 /// A run that does not end by itself.
@@ -182,7 +179,7 @@ TEST_F(Exercise3Endless, AFolderMovedAwayAndReplacedIsAnError) {
   EXPECT_EQ(result.errors,
             path("out") + ": was moved or removed during the run, and its files with it\n");
   EXPECT_THAT(read("e.csv"), StartsWith(kEnergyStart));
-  EXPECT_THAT(list("out"), ElementsAre());
+  EXPECT_THAT(list("out"), testing::ElementsAre());
 }
 
 TEST_F(Exercise3Endless, ASignalEndsItInsideAFrame) {
@@ -197,7 +194,7 @@ TEST_F(Exercise3Endless, ASignalEndsItInsideAFrame) {
       EXPECT_EQ(result.status, 128 + signal_number);
       EXPECT_LT(result.seconds_after_signal, 1.0);  // 0.02
       EXPECT_THAT(result.output, HasSubstr(": 2 particles, 1 frame, "));
-      EXPECT_THAT(list("out"), ElementsAre("frame_0000.txt"));
+      EXPECT_THAT(list("out"), testing::ElementsAre("frame_0000.txt"));
       EXPECT_THAT(read("e.csv"), HasSubstr("\n0,0,"));
     }
   }
@@ -250,7 +247,7 @@ TEST_F(Exercise3Endless, ATerminalIsToldHowFarItIs) {
                            "[1-9][0-9.e+]* s left\x1b.K"));
   process.sendSignal(SIGINT);
   EXPECT_EQ(process.wait().status, 128 + SIGINT);
-  EXPECT_THAT(terminal.read(""), EndsWith("\r\x1b[K"));
+  EXPECT_THAT(terminal.read(""), testing::EndsWith("\r\x1b[K"));
   close(terminal.end);
 }
 

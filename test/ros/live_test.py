@@ -89,6 +89,8 @@ class Hands(LiveTest):
                 self.assertIn('frame ' + frame, self.call('save_state', folder + '/state.txt'))
                 self.assertRegex(files_in(folder).popitem()[1], br'(?m)^4(\.0)? 1(\.0)? ')
             wait_until(lambda: node.lines('WARN'), 'the release of a silent hand')
+            self.drag(6, 4.0, 1.0)
+            self.let_go(6)
             self.call('pause', False)
             self.wait_state(lambda m: m.positions[5].z < 0.5, 'it falls')
             self.assertEqual(len(node.lines('WARN')), 1)

@@ -127,23 +127,24 @@ class Changing(NodeTest):
 
     def test_after_any_services_it_comes_to_rest(self):
         dice = random.Random(5)
-        with self.node(method='Auto', held='last'):
-            self.state.wait_for(5)
-            for _ in range(16):
-                for _ in range(dice.randint(0, 3)):
-                    name, *arguments = dice.choice((
-                        ('set', 'stiffness', dice.uniform(30, 300)), ('set', 'gravity', dice.uniform(1, 20)),
-                        ('set', 'damping', dice.uniform(0, 2)), ('set', 'rest_length', dice.uniform(0.5, 1.5)),
-                        ('set_method', dice.choice(('Auto', 'Taylor-8', 'Radau-9'))), ('reset',), ('pause', True),
-                        ('clear_forces',), ('apply_force', 5, '', Vector3(5.0, 0.0, 0.0), 0.0, -1.0)))
-                    self.call(name, *arguments)
-                self.call('at_rest')
-                self.call('pause', False)
-                self.wait_state(lambda m: max(math.hypot(v.x, v.z) for v in m.velocities) < 1e-6, 'the rest')
-                del self.state.messages[:]
-                fastest = max(math.hypot(v.x, v.z) for m in self.state.wait_for(10) for v in m.velocities)
-                self.assertLess(fastest, 1e-6)
-                self.assertLess(math.hypot(self.last().positions[10].x - 10.0, self.last().positions[10].z), 1e-6)
+        for held in ('', 'last'):
+            with self.node(method='Auto', held=held):
+                self.state.wait_for(5)
+                for _ in range(12):
+                    for _ in range(dice.randint(0, 3)):
+                        name, *arguments = dice.choice((
+                            ('set', 'stiffness', dice.uniform(30, 300)), ('set', 'gravity', dice.uniform(1, 20)),
+                            ('set', 'damping', dice.uniform(0, 2)), ('set', 'rest_length', dice.uniform(0.5, 1.5)),
+                            ('set_method', dice.choice(('Auto', 'Taylor-8', 'Radau-9'))), ('reset',), ('pause', True),
+                            ('clear_forces',), ('apply_force', 5, '', Vector3(5.0, 0.0, 0.0), 0.0, -1.0)))
+                        self.call(name, *arguments)
+                    self.call('at_rest')
+                    self.call('pause', False)
+                    self.wait_state(lambda m: max(math.hypot(v.x, v.z) for v in m.velocities) < 1e-6, 'the rest')
+                    del self.state.messages[:]
+                    self.assertLess(max(math.hypot(v.x, v.z) for m in self.state.wait_for(10) for v in m.velocities), 1e-6)
+                    tip = self.last().positions[10]
+                    self.assertTrue(not held or math.hypot(tip.x - 10.0, tip.z) < 1e-6)
 
 
 class States(NodeTest):

@@ -139,9 +139,9 @@ class Run {
   /// Numbers for the closing line, over all rounds.
   struct Totals {
     std::int64_t frames = 0;                        ///< shown
-    std::int64_t steps = 0;                         ///< of fixed size
     std::int64_t slept_frames = 0;                  ///< of these
-    double seconds = 0.0, reference_seconds = 0.0;  ///< wall-clock time of integrating
+    std::int64_t steps = 0;                         ///< of fixed size
+    double seconds = 0.0, reference_seconds = 0.0;  ///< wall-clock time spent integrating
   };
 
   void begin(std::int64_t frame, const State& state);

@@ -20,7 +20,7 @@ namespace spring_pendulum {
 class Driver {
  public:
   /// \param log learns of every change; must outlive the driver
-  /// \param settling s, interval from which on a particle comes to rest within two; its time constant else
+  /// \param settling s; at shorter intervals, held particles come to rest with this time constant
   explicit Driver(const Run& run, InputLog* log = nullptr, double settling = 0.0);
 
   /// Act on a request from the next state on, see RequestHandler.

@@ -17,7 +17,7 @@ struct Target {
   PlaneVector<double> position{};      ///< m
   PlaneVector<double> velocity{};      ///< m/s
   PlaneVector<double> acceleration{};  ///< m/s²
-  double fastest = 0.0;                ///< m/s, of the particle relative to it; 0: unknown
+  double fastest = 0.0;  ///< m/s, of the particle relative to it; 0: as the driver has it
 };
 
 struct Pause {

@@ -59,7 +59,7 @@ class Follower {
   struct Sample {
     Target holder;
     double stamp;    ///< s
-    double time;     ///< s, steady clock
+    double time;     ///< s, steady clock: when it was probably sent
     double arrival;  ///< s, steady clock
   };
   bool isNext(const Sample& before, const Sample& input) const;

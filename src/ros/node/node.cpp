@@ -130,8 +130,7 @@ void Node::serve() {
   if (isDue()) return;
   const ros::SteadyTime next = run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(nextTime());
   const double wait = (next - ros::SteadyTime::now()).toSec();
-  const bool looks_up = options_.held.find('=') != std::string::npos;
-  if (wait > 0.0) callBack(std::min(wait, looks_up ? kShortWait : kLongestService));
+  if (wait > 0.0) callBack(std::min(wait, options_.held.empty() ? kLongestService : kShortWait));
 }
 
 void Node::callBack(double wait) {

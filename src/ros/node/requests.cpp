@@ -96,7 +96,7 @@ std::string Node::take(const Request& request) {
 
 std::string Node::on(const Pause& request) {
   const bool paused = request.paused, is_new = paused != paused_;
-  // A whole frame can be saved. Of a long one, the rest follows: inputs must not seem silent meanwhile.
+  // Only whole frames can be saved. The loop finishes a long one, as it serves inputs meanwhile.
   const bool finishes = paused && is_new;
   for (int part = 0; finishes && part < 50 && !run_.isAtFrame() && !run_.isOver(); ++part)
     advance();
