@@ -116,9 +116,9 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
   const std::int64_t shift = frames.front().index - start;
   if (shift == 0 || !frames.front().equals(positions, 1.0)) return false;
   for (FrameNumbers& frame : frames) frame.index -= shift;
-  // Instead of the missing frames.
-  notes.front() =
+  notes.front() =  // instead of the missing frames
       fmt::format("the frames are numbered from {}; {} would be right", start + shift, start);
+  noteMissingFrames(*this);
   return true;
 }
 
