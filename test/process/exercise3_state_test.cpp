@@ -70,6 +70,13 @@ TEST_F(Exercise3State, OutputsOfTwoFixedStepRunsAreThoseOfOne) {
   }
 }
 
+TEST_F(Exercise3State, NeighboursMayBeInOnePlace) {
+  folder_.write("state.txt",
+                "# state of 3 particles at frame 5, t = 0.5 s\n"
+                "0 0 1 0 0\n1 0 1 0 0\n1 3e-163 1 1 0\n");
+  EXPECT_EQ(resume("Runge-Kutta-4").errors, "");
+}
+
 TEST_F(Exercise3State, ErrorControlledRunsGoOnWithinTheTolerance) {
   ASSERT_EQ(runWith("Auto -o whole --frames 12").errors, "");
   save("Auto");

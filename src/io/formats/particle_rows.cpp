@@ -43,7 +43,7 @@ std::string_view nextLine(std::string_view& text) {
 
 class RowParser {
  public:
-  explicit RowParser(std::string_view name) : name_(name) {}
+  RowParser(std::string_view name, bool is_state) : name_(name), is_state_(is_state) {}
 
   void parseLine(std::string_view line) {
     ++line_number_;
@@ -55,25 +55,23 @@ class RowParser {
     }
     if (columns == 0) return;
     checkColumns(columns);
-    if (!numbers_.empty()) {
+    if (!numbers_.empty())
       checkMovingParticle(row.data(), numbers_.data() + numbers_.size() - columns);
-    }
     columns_ = columns;
     numbers_.insert(numbers_.end(), row.data(), row.data() + columns);
     last_line_ = line_number_;
   }
 
-  ParticleRows rows(bool keep_negative_zeros) const {
-    if (columns_ == 0) {
+  ParticleRows rows() const {
+    if (columns_ == 0)
       throw InputError(fmt::format("{}: no particles; write one line 'x y m' per particle", name_));
-    }
     using Table = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const Table> table(numbers_.data(),
                                         static_cast<Eigen::Index>(numbers_.size() / columns_),
                                         static_cast<Eigen::Index>(columns_));
     ParticleRows rows{{AlignedNumbers(table.rows()), State(table.rows())},
                       columns_ == kColumnsWithVelocity};
-    const double zero = keep_negative_zeros ? -0.0 : 0.0;  // x + -0.0 is x, -0.0 + 0.0 is 0.0
+    const double zero = is_state_ ? -0.0 : 0.0;  // x + -0.0 is x, -0.0 + 0.0 is 0.0
     State& state = rows.particles.state;
     rows.particles.masses.view() = table.col(2);
     state.x() = table.col(0) + zero;
@@ -108,9 +106,8 @@ class RowParser {
 
   void checkMovingParticle(const double* row, const double* before) const {
     const double mass = row[2];
-    if (!(mass > 0.0)) {
+    if (!(mass > 0.0))
       refuse(fmt::format("mass must be positive, got {} kg", numberText(mass + 0.0)));
-    }
     if (!std::isfinite(1.0 / mass)) {
       refuse(fmt::format("mass must be large enough for 1/mass to be finite, got {} kg",
                          numberText(mass)));
@@ -118,7 +115,7 @@ class RowParser {
     const double dx = row[0] - before[0];
     const double dy = row[1] - before[1];
     const double square = dx * dx + dy * dy;
-    if (std::isnormal(square)) return;
+    if (is_state_ ? std::isfinite(square) : std::isnormal(square)) return;
     refuse(
         fmt::format(std::isfinite(square)
                         ? "same position as the particle in line {}; neighbours must not coincide"
@@ -132,6 +129,7 @@ class RowParser {
   }
 
   std::string_view name_;
+  bool is_state_;
   std::vector<double> numbers_;  ///< of all rows
   std::size_t columns_ = 0;      ///< of a row
   std::int64_t line_number_ = 0;
@@ -140,10 +138,10 @@ class RowParser {
 
 }  // namespace
 
-ParticleRows parseRows(std::string_view text, std::string_view name, bool keep_negative_zeros) {
-  RowParser parser(name);
+ParticleRows parseRows(std::string_view text, std::string_view name, bool is_state) {
+  RowParser parser(name, is_state);
   while (!text.empty()) parser.parseLine(nextLine(text));
-  return parser.rows(keep_negative_zeros);
+  return parser.rows();
 }
 
 Scene parseParticles(std::string_view text, std::string_view name) {

@@ -14,9 +14,8 @@ struct ParticleRows {
 
 /// Parses a particle file. The mass of the first particle is not checked.
 /// \param name of the text in error messages
-/// \param keep_negative_zeros else, -0.0 becomes 0.0
+/// \param is_state neighbours may be in one place, and -0.0 stays -0.0 instead of becoming 0.0
 /// \throws InputError with file and line for the first invalid line
-ParticleRows parseRows(std::string_view text, std::string_view name,
-                       bool keep_negative_zeros = false);
+ParticleRows parseRows(std::string_view text, std::string_view name, bool is_state = false);
 
 }  // namespace spring_pendulum

@@ -93,13 +93,10 @@ RunFiles::RunFiles(const Run& run, const Scenario& scenario, const std::string& 
   files_->missing[run.firstFrame()] = std::numeric_limits<std::int64_t>::max();
   const TouchedFiles touched = touchedFiles(scenario, config);
   checkTouchedFiles(touched);
-  if (!scenario.energy.empty()) {
+  if (!scenario.energy.empty())
     beginEnergies(files_->energy.emplace(scenario.energy), run.firstFrame());
-  }
   if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);
-  if (!touched.frame_folder.empty()) {
-    files_->frames.emplace(touched.frame_folder, run.firstFrame());
-  }
+  if (!touched.frame_folder.empty()) files_->frames.emplace(touched.frame_folder, run.firstFrame());
 }
 
 RunFiles::~RunFiles() = default;

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 namespace spring_pendulum {
@@ -34,18 +35,15 @@ struct StateHead {
   double time = 0.0;  ///< s
 };
 
-StateHead parseHead(std::string_view text, const std::string& name) {
+std::optional<StateHead> parseHead(std::string_view text) {
   std::string_view line = text.substr(0, text.find('\n'));
   const bool begins = line.substr(0, kHeader.size()) == kHeader;
   line.remove_prefix(begins ? kHeader.size() : line.size());
   const auto particles = parseInteger(takeUntil(line, " particles at frame "));
   const auto frame = parseInteger(takeUntil(line, ", t = "));
   const auto time = parseNumber(takeUntil(line, " s"));
-  if (particles && frame && time && *frame >= 0) return {*particles, *frame, *time};
-  throw InputError(fmt::format(
-      "{}:1: must be '# state of N particles at frame N, t = X s' to resume from; give a file "
-      "that was written by save_state",
-      name));
+  if (!particles || !frame || !time || *frame < 0) return std::nullopt;
+  return StateHead{*particles, *frame, *time};
 }
 
 }  // namespace
@@ -53,29 +51,34 @@ StateHead parseHead(std::string_view text, const std::string& name) {
 Scene readStateFile(const Scenario& scenario) {
   const std::string& name = scenario.particles;
   const std::string text = readTextFile(name);
-  const StateHead head = parseHead(text, name);
-  checkFirstFrame(scenario, head.frame);
-  const double expected = scenario.timeOfFrame(head.frame);
+  const std::optional<StateHead> head = parseHead(text);
+  if (!head)
+    throw InputError(fmt::format(
+        "{}:1: must be '# state of N particles at frame N, t = X s' to resume from; give a file "
+        "that was written by save_state",
+        name));
+  checkFirstFrame(scenario, head->frame);
+  const double expected = scenario.timeOfFrame(head->frame);
   // A run that changed its method counts its time from there, with other rounding errors.
-  if (!(std::abs(head.time - expected) <= 1e-9 * expected)) {
+  if (!(std::abs(head->time - expected) <= 1e-9 * expected)) {
     throw InputError(fmt::format(
         "{}:1: the state is at t = {} s, but frame {} of this run is at {} s; give the {} of the "
         "run that saved it",
-        name, numberText(head.time), head.frame, numberText(expected),
+        name, numberText(head->time), head->frame, numberText(expected),
         scenario.method.get().hasFixedStep() ? "time_step and steps_per_frame" : "frame_interval"));
   }
   ParticleRows rows = parseRows(text, name, true);
   const std::int64_t count = rows.particles.masses.size();
   const bool ends_line = text.back() == '\n';
-  if (count != head.particles || !rows.have_velocities || !ends_line) {
+  if (count != head->particles || !rows.have_velocities || !ends_line) {
     throw InputError(
         fmt::format("{}: is not a complete state file; it must have {}, each with a line "
                     "'x y m vx vy', got {}{}{}",
-                    name, counted(head.particles, "particle"), count,
+                    name, counted(head->particles, "particle"), count,
                     rows.have_velocities ? "" : " without velocities",
                     ends_line ? "" : ", the last line without end"));
   }
-  rows.particles.frame = head.frame;
+  rows.particles.frame = head->frame;
   return std::move(rows.particles);
 }
 
@@ -97,11 +100,10 @@ void writeState(OutputFile& file, const AlignedNumbers::ConstView& masses, const
 void writeStateFile(const std::string& path, const Chain& chain, const State& state,
                     std::int64_t frame, double time) {
   OutputFile file(path);
-  std::string earlier;
-  std::getline(std::ifstream(path), earlier);
-  if (!earlier.empty() && earlier.rfind(kHeader, 0) != 0) {
-    throw InputError(path + ": is not a state but another file; give another name");
-  }
+  std::ifstream earlier(path);
+  std::string line;
+  if (std::getline(earlier, line) && !parseHead(line))
+    throw InputError(fullPath(path) + ": is not a state but another file; give another name");
   writeState(file, chain.masses(), state, frame, time);
 }
 
