@@ -75,7 +75,7 @@ void prepareProcess() {
 
 Failure failureOf(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
-    return {"not enough memory for a chain of this length", kFileFailed};
+    return {"not enough memory", kFileFailed};
   }
   const bool bad_input = dynamic_cast<const InputError*>(&error) != nullptr;
   return {onOneLine(error.what()), bad_input ? kBadInput : kFileFailed};
