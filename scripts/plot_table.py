@@ -62,6 +62,8 @@ class Table:
             refuse(path + ': the table has no rows')
         self.titles = {title.split(' [')[0]: title for title in titles}
         self.rows = [dict(itertools.zip_longest(self.titles, row, fillvalue='nan')) for row in rows]
+        for row in self.rows:  # with --try, all columns may be nan, but no verdict is a number
+            row.update({'verdict': 'ok'} if row.get('verdict') == 'nan' else {})
 
     def values(self, key):
         """The different values of a key in the order of the table; one None without a key."""
@@ -77,16 +79,11 @@ class Table:
         return plain(value if key == 'method' else ('%s = %s %s' % (key, value, unit)).strip())
 
 
-def measured(row, key):
-    """The number in a row, NaN if it was measured only until the run diverged."""
-    return math.nan if row.get('verdict') == 'diverged' and key != 'diverged_at' else number(row[key])
-
-
 def draw_lines(axes, rows, table, options):
     for k, line in enumerate(table.values(options.lines)):
         points = {}
         for row in rows:
-            y = measured(row, options.y)
+            y = number(row[options.y])
             if (line is None or row[options.lines] == line) and math.isfinite(y):
                 points.setdefault(number(row[options.x]), []).append(y)
         color, style = METHODS.get(line) or STYLES[k % len(STYLES)]
@@ -147,7 +144,7 @@ def draw_map(axes, rows, table, options):
 
 
 def draw_histogram(axes, rows, _, options):
-    values = sorted(v for v in (measured(row, options.x) for row in rows)
+    values = sorted(v for v in (number(row[options.x]) for row in rows)
                     if math.isfinite(v) and (v > 0 or 'x' not in options.log))
     if not values:
         return
@@ -158,19 +155,24 @@ def draw_histogram(axes, rows, _, options):
     # The smallest value with at least 95 % of all values at or below it.
     most = values[math.ceil(0.95 * len(values)) - 1]
     axes.hist(values, bins=bins, color=COLORS[0],
-              label='%d cases, median %.3g, 95 %% at most %.3g' % (len(values), statistics.median(values), most))
+              label='%d of %d cases, median %.3g, 95 %% at most %.3g'
+              % (len(values), len(rows), statistics.median(values), most))
 
 
 def draw(table, options):
     panels = table.values(options.panels)
-    if len(panels) > 100:
-        refuse('panels: %s has %d values, and at most 100 can be drawn' % (options.panels, len(panels)))
+    for key, most in (('panels', 100), ('lines', 40)):
+        count = len(table.values(getattr(options, key)))
+        if count > most:
+            refuse('%s: %s has %d values, and at most %d can be drawn' % (key, getattr(options, key), count, most))
     columns = min(len(panels), 4)
     lines = -(-len(panels) // columns)
     size = (8, 5.5) if len(panels) == 1 else (4.2 * columns, 4.0 * lines + 1)
     figure, grid = pyplot.subplots(lines, columns, figsize=size, squeeze=False, sharex=True, sharey=True)
     for axes in grid.flat[len(panels):]:
         axes.set_visible(False)
+    for axes in grid.flat[:len(panels)][-columns:]:  # the lowest of each column
+        axes.tick_params(labelbottom=True)
     legend = {}
     for axes, panel in zip(grid.flat, panels):
         rows = [row for row in table.rows if panel is None or row[options.panels] == panel]
@@ -181,12 +183,19 @@ def draw(table, options):
         {'lines': draw_lines, 'map': draw_map, 'histogram': draw_histogram}[options.type](axes, rows, table, options)
         axes.set(xlabel=table.title(options.x), ylabel=table.title(options.y) if options.y else 'cases',
                  title=table.label(options.panels, panel))
-        legend.update((label, handle) for handle, label in zip(*axes.get_legend_handles_labels()) if label)
+        entries = [(label, handle) for handle, label in zip(*axes.get_legend_handles_labels()) if label]
+        if options.type != 'histogram':
+            legend.update(entries)
+        elif entries:  # the numbers of this panel
+            axes.legend(loc='lower center', bbox_to_anchor=(0.5, 1.1 if options.panels else 1.0), fontsize=7)
     figure.suptitle(plain(options.title))
     height = 0.0
     if legend:
-        height = 0.28 * -(-len(legend) // 4) / size[1]
-        figure.legend(legend.values(), legend.keys(), loc='lower center', ncol=4, fontsize=8)
+        columns = max(1, min(4, int(size[0] / (0.5 + 0.07 * max(map(len, legend))))))
+        height = 0.12 + 0.16 * -(-len(legend) // columns)
+        figure.set_figheight(size[1] + max(0.0, height - 1.0))
+        height /= figure.get_figheight()
+        figure.legend(legend.values(), legend.keys(), loc='lower center', ncol=columns, fontsize=8)
     figure.tight_layout(rect=(0, height, 1, 1))
     return figure
 

@@ -92,9 +92,8 @@ void Journal::cutTornLine() {
   for (char last = 0; size > 0; --size) {
     if (::pread(file_.get(), &last, 1, size - 1) != 1 || last == '\n') break;
   }
-  if (size < ::lseek(file_.get(), 0, SEEK_END) && ::ftruncate(file_.get(), size) != 0) {
+  if (size < ::lseek(file_.get(), 0, SEEK_END) && ::ftruncate(file_.get(), size) != 0)
     refuse(path_);
-  }
 }
 
 void Journal::write(std::string_view text) {

@@ -53,9 +53,8 @@ void forEachCase(const Study& study, std::int64_t threads, const Next& next, con
   };
   std::vector<std::future<void>> workers;
   try {
-    while (workers.size() < static_cast<std::size_t>(threads)) {
+    while (workers.size() < static_cast<std::size_t>(threads))
       workers.push_back(std::async(std::launch::async, run));
-    }
   } catch (const std::system_error&) {  // the system refuses more threads
     if (workers.empty()) run();
   }
@@ -81,12 +80,13 @@ class Sweep {
   /// \returns the exit status
   int prepare() {
     checkCases(study_, options_.threads);
-    if (options_.shards > 1 && std::filesystem::exists(options_.output)) {
-      throw InputError(options_.output + ": exists; remove it to run its shards anew");
-    }
     const int status = counter_.rank() == 0 ? tryOutputs() : kDone;
     if (status != kDone) return status;
-    journal_.emplace(options_.output + ".journal", study_.hash);
+    const std::string journal = options_.output + ".journal";
+    if (options_.shards > 1 && std::filesystem::exists(options_.output) &&
+        !std::filesystem::exists(journal))
+      throw InputError(options_.output + ": exists; remove it to run its shards anew");
+    journal_.emplace(journal, study_.hash);
     readJournal();
     return kDone;
   }
@@ -94,17 +94,19 @@ class Sweep {
   /// Runs the cases that are not done.
   void work() {
     Progress progress(study_.cases(), "cases");
-    std::atomic<std::int64_t> reached{0};
+    std::atomic<std::int64_t> begun{0}, busy{0};
     const auto next = [&] {
       std::int64_t index = 0;
       do {  // a shard takes every n-th case
         index = counter_.next() * options_.shards + options_.shard - 1;
       } while (index < study_.cases() && !rows_[static_cast<std::size_t>(index)].empty());
-      reached = index;
+      if (index < study_.cases()) ++busy;
+      begun = std::min(index + 1, study_.cases());
       return index;
     };
     const auto run = [&](std::int64_t index, const Case& a_case, const auto& stop) {
       std::optional<std::string> text = runCase(study_, a_case, stop);
+      --busy;
       if (!text) return;
       const std::lock_guard<std::mutex> lock(mutex_);
       journal_->append(index, *text);
@@ -112,7 +114,7 @@ class Sweep {
     };
     const auto meanwhile = [&] {
       counter_.poll();
-      if (counter_.rank() == 0) progress.show(std::min<std::int64_t>(reached, study_.cases()));
+      if (counter_.rank() == 0) progress.show(std::max<std::int64_t>(0, begun - busy));
     };
     forEachCase(study_, options_.threads, next, run, meanwhile);
   }
@@ -123,7 +125,7 @@ class Sweep {
   int conclude(int signal) {
     // Shards that finish at the same moment conclude one after the other.
     if (!journal_->lock()) {
-      if (!std::filesystem::exists(options_.output))
+      if (!std::filesystem::exists(options_.output) || !isInTable())
         throw FileError(fullPath(journal_->path()) + ": was removed during the run");
       printOutput(fmt::format("another process has written {}\n", options_.output));
       return kDone;
@@ -148,6 +150,17 @@ class Sweep {
   }
 
  private:
+  /// Whether the table has all rows that this process knows.
+  bool isInTable() const {
+    const std::string table = readTextFile(options_.output);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < rows_.size() && at != std::string::npos; ++i) {
+      const std::string start = rowStart(study_, static_cast<std::int64_t>(i));
+      if (!rows_[i].empty()) at = table.find('\n' + start + rows_[i] + '\n', at);
+    }
+    return at != std::string::npos;
+  }
+
   int tryOutputs() const {
     // Shards may start at the same moment.
     const std::string shard = options_.shards > 1 ? fmt::format(".{}", options_.shard) : "";
@@ -169,12 +182,6 @@ class Sweep {
     OutputFile table(options_.output);
     writeRows(table);
     table.finish();
-    std::error_code error;
-    std::filesystem::remove(journal_->path(), error);
-    if (error) {
-      throw FileError(fmt::format("{}: could not be removed: {}; the table {} is complete",
-                                  fullPath(journal_->path()), error.message(), options_.output));
-    }
     std::string text = fmt::format("{}: {}, table {}", study_.name, counted(study_.cases(), "case"),
                                    options_.output);
     if (options_.plot) {
@@ -183,6 +190,13 @@ class Sweep {
       if (status != kDone) return status;
       text += ", picture " + picture;
     }
+    // After a kill before this, the same command draws the picture.
+    std::error_code error;
+    std::filesystem::remove(journal_->path(), error);
+    if (error) {
+      throw FileError(fmt::format("{}: could not be removed: {}; the table {} is complete",
+                                  fullPath(journal_->path()), error.message(), options_.output));
+    }
     printOutput(text + "\n");
     return kDone;
   }
@@ -190,9 +204,8 @@ class Sweep {
   /// Writes the header and all rows, of which some may lack the columns.
   void writeRows(OutputFile& table) const {
     table.write(tableHeader(study_));
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
       table.write(rowStart(study_, static_cast<std::int64_t>(i)) + rows_[i] + '\n');
-    }
   }
 
   const Study& study_;

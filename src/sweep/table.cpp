@@ -19,9 +19,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double largestStretch(const Run& run) {
   double largest = 0.0;
-  for (Eigen::Index i = 0; i + 1 < run.chain().size(); ++i) {
+  for (Eigen::Index i = 0; i + 1 < run.chain().size(); ++i)
     largest = std::max(largest, springLength(run.state(), i) - run.chain().spring().rest_length);
-  }
   return largest;
 }
 
@@ -36,7 +35,7 @@ double linearStep(const Run& run) {
 
 /// A text as a field of CSV.
 std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + '"';
@@ -52,7 +51,7 @@ const std::vector<Column>& allColumns() {
       {"error_bound", "m", "largest sum of position error and uncertainty of the reference run",
        [](const Run& run) { return run.positionError().bound; }},
       {"measured_until", "s", "time until which the position error is known",
-       [](const Run& run) { return run.positionError().measured_until; }},
+       [](const Run& run) { return run.positionError().measured_until; }, false, true},
       {"energy_error", "", "largest residual of the energy balance, in energy scales",
        [](const Run& run) { return run.largestEnergyError(); }},
       {"largest_stretch", "m", "largest elongation of a spring at the frames, at least 0",
@@ -61,14 +60,17 @@ const std::vector<Column>& allColumns() {
        [](const Run& run) { return run.state().x()[run.chain().size() - 1]; }},
       {"tip_y", "m", "position of the last particle at the end",
        [](const Run& run) { return run.state().y()[run.chain().size() - 1]; }},
-      {"diverged_at", "s", "time of the divergence", divergenceTime},
+      {"diverged_at", "s", "time of the divergence", divergenceTime, false, true},
       {"seconds", "s", "nominal computing time of the method, counted and not measured",
        [](const Run& run) {
          return parseNumber(roundedText(run.integrator().work(), 6)).value_or(kNan);
-       }},
+       },
+       false, true},
       {"force_evaluations", "", "evaluations of the forces on the whole chain",
-       [](const Run& run) { return static_cast<double>(run.integrator().forceEvaluations()); }},
-      {"linear_step", "s", "stability limit of the linearised chain, with a margin", linearStep},
+       [](const Run& run) { return static_cast<double>(run.integrator().forceEvaluations()); },
+       false, true},
+      {"linear_step", "s", "stability limit of the linearised chain, with a margin", linearStep,
+       false, true},
   };
   return kColumns;
 }
@@ -115,10 +117,16 @@ std::optional<std::string> runCase(const Study& study, const Case& a_case,
   }
   if (run.wasStopped()) return std::nullopt;
   std::string text;
+  const VerdictKind verdict = run.verdict().kind;
   for (std::size_t i = 0; i < largest.size(); ++i) {
-    const auto& [name, unit, meaning, value, at_frames] = *study.columns[i];
-    text += ',' + (value == nullptr ? std::string(toString(run.verdict().kind))
-                                    : numberText(at_frames ? largest[i] : value(run)));
+    const Column& column = *study.columns[i];
+    if (column.value == nullptr) {
+      text += fmt::format(",{}", toString(verdict));
+    } else if (verdict == VerdictKind::kDiverged && !column.if_diverged) {
+      text += ",nan";
+    } else {
+      text += ',' + numberText(column.at_frames ? largest[i] : column.value(run));
+    }
   }
   return text;
 }

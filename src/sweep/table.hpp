@@ -18,7 +18,8 @@ struct Column {
   std::string_view unit;  ///< empty: none
   std::string_view meaning;
   double (*value)(const Run&);  ///< null: the verdict
-  bool at_frames = false;  ///< whether it is the largest value at the frames, not that at the end
+  bool at_frames = false;    ///< whether it is the largest value at the frames, not that at the end
+  bool if_diverged = false;  ///< whether it says something about a diverged run; else NaN
 };
 
 const std::vector<Column>& allColumns();

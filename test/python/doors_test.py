@@ -49,7 +49,7 @@ def python(**options):
 
 
 def sweep(**options):
-    write_yaml('study.yaml', options, 'base:\n', '\ncolumns: [verdict, position_error, measured_until, tip_x, diverged_at]')
+    write_yaml('study.yaml', options, 'base:\n', '\ncolumns: [verdict, position_error, measured_until, tip_x, diverged_at, force_evaluations]')
     result = run('sweep', 'study.yaml')
     os.remove('study.yaml')
     return result

@@ -93,6 +93,12 @@ TEST(Study, HashDependsOnTheParticles) {
   EXPECT_NE(studyOf(folder, "axes: {method: all }\n").hash, hash);
   folder.write("particle.txt", "0 0 1\n1 0 1\n");
   EXPECT_NE(readStudy(folder.path("study.yaml")).hash, hash);
+  folder.write("b.txt", "3 0 1\n4 0 1\n");
+  const char* const two = "axes: {particles: [particle.txt, b.txt]}\n";
+  const std::uint64_t hash_of_two = studyOf(folder, two).hash;
+  folder.write("particle.txt", "0 0 1\n");  // a line moves from one file to the next
+  folder.write("b.txt", "1 0 1\n3 0 1\n4 0 1\n");
+  EXPECT_NE(studyOf(folder, two).hash, hash_of_two);
 }
 
 TEST(Study, ShippedStudiesAreValid) {
@@ -131,6 +137,7 @@ TEST(Study, BadInputIsFoundBeforeTheFirstCase) {
       {"axes: {time_step: [0.1, x]}\n", "got 'x'"},
       {"axes: {time_step: {log: [0, 1, 3]}}\n", "must be above 0"},
       {"axes: {time_step: {linear: [1, 2, 1]}}\n", "must be a whole number from 2"},
+      {"base: {duration: 5}\naxes: {time_step: {linear: [-0.003, 0.1, 12]}}\n", "got '-0.003'"},
       {"axes: {time_step: {}}\n", "must be {list: ...}, {linear: ...} or {log: ...}"},
       {"axes: {method: some}\n", "must be a list, all, fixed-step or error-controlled"},
       {"axes: {method: [Oiler]}\n", "did you mean 'Euler'?"},

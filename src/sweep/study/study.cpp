@@ -100,6 +100,7 @@ void setParticles(const Study& study, Case& made) {
 
 double fittedTimeStep(const Settings& settings, double time_step) {
   const double duration = settings.duration;
+  if (!(time_step > 0.0)) return time_step;  // is refused later
   if (isSame(duration, std::round(duration / time_step) * time_step)) return time_step;
   // A power of 2 of steps per frame, so that there is no frame for each of a prime number of steps.
   double per_frame = 1.0;
@@ -148,9 +149,8 @@ Case caseOf(const Study& study, std::int64_t index) {
   const Place place = study.placeOf(index);
   Case made{place.sample, study.base, {}};
   const OptionSet options(caseOptions(made.settings));
-  for (std::size_t i = 0; i < study.axes.size(); ++i) {
+  for (std::size_t i = 0; i < study.axes.size(); ++i)
     options.find(study.axes[i].key, "").assign(place.values[i]);
-  }
   setFrames(made.settings);
   setParticles(study, made);
   return made;

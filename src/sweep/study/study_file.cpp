@@ -80,12 +80,10 @@ Entries scale(const YamlTree& tree, const Option& option, bool is_log, const Set
   const std::vector<double> numbers =
       numbersOf(tree, option.key, 3, "must be [first, last, number of values]");
   const double first = numbers[0], last = numbers[1], count = numbers[2];
-  if (count < 2.0 || count > 1e6 || count != std::floor(count)) {
+  if (count < 2.0 || count > 1e6 || count != std::floor(count))
     refuse(tree, option.key, "the number of values must be a whole number from 2 to 1e6");
-  }
-  if (is_log && !(first > 0.0 && last > 0.0)) {
+  if (is_log && !(first > 0.0 && last > 0.0))
     refuse(tree, option.key, "the first and the last value of log must be above 0");
-  }
   Entries values;
   for (double i = 0.0; i < count; ++i) {
     const double share = i / (count - 1.0);
@@ -93,9 +91,8 @@ Entries scale(const YamlTree& tree, const Option& option, bool is_log, const Set
         is_log ? portableExp((1.0 - share) * portableLog(first) + share * portableLog(last))
                : (1.0 - share) * first + share * last;
     std::string text = roundedText(value, kDigits);
-    if (option.key == "time_step" && base.duration > 0.0) {
+    if (option.key == "time_step" && base.duration > 0.0)
       text = numberText(fittedTimeStep(base, parseNumber(text).value_or(value)));
-    }
     values.push_back({"", {Kind::kScalar, tree.place, text, false, {}}});
   }
   return values;
@@ -118,9 +115,8 @@ Entries valuesOf(const YamlTree& tree, const Option& option, const Settings& bas
   if (tree.kind == Kind::kList) return listOf(tree, option.key);
   checkKeys(tree, option.key, {"list", "linear", "log", "with"});
   const auto is_form = [](const auto& entry) { return entry.first != "with"; };
-  if (std::count_if(tree.entries.begin(), tree.entries.end(), is_form) != 1) {
+  if (std::count_if(tree.entries.begin(), tree.entries.end(), is_form) != 1)
     refuse(tree, option.key, "must be {list: ...}, {linear: ...} or {log: ...}");
-  }
   const auto& [form, values] = *std::find_if(tree.entries.begin(), tree.entries.end(), is_form);
   if (form == "list") return listOf(values, option.key);
   return scale(values, option, form == "log", base);
@@ -149,7 +145,7 @@ class StudyReader {
       : folder_(std::filesystem::path(path).parent_path()) {
     const std::string text = readTextFile(path);
     study_.name = std::filesystem::path(path).stem().string();
-    study_.hash = hashOf(text);
+    study_.hash = hashOf(text + '\0');
     tree_ = parseYamlTree(text, path);
   }
 
@@ -160,9 +156,8 @@ class StudyReader {
     readRandom();
     readColumns();
     readPlot();
-    if (static_cast<double>(study_.cases()) > kMostCases) {
+    if (static_cast<double>(study_.cases()) > kMostCases)
       refuse(tree_, "study", "there are more than 1e9 cases");
-    }
     if (options_.isGiven("duration") &&
         (options_.isGiven("frames") || options_.isGiven("steps_per_frame"))) {
       throw InputError(tree_.place + ": duration sets frames and steps_per_frame; leave them out");
@@ -175,9 +170,8 @@ class StudyReader {
   void readBase() {
     if (const YamlTree* const base = tree_.find("base")) {
       requireMap(*base, "base");
-      for (const auto& [key, value] : base->entries) {
+      for (const auto& [key, value] : base->entries)
         setOption(value, options_.find(key, value.place, "key"), options_);
-      }
     }
     const YamlTree* const axes = tree_.find("axes");
     if (axes == nullptr || axes->find("particles") == nullptr) load(tree_);
@@ -206,9 +200,8 @@ class StudyReader {
   bool isJoined(const YamlTree& tree, const Axis& axis) const {
     const YamlTree* const with = tree.find("with");
     if (with == nullptr) return false;
-    if (study_.axes.empty() || textOf(*with, "with") != study_.axes.back().key) {
+    if (study_.axes.empty() || textOf(*with, "with") != study_.axes.back().key)
       refuse(*with, "with", "must be the key of the axis before");
-    }
     const std::size_t count = study_.axes.back().values.size();
     if (axis.values.size() == count) return true;
     refuse(tree, axis.key,
@@ -262,9 +255,8 @@ class StudyReader {
     for (const auto& [unnamed, name] : listOf(given != nullptr ? *given : kDefault, "columns")) {
       const Column* const column = &findColumn(textOf(name, "columns"), name.place);
       auto& known = study_.columns;
-      if (std::find(known.begin(), known.end(), column) != known.end()) {
+      if (std::find(known.begin(), known.end(), column) != known.end())
         refuse(name, "columns", name.text + " is given twice");
-      }
       known.push_back(column);
     }
   }
@@ -275,9 +267,8 @@ class StudyReader {
     if (plot == nullptr) return;
     checkKeys(*plot, "plot",
               {"type", "x", "y", "color", "lines", "panels", "limit", "title", "log"});
-    for (const auto& [key, value] : plot->entries) {
+    for (const auto& [key, value] : plot->entries)
       study_.plot.push_back(fmt::format("--{}={}", key, textOf(value, key)));
-    }
   }
 
   /// Reads the particle file of the settings, whose path is relative to the study.
@@ -286,7 +277,7 @@ class StudyReader {
     path = (folder_ / path).lexically_normal().string();
     if (study_.particles.count(path) > 0) return;
     try {
-      study_.hash = hashOf(readTextFile(path), study_.hash);
+      study_.hash = hashOf(readTextFile(path) + '\0', study_.hash);
       study_.particles.emplace(path, readParticleFile(path));
     } catch (const FileError& error) {
       throw FileError(fmt::format("{}: particles: {}", tree.place, error.what()));
