@@ -24,8 +24,7 @@ std::string needOf(const Plan& plan, Eigen::Index particles) {
                      1e-9 * expectedMemory(plan, particles), particles);
 }
 
-/// Returns the memory that this process may use, B: that of the machine, or less if a limit is set
-/// (ulimit -v).
+/// Returns the memory that this process may use, B: that of the machine, or less (ulimit -v).
 double usableMemory() {
   static const double kMemory =  // short runs take little longer than asking for it
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));

@@ -20,8 +20,7 @@ constexpr double kPromise = 10.0;
 /// The least energy scale is that of all springs stretched by this share of their length.
 constexpr double kLeastStretch = 1e-6;
 
-/// Names the particle that is not finite or, if all are, the one with the most kinetic energy, where a
-/// divergence shows first.
+/// Names the particle that is not finite, else the one with the most kinetic energy.
 Verdict diverged(const EnergyEntry& entry, const Chain& chain, const State& state) {
   const double time = entry.time;
   for (Eigen::Index i = 0; i < state.size(); ++i) {
@@ -64,6 +63,10 @@ double Judge::change(const Chain& chain, const State& before, const State& after
   chain_ = chain;
   options_.start_time = start_time;
   changed_ = true;
+  if (worst_.kind == VerdictKind::kOk)
+    worst_ = {VerdictKind::kNotChecked, entry_.time, 0,
+              fmt::format("not checked from t = {:.6g} s on: the chain was driven or changed",
+                          entry_.time)};
   const double energy_after = energyOf(after).total();
   widenScale(after, energy_after);
   const double supplied_after = supplied + energy_after - energy_before;

@@ -46,8 +46,7 @@ constexpr Eigen::Index kMostParticles = 100'000;
 
 constexpr std::string_view kCostTooMuch = "a reference run would cost more than the run itself";
 
-/// Damping rates in 1/s above which stability can limit the steps of an explicit method, and above
-/// which an implicit method is cheaper.
+/// Damping rates, 1/s, above which stability can limit explicit steps, or implicit ones are cheaper.
 constexpr double kFastRate = 100.0;
 constexpr double kStiffRate = 1e4;
 

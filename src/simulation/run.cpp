@@ -171,7 +171,7 @@ bool Run::sleeps() {
 }
 
 bool Run::advanceReference(std::int64_t steps) {
-  if (!reference_ || !reference_->isMeasuring()) return true;
+  if (!reference_ || !reference_->isMeasuring() || !isFinite()) return true;
   const Stopwatch stopwatch(totals_.reference_seconds);
   return reference_->advance(step_, steps, options_.stop);
 }
@@ -234,15 +234,13 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   Judge judge = *judge_;
   supplied_before_ = supplied_ = judge.change(
       chain, state_, state, judgeOptions(next, knows_dissipation, first_frame_), supplied_);
-
   chain_ = std::move(chain);
   plan_ = next;
   state_ = state;
   track_dissipation_ = knows_dissipation;
   changed_ = true;
   *judge_ = std::move(judge);
-  if (reference_)
-    reference_->stop("the chain was driven or changed, and the reference run does not follow");
+  reference_.reset();
   if (other_control) divideFrames();
   dissipated_before_ = dissipated_;
   evaluations_before_ += integrator_->forceEvaluations();

@@ -107,23 +107,13 @@ TEST(EnergyScale, IsTheDepthOfTheHangingChainForAStartWithoutEnergy) {
   EXPECT_EQ(balance.scale(100.0), balance.scale(0.0));
 }
 
-TEST(EnergyScale, AddsTheEnergyOfAStartAboveTheAnchorsLevel) {
+TEST(EnergyScale, KnowsStretchedWeightlessAndFallingChains) {
   const State stretched = horizontal(3, 3.0);  // 2 k_s (3 - 1)²/2 = 200 J
-  const Chain chain = uniform(3, SpringLaw{}, 9.81);
-  EXPECT_NEAR(scaleOf(chain, stretched), scaleOf(chain, horizontal(3)) + 200.0, 1e-10);
-}
-
-TEST(EnergyScale, IsTheSameForGravityUpwards) {
-  EXPECT_EQ(scaleOf(uniform(5, SpringLaw{}, -9.81), horizontal(5)),
-            scaleOf(uniform(5, SpringLaw{}, 9.81), horizontal(5)));
-}
-
-TEST(EnergyScale, StaysAboveZeroWhereNothingMoves) {
+  const double scale = scaleOf(uniform(3, SpringLaw{}, 9.81), horizontal(3));
+  EXPECT_NEAR(scaleOf(uniform(3, SpringLaw{}, 9.81), stretched), scale + 200.0, 1e-10);
+  EXPECT_EQ(scaleOf(uniform(3, SpringLaw{}, -9.81), horizontal(3)), scale);
   EXPECT_GT(scaleOf(uniform(3, SpringLaw{}, 0.0), horizontal(3)), 0.0);
   EXPECT_GT(scaleOf(uniform(3, {50.0, 1.0, 0.0}, 0.0), horizontal(3)), 0.0);
-}
-
-TEST(EnergyScale, FollowsTheFreeFallOfAChainWithoutStiffness) {
   const Judge balance(uniform(3, {0.0, 0.0, 1.0}, 10.0), horizontal(3), {false});
   EXPECT_DOUBLE_EQ(balance.scale(2.0) - balance.scale(0.0), 2.0 * 100.0 * 4.0 / 2.0);
 }

@@ -29,12 +29,5 @@ TEST(Memory, OfReferenceRunsCountsIfTheyAreAskedFor) {
   EXPECT_GT(expectedMemory(scenario, 1000), 10.0 * without);
 }
 
-// Auto has the method at work and one challenger, as the reference runs do.
-TEST(Memory, OfAutoIsThatOfTwoMethods) {
-  const double largest = findMethod("Radau-9").bytes_per_particle;
-  const double second = findMethod("Stabilized-Taylor-8").bytes_per_particle;
-  EXPECT_GE(findMethod("Auto").bytes_per_particle, largest + second);
-}
-
 }  // namespace
 }  // namespace spring_pendulum

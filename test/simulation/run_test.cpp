@@ -133,6 +133,16 @@ TEST(Run, EndsWhereTheMotionDiverges) {
   EXPECT_GT(std::stod(text.substr(text.find("energy error ") + 13)), 1e3) << text;
 }
 
+TEST(Run, ADivergedFrameNeedsNoReference) {
+  Scenario scenario = scenarioOf("Runge-Kutta-4");
+  scenario.reference = ReferenceUse::kAlways;
+  scenario.time_step = 1e160;
+  int asked = 0;
+  test::ProgramRun run(scenario, scene(), {false, 0.0, [&asked] { return ++asked > 1000; }});
+  EXPECT_FALSE(run.advance() && run.advance());
+  EXPECT_EQ(run.verdict().kind, VerdictKind::kDiverged);
+}
+
 /// Stops when asked for the n-th time.
 RunOptions stoppingAt(int& asked, int last) {
   return {false, 0.0, [&asked, last] { return ++asked >= last; }};

@@ -50,7 +50,6 @@ struct Trial {
   std::string measurements;
 };
 
-/// Trial runs of a scene.
 class Trials {
  public:
   Trials(const Chain& chain, const State& start, const Plan& plan, std::function<bool()> stop)
@@ -85,7 +84,9 @@ class Trials {
     while (run->advance() && run->verdict().kind < enough) continue;
     total_work_ += work() + run->referenceWork();
     if (run->wasStopped()) return {};
-    return Trial{run->verdict(), run->positionError().largest, run->measurements()};
+    std::string text = run->measurements();
+    if (const std::string remark = run->toleranceRemark(); !remark.empty()) text += '\n' + remark;
+    return Trial{run->verdict(), run->positionError().largest, std::move(text)};
   }
 
   /// The verdict on a run with another step size, with frames at about the same times.
