@@ -27,14 +27,16 @@ while [ $# -gt 0 ]; do
     *) die "unknown option '$1'" ;;
   esac
   [ $# -ge 2 ] || die "$1 needs a value"
-  [ "$1" = --config ] && config=$(realpath "$2") || printf -v "${1#--}" %s "$2"
+  [ "$1" = --config ] && config=$(realpath -m "$2") || printf -v "${1#--}" %s "$2"
   shift 2
 done
+[ -z "$config" ] || [ -f "$config" ] || die "the configuration '$config' does not exist"
 [ -f "$bag" ] || die "the bag '$bag' does not exist"
 case $out in *.gif | *.mp4 | *.png) ;; *) die "OUT must end in .gif, .mp4 or .png" ;; esac
 [ -d "$(dirname "$out")" ] || die "the folder of '$out' does not exist"
 [ -w "$(dirname "$out")" ] && [ ! -d "$out" ] || die "'$out' cannot be written"
 [[ $size =~ ^[1-9][0-9]*x[1-9][0-9]*$ ]] || die "--size is '$size': must be WIDTHxHEIGHT, for example 800x600"
+[[ $out != *.mp4 || $size =~ [02468]x[0-9]*[02468]$ ]] || die "--size is '$size': an .mp4 needs an even width and height"
 for option in start duration fps slow; do
   [ "$option ${!option}" != 'duration ' ] || continue
   [[ ${!option} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--$option is '${!option}': must be a number"
@@ -67,6 +69,7 @@ rest=$(calculate "$length - $start")
 duration=$(calculate "${duration:-1e9} < $rest ? ${duration:-0} : $rest")
 
 work=$(mktemp -d)
+made=$work/film.${out##*.}
 started=()
 # Ends the started processes in reverse order; the launcher of rviz ends its nodes.
 clean_up() {
@@ -78,6 +81,11 @@ clean_up() {
   rm -rf "$work"
 }
 trap clean_up EXIT
+# Puts the film in its place, whole, and leaves an earlier one there if that fails.
+finish() {
+  cp -- "$made" "$out.unfinished" && mv -f -- "$out.unfinished" "$out" || { rm -f -- "$out.unfinished"; die "'$out' could not be written"; }
+  say "$out: $(stat -c %s "$out") bytes"
+}
 # A background job of a script ignores SIGINT; setsid and env start it with the default.
 start() { env --default-signal=INT "$@" > "$work/$(basename "$1").log" 2>&1 & started+=($!); }
 # give_up LOG REASON: prints the output of the program and the reason, and exits
@@ -128,9 +136,9 @@ if [[ $out = *.png ]]; then
   start rosbag play --clock --quiet --delay 1 -s "$from" -u "$(calculate "$start - $from + 0.02")" "$bag"
   tail --pid="${started[-1]}" -f /dev/null
   sleep 1
-  take_picture() { import -silent -window root "$out" && [ "$(identify -format %k "$out")" -gt 20 ]; }
+  take_picture() { import -silent -window root "$made" && [ "$(identify -format %k "$made")" -gt 20 ]; }
   until_true 60 roslaunch "rviz drew no markers" take_picture  # the background has few colours
-  say "$out"
+  finish
   exit
 fi
 
@@ -162,9 +170,9 @@ filmed=$(calculate "$duration * $slow - 0.3")
 say "writing $out"
 if [[ $out = *.gif ]]; then
   look+=",split[a][b];[a]palettegen=max_colors=96[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"
-  ffmpeg -v error -y -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -filter_complex "$look" "$out"
+  ffmpeg -v error -y -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -filter_complex "$look" "$made"
 else
   ffmpeg -v error -y -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -vf "$look" \
-    -c:v libx264 -pix_fmt yuv420p -crf 20 -movflags +faststart "$out"
+    -c:v libx264 -pix_fmt yuv420p -crf 20 -movflags +faststart "$made"
 fi
-say "$out: $(stat -c %s "$out") bytes"
+finish

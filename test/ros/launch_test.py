@@ -145,6 +145,7 @@ class Launch(unittest.TestCase):
                     ('one.gif', ['--size', '0x0'], "--size is '0x0': must be WIDTHxHEIGHT, for example 800x600"),
                     ('one.gif', ['--slow', '0.0'], "--slow is '0.0': must be above 0"),
                     ('one.gif', ['--duration', '0.0'], "--duration is '0.0': must be above 0"),
+                    ('a.mp4', ['--size', '9x8'], "--size is '9x8': an .mp4 needs an even width and height"),
                     ('nowhere/a.gif', [], "the folder of '%s' does not exist"), ('a.gif', [], "'%s' cannot be written")):
                 path = os.path.realpath(folder + '/' + out)
                 done = subprocess.run([project('scripts/film.sh'), bag, path, *options], capture_output=True, text=True)
