@@ -66,6 +66,8 @@ class BagRecorder {
 
   /// Writes a state if it is that of a frame, or one that the display rate asks for.
   void write(const Run& run) {
+    if (run.time() < std::exchange(time_, run.time()))
+      pacer_.start(run.time(), {});  // after a reset
     if (!pacer_.isShown(run.time(), run.isAtFrame())) return;
     const std::optional<StateMessages> messages = messages_.build(run, {});
     stamp_ = messages->header.stamp;
@@ -90,6 +92,7 @@ class BagRecorder {
   Pacer pacer_;
   std::string prefix_;
   ros::Time stamp_;
+  double time_ = 0.0;  ///< s, of the last state
   std::int64_t count_ = 0;
 };
 

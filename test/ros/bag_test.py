@@ -56,7 +56,7 @@ class Bag(unittest.TestCase):
         self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])))
 
     def test_the_display_rate_is_kept_by_every_kind_of_method(self):
-        for method, rate in (('Auto', 30), ('Auto', 25), ('Auto', 60), ('Runge-Kutta-4', 30), ('Runge-Kutta-4', 25)):
+        for method, rate in (('Auto', 30), ('Auto', 25), ('Auto', 60), ('Auto', 11), ('Runge-Kutta-4', 30), ('Runge-Kutta-4', 25)):
             with Folder() as folder:
                 path, _ = record(folder, 'one.bag', '--frames', '101', '--display-rate', str(rate), method=method)
                 states = [message for message, _ in contents(path, '/state')]

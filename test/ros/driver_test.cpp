@@ -313,6 +313,14 @@ TEST(Follower, ComesBackSlowlyAfterASilence) {
     EXPECT_EQ(follower.targetAt(3.6, {x, 0.0}, 0.03)->position.x, 0.5);
 }
 
+TEST(Follower, DoesNotExtrapolateOverALongInterval) {
+  Follower follower("odom", 9.0, [](auto&) {});
+  for (double t = 0.0; t < 1.0; t += 0.03)
+    follower.take({{std::cos(2.0 * t), std::sin(2.0 * t)}, {}, {}}, false, t, t);
+  const PlaneVector<double> target = follower.targetAt(1.0, {}, 2.0)->position;
+  EXPECT_NEAR(std::hypot(target.x, target.y), 1.0, 0.01);
+}
+
 TEST(Robots, ParseHeldParticles) {
   using List = std::vector<HolderFrame>;
   EXPECT_EQ(parseHeld("", 5), List{});

@@ -42,6 +42,14 @@ class Playing(NodeTest):
             self.assertEqual(read_frames(folder), expected)
         self.assert_increasing(self.state.messages)
 
+    def test_steps_end_at_the_last_frame(self):
+        status = self.listen('status', PendulumStatus)
+        with self.node(frames=4, steps_per_frame=2000000000, real_time_factor=1e4):
+            self.state.wait_for_any(lambda m: not m.at_frame)
+            self.assertIn('pausing at frame 1', self.call('pause', True))
+            self.assertEqual([self.call('step') for _ in range(5)][3:], ['advancing to frame 3'] * 2)
+            self.assertNotIn(PendulumStatus.PAUSED, {m.code for m in status.messages})
+
     def test_step_at_the_end_is_refused_and_reset_plays_again(self):
         status = self.listen('status', PendulumStatus)
         with self.node(frames=3, real_time_factor=0.0, wait_for_subscribers=2):
@@ -113,6 +121,15 @@ class Changing(NodeTest):
             for particle, force, frame in ((1, 1.0, ''), (12, 1.0, ''), (0, 1.0, ''), (3, math.nan, ''),
                                            (3, 1.0, 'nowhere')):
                 self.call('apply_force', particle, frame, Vector3(force, 0.0, 0.0), 0.0, 1.0, success=False)
+
+    def test_a_force_keeps_its_impulse_when_the_method_changes(self):
+        for before, after in (('Runge-Kutta-4', 'Auto'), ('Auto', 'Runge-Kutta-4')):
+            with self.node(method=before, real_time_factor=0.3, gravity=0.0, stiffness=0.0, damping=0.0):
+                begin = 0.1 * self.state.wait_for_any(lambda m: m.at_frame and m.frame > 1).frame + 0.105
+                self.call('apply_force', 11, '', Vector3(1.0, 0.0, 0.0), begin, 0.01)
+                self.call('set_method', after)
+                pushed = self.wait_state(lambda m, end=begin + 0.2: m.time > end, 'the push')
+                self.assertAlmostEqual(pushed.velocities[10].x, 0.01, places=9)
 
     def test_it_comes_to_rest(self):
         with self.node():
@@ -232,7 +249,8 @@ class States(NodeTest):
                                (other, 'masses differ')):
                 self.assertIn(says, self.call('load_state', path, success=False))
             for path, says in (('/proc/nowhere/state.txt', 'could not be'), (folder, 'is a folder'),
-                               (os.path.dirname(HORIZONTAL), 'is a folder'), (HORIZONTAL, 'is an input')):
+                               (os.path.dirname(HORIZONTAL), 'is a folder'), (HORIZONTAL, 'is an input'),
+                               (write(folder + '/scene.txt', '\n0 0 1\n'), 'is not a state')):
                 message = self.call('save_state', path, success=False)
                 self.assertIn(path.replace('/state.txt', ''), message)
                 self.assertIn(says, message)

@@ -137,6 +137,8 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
     return Target{place_ ? *place_ : place_.emplace(here), {}, {}};
   }
   place_.reset();
+  // The motion of a holder during a long interval is unknown.
+  if (interval > kSilence) target.velocity = target.acceleration = {};
   const double age = silence - interval;
   for (const auto axis : {&PlaneVector<double>::x, &PlaneVector<double>::y}) {
     target.position.*axis += age * (target.velocity.*axis + 0.5 * age * target.acceleration.*axis);

@@ -119,16 +119,16 @@ void Node::end() {
 }
 
 bool Node::isDue() const {
-  if (run_.isOver()) return false;
-  if (paused_) return steps_wanted_ > 0;
-  return ros::SteadyTime::now() >= pacer_.dueTime(nextTime());
+  if (run_.isOver() || rests()) return false;
+  return paused_ || ros::SteadyTime::now() >= pacer_.dueTime(run_.nextTime());
 }
 
 void Node::serve() {
   callBack(steps_wanted_ > 0 ? kShortWait : 0.0);
   robots_.lookUp();
   if (isDue()) return;
-  const ros::SteadyTime next = run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(nextTime());
+  const ros::SteadyTime next =
+      run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(run_.nextTime());
   const double wait = (next - ros::SteadyTime::now()).toSec();
   if (wait > 0.0) callBack(std::min(wait, options_.held.empty() ? kLongestService : kShortWait));
 }
@@ -141,20 +141,14 @@ void Node::callBack(double wait) {
   }
 }
 
-double Node::nextTime() const {
-  const bool is_live = options_.real_time_factor > 0.0 || publisher_.isWatched();
-  const bool is_late = pacer_.isLate(run_.nextTime(), ros::SteadyTime::now());
-  const bool by_parts = driver_.isActing() || (is_live && !is_late && !paused_);
-  return by_parts ? run_.nextTime() : run_.nextFrameTime();
-}
-
 void Node::advance() {
-  const double next = nextTime();
-  const bool is_part = next < run_.nextFrameTime();
+  const double next = run_.nextTime();
   change(next, false);
-  if (is_part) run_.advancePart();
+  // Another method may divide the frame otherwise.
+  if (run_.nextTime() != next) change(run_.nextTime(), false);
+  run_.advancePart();
   // Inside a frame nobody would call this a divergence.
-  if (!is_part || !run_.isFinite()) run_.advance();
+  if (!run_.isFinite()) run_.advance();
   if (steps_wanted_ > 0 && run_.isAtFrame()) --steps_wanted_;
   finishState();
 }
@@ -201,8 +195,11 @@ void Node::finishState() {
 
 void Node::show() {
   show_at_ = ros::SteadyTime::now() + ros::WallDuration(kShowAgainInterval);
-  const bool is_due = paused_ || run_.isOver() || pacer_.isShown(run_.time());
-  const auto header = publisher_.publish(run_, {paused_, is_due, handles_.isDragging()});
+  // A run that is late leaves out states between frames.
+  const bool is_left_out = !run_.isAtFrame() && !driver_.isActing() &&
+                           pacer_.isLate(run_.time(), ros::SteadyTime::now());
+  const bool is_due = rests() || run_.isOver() || (!is_left_out && pacer_.isShown(run_.time()));
+  const auto header = publisher_.publish(run_, {rests(), is_due, handles_.isDragging()});
   if (header && run_.isFinite()) {
     handles_.show();
     robots_.show(*header);
@@ -211,9 +208,8 @@ void Node::show() {
 }
 
 void Node::logStart() const {
-  const std::string& method = run_.plan().method.get().name;
-  ROS_INFO_STREAM(method << " on " << fullPath(scenario_.particles) << ", "
-                         << files_.description());
+  ROS_INFO_STREAM(run_.plan().method.get().name << " on " << fullPath(scenario_.particles) << ", "
+                                                << files_.description());
   const Remarks remarks = remarksOn(run_);
   if (!remarks.warning.empty()) ROS_WARN_STREAM(remarks.warning);
   for (const std::string& note : remarks.notes) ROS_INFO_STREAM(note);

@@ -27,9 +27,7 @@ bool Pacer::isLate(double simulated_time, ros::SteadyTime now) const {
 
 bool Pacer::isShown(double simulated_time, bool must) {
   // The states before and after a due time may be unequally far from it: the nearer one is shown.
-  const bool is_due = simulated_time >= next_shown_ - 0.5 * shown_interval_;
-  if (!is_due && !must) return false;
-  if (!is_due) next_shown_ = simulated_time;
+  if (!must && simulated_time < next_shown_ - 0.5 * shown_interval_) return false;
   next_shown_ += shown_interval_;
   if (next_shown_ <= simulated_time) next_shown_ = simulated_time + shown_interval_;
   return true;

@@ -17,10 +17,6 @@ class Publisher {
 
   /// Number of subscribers of markers, state and status.
   std::int64_t subscribers() const;
-  /// Whether a topic that shows states between the frames has subscribers.
-  bool isWatched() const {
-    return clock_ != nullptr || isSubscribed(markers_) || isSubscribed(state_);
-  }
   /// Publishes the messages about the current state.
   /// \returns their header; nothing if the state is not due
   std::optional<std_msgs::Header> publish(const Run& run, Showing showing);

@@ -18,6 +18,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <algorithm>
 #include <exception>
 
 namespace spring_pendulum {
@@ -88,7 +89,7 @@ std::vector<ros::ServiceServer> Node::advertiseServices() {
 std::string Node::take(const Request& request) {
   if (ended_) throw InputError("the node is ending");
   if (last_frame_.size() == 0) throw InputError("the run has not started yet");
-  if (paused_) change(run_.time(), true);  // a request is about what the holders do now
+  if (rests()) change(run_.time(), true);  // a request is about what the holders do now
   std::string sentence = std::visit([this](const auto& each) { return on(each); }, request);
   show_at_ = ros::SteadyTime::now();
   return sentence;
@@ -97,8 +98,7 @@ std::string Node::take(const Request& request) {
 std::string Node::on(const Pause& request) {
   const bool paused = request.paused, is_new = paused != paused_;
   // Only whole frames can be saved. The loop finishes a long one, as it serves inputs meanwhile.
-  const bool finishes = paused && is_new;
-  for (int part = 0; finishes && part < 50 && !run_.isAtFrame() && !run_.isOver(); ++part)
+  for (int part = 0; paused && is_new && part < 50 && !run_.isAtFrame() && !run_.isOver(); ++part)
     advance();
   if (run_.isOver()) throw InputError(overMessage(run_));
   const std::int64_t missing = paused && !run_.isAtFrame() ? 1 : 0, frame = run_.frame() + missing;
@@ -117,7 +117,7 @@ std::string Node::on(const Pause& request) {
 std::string Node::on(const Step& /*request*/) {
   if (run_.isOver()) throw InputError(overMessage(run_));
   if (!paused_) throw InputError("the run is not paused; call ~pause first");
-  ++steps_wanted_;
+  steps_wanted_ = std::min(steps_wanted_ + 1, run_.plan().frames - 1 - run_.frame());
   return fmt::format("advancing to frame {}", run_.frame() + steps_wanted_);
 }
 
@@ -150,7 +150,6 @@ std::string Node::on(const LoadState& request) {
     throw InputError(
         fmt::format("{}: is the state of another chain: the masses differ", scenario.particles));
   }
-  checkFirstFrame(scenario, loaded.frame);
   goTo(&loaded);
   return fmt::format("to frame {} of {}", loaded.frame, fullPath(scenario.particles));
 }
