@@ -143,19 +143,26 @@ def draw_map(axes, rows, table, options):
         axes.set_ylim(places[1][0], places[1][-1])
 
 
-def draw_histogram(axes, rows, _, options):
-    values = sorted(v for v in (number(row[options.x]) for row in rows)
-                    if math.isfinite(v) and (v > 0 or 'x' not in options.log))
+def drawn_numbers(rows, options):
+    return sorted(v for v in (number(row[options.x]) for row in rows)
+                  if math.isfinite(v) and (v > 0 or 'x' not in options.log))
+
+
+def draw_histogram(axes, rows, table, options):
+    values = drawn_numbers(rows, options)
     if not values:
         return
-    low, high = values[0], values[-1]
-    bins = 30
-    if 'x' in options.log and high > low:
-        bins = [low * (high / low) ** (k / 30) for k in range(31)]
+    everything = drawn_numbers(table.rows, options)  # all panels have the same bars
+    first, last = everything[0], everything[-1]
+    to, back = (math.log, math.exp) if 'x' in options.log else (float, float)
+    low, high = to(first), to(last)
+    if low == high:
+        low, high = low - 0.5, high + 0.5
+    bins = [back(low + (high - low) * k / 30) for k in range(31)]
+    bins[0], bins[-1] = min(first, bins[0]), max(last, bins[-1])  # without rounding errors
     # The smallest value with at least 95 % of all values at or below it.
     most = values[math.ceil(0.95 * len(values)) - 1]
-    axes.hist(values, bins=bins, color=COLORS[0],
-              label='%d of %d cases, median %.3g, 95 %% at most %.3g'
+    axes.hist(values, bins=bins, color=COLORS[0], label='%d of %d cases, median %.3g, 95 %% at most %.3g'
               % (len(values), len(rows), statistics.median(values), most))
 
 

@@ -48,9 +48,8 @@ std::string helpText(const po::options_description& description) {
   std::ostringstream options;
   options << description;
   std::string columns;
-  for (const Column& column : allColumns()) {
+  for (const Column& column : allColumns())
     columns += fmt::format("  {:<20} {}\n", column.name, column.meaning);
-  }
   return fmt::format(
       "Runs the cases of a study and writes their table.\n\nUsage: sweep STUDY.yaml [options]\n"
       "Example: sweep config/studies/order.yaml --plot\n\n{}\nColumns of a table:\n{}\n"
@@ -109,9 +108,8 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
         "STUDY is missing; try: sweep config/studies/order.yaml (--help lists the options)");
   }
   setShard(line);
-  if (line.only_case < 0 && line.sweep.output.empty()) {
+  if (line.only_case < 0 && line.sweep.output.empty())
     line.sweep.output = std::filesystem::path(line.study).stem().string() + ".csv";
-  }
   return line;
 }
 
@@ -152,9 +150,8 @@ std::string particlesPath(const std::string& folder, std::int64_t index) {
 /// Prints a case as a command line of Exercise3.
 /// \param folder for the frames, and for particles that are in no file; empty: none
 void printCase(const Study& study, std::int64_t index, const std::string& folder) {
-  if (index >= study.cases()) {
+  if (index >= study.cases())
     throw InputError(fmt::format("--case: must be from 0 to {}, got {}", study.cases() - 1, index));
-  }
   Case made = caseOf(study, index);
   Scenario& scenario = made.settings.scenario;
   if (!folder.empty()) scenario.output = folder;

@@ -82,26 +82,30 @@ class Sweep {
     checkCases(study_, options_.threads);
     const int status = counter_.rank() == 0 ? tryOutputs() : kDone;
     if (status != kDone) return status;
-    const std::string journal = options_.output + ".journal";
-    if (options_.shards > 1 && std::filesystem::exists(options_.output) &&
-        !std::filesystem::exists(journal))
-      throw InputError(options_.output + ": exists; remove it to run its shards anew");
-    journal_.emplace(journal, study_.hash);
+    journal_.emplace(options_.output + ".journal", study_.hash);
     readJournal();
+    const bool is_new = std::count(rows_.begin(), rows_.end(), std::string()) == study_.cases();
+    if (options_.shards > 1 && is_new && std::filesystem::exists(options_.output)) {
+      std::filesystem::remove(journal_->path());
+      throw InputError(options_.output + ": exists; remove it to run its shards anew");
+    }
     return kDone;
   }
 
   /// Runs the cases that are not done.
   void work() {
-    Progress progress(study_.cases(), "cases");
+    // A shard takes every n-th case.
+    const std::int64_t shards = options_.shards;
+    const std::int64_t cases = (study_.cases() - options_.shard + shards) / shards;
+    Progress progress(cases, "cases");
     std::atomic<std::int64_t> begun{0}, busy{0};
     const auto next = [&] {
-      std::int64_t index = 0;
-      do {  // a shard takes every n-th case
-        index = counter_.next() * options_.shards + options_.shard - 1;
+      std::int64_t place = 0, index = 0;
+      do {
+        index = (place = counter_.next()) * shards + options_.shard - 1;
       } while (index < study_.cases() && !rows_[static_cast<std::size_t>(index)].empty());
       if (index < study_.cases()) ++busy;
-      begun = std::min(index + 1, study_.cases());
+      begun = std::min(place + 1, cases);
       return index;
     };
     const auto run = [&](std::int64_t index, const Case& a_case, const auto& stop) {
@@ -114,7 +118,7 @@ class Sweep {
     };
     const auto meanwhile = [&] {
       counter_.poll();
-      if (counter_.rank() == 0) progress.show(std::max<std::int64_t>(0, begun - busy));
+      if (counter_.rank() == 0 && begun > 0) progress.show(std::max<std::int64_t>(0, begun - busy));
     };
     forEachCase(study_, options_.threads, next, run, meanwhile);
   }

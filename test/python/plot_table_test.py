@@ -80,6 +80,8 @@ class Histograms(unittest.TestCase):
         rows = '0,3,ok\n1,1,ok\n2,2,ok\n3,10,ok\n4,nan,diverged\n'
         figure = draw('case,error,verdict\n%s' % rows, type='histogram', x='error')
         self.assertEqual(legend(figure), ['4 of 5 cases, median 2.5, 95 % at most 10'])
+        bars = draw('case,x\n0,7e-6\n1,7e-6\n', type='histogram', x='x', log='x').axes[0].patches
+        self.assertEqual([sum(bar.get_height() for bar in bars), bars[-1].get_height()], [2, 0])
 
 
 class Tables(unittest.TestCase):
