@@ -124,7 +124,7 @@ bool Node::isDue() const {
 }
 
 void Node::serve() {
-  callBack(steps_wanted_ > 0 ? kShortWait : 0.0);
+  callBack(steps_wanted_ > 0 && driver_.isActing() ? kShortWait : 0.0);
   robots_.lookUp();
   if (isDue()) return;
   const ros::SteadyTime next =
