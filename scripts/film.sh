@@ -42,6 +42,8 @@ for option in start duration fps slow; do
   [[ ${!option} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "--$option is '${!option}': must be a number"
   [[ $option = start || ${!option} = *[1-9]* ]] || die "--$option is '${!option}': must be above 0"
 done
+[[ $slow =~ ^0*[1-9] ]] || die "--slow is '$slow': must be at least 1"
+[[ $fps =~ ^0*([1-4]?[0-9]|50)(\.|$) ]] || die "--fps is '$fps': must be at most 50"
 
 # In the repository, missing packages are installed; an installed script only lists them.
 [ ! -x "$here/setup.sh" ] || "$here/setup.sh" ros rviz film
@@ -67,6 +69,9 @@ read -r length topics <<< "$contents"
 rest=$(calculate "$length - $start")
 [[ $rest != -* && $rest != 0.0000 ]] || die "--start is '$start': the bag is $(short "$length") s long"
 duration=$(calculate "${duration:-1e9} < $rest ? ${duration:-0} : $rest")
+[[ $out = *.png || $(calculate "$duration < 0.1") = 0* ]] || die "the part to film is $(short "$duration") s long: must be at least 0.1 s"
+# The player and the camera need 3 s.
+slow=$(calculate "$duration * $slow < 3 ? 3 / $duration : $slow")
 
 work=$(mktemp -d)
 made=$work/film.${out##*.}
@@ -83,6 +88,7 @@ clean_up() {
 trap clean_up EXIT
 # Puts the film in its place, whole, and leaves an earlier one there if that fails.
 finish() {
+  [ -s "$made" ] || die "nothing was filmed"
   cp -- "$made" "$out.unfinished" && mv -f -- "$out.unfinished" "$out" || { rm -f -- "$out.unfinished"; die "'$out' could not be written"; }
   say "$out: $(stat -c %s "$out") bytes"
 }
@@ -143,7 +149,7 @@ if [[ $out = *.png ]]; then
 fi
 
 # Records losslessly from before the start; the part before the first message is cut off later.
-start ffmpeg -nostdin -y -f x11grab -framerate "$(calculate "$fps / $slow")" -video_size "$size" \
+start ffmpeg -nostdin -y -f x11grab -framerate "$(calculate "$fps < 5 * $slow ? 5 : $fps / $slow")" -video_size "$size" \
   -draw_mouse 0 -i "$DISPLAY" -c:v libx264rgb -crf 0 -preset ultrafast "$work/raw.mkv"
 camera=${started[-1]}
 until_true 20 ffmpeg "ffmpeg did not start to film" grep -q 'start: [0-9]' "$work/ffmpeg.log"
@@ -155,8 +161,11 @@ sleep 1.5
 start rosbag play --clock --quiet --delay 1 --rate "$(calculate "1 / $slow")" -s "$start" \
   -u "$duration" "$bag"
 player=${started[-1]}
-tail --pid="$clock" -f /dev/null
-say "filming $(short "$duration") s of $(short "$length") s, $slow times slower"
+while kill -0 "$clock" 2> /dev/null; do
+  kill -0 "$player" 2> /dev/null || give_up rosbag "rosbag play ended before its first message"
+  sleep 0.05
+done
+say "filming $(short "$duration") s of $(short "$length") s, $(short "$slow") times slower"
 cut=$(calculate "$(stat -c %.6Y "$work/rostopic.log") + 0.4 - $camera_start")
 begin=$SECONDS
 until timeout 5 tail --pid="$player" -f /dev/null; do
