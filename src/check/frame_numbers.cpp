@@ -97,7 +97,7 @@ bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
                      [&](const auto& frame) { return equals_floats_of(frame, frame.positions); });
 }
 
-void noteMissingFrames(AllFrames& all) {
+void noteMissingFrames(AllFrames& all, std::int64_t renumbered_by = 0) {
   std::int64_t last = all.start - 1, there = 0;  // in a row from the start
   for (const FrameNumbers& frame : all.frames) {
     if (frame.index == last) throw FileError(fmt::format("frame {} is there twice", last));
@@ -106,8 +106,8 @@ void noteMissingFrames(AllFrames& all) {
   }
   const auto count = last - all.start - static_cast<std::int64_t>(all.frames.size()) + 1;
   if (count == 0) return;
-  all.notes.push_back(
-      fmt::format("{}, the first is frame {}", counted(count, "missing frame"), all.start + there));
+  all.notes.push_back(fmt::format("{}, the first is frame {}", counted(count, "missing frame"),
+                                  all.start + there + renumbered_by));
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
   for (FrameNumbers& frame : frames) frame.index -= shift;
   notes.front() =  // instead of the missing frames
       fmt::format("the frames are numbered from {}; {} would be right", start + shift, start);
-  noteMissingFrames(*this);
+  noteMissingFrames(*this, shift);
   return true;
 }
 

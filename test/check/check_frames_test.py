@@ -282,7 +282,7 @@ def start_may_be_a_copy(lab):
         np.savetxt(folder / f'frame_000{first}.txt', scene[:, :2], fmt='%.17g')
         (folder / f'frame_00{20 + first}.txt').unlink()
         said = subprocess.run([lab.check, folder, '-p', path, '--frames', '40'], stdout=subprocess.PIPE, check=False)
-        if said.returncode != 0 or b'note: 1 missing frame, the first is frame 20' not in said.stdout:
+        if said.returncode != 0 or b'note: 1 missing frame, the first is frame 2%d' % first not in said.stdout:
             return False
     return True
 
