@@ -62,8 +62,6 @@ class Table:
             refuse(path + ': the table has no rows')
         self.titles = {title.split(' [')[0]: title for title in titles}
         self.rows = [dict(itertools.zip_longest(self.titles, row, fillvalue='nan')) for row in rows]
-        for row in self.rows:  # with --try, all columns may be nan, but no verdict is a number
-            row.update({'verdict': 'ok'} if row.get('verdict') == 'nan' else {})
 
     def values(self, key):
         """The different values of a key in the order of the table; one None without a key."""
@@ -83,9 +81,9 @@ def draw_lines(axes, rows, table, options):
     for k, line in enumerate(table.values(options.lines)):
         points = {}
         for row in rows:
-            y = number(row[options.y])
+            place, y = number(row[options.x]), number(row[options.y])
             if (line is None or row[options.lines] == line) and math.isfinite(y):
-                points.setdefault(number(row[options.x]), []).append(y)
+                points.setdefault(place, []).append(y)
         color, style = METHODS.get(line) or STYLES[k % len(STYLES)]
         x = sorted(v for v in points if math.isfinite(v))
         middle = [statistics.median(points[v]) for v in x]
@@ -208,7 +206,8 @@ def draw(table, options):
 
 
 def save(figure, picture):
-    # Whole or absent, as all outputs.
+    # Whole or absent, as all outputs, and where a link leads to.
+    picture = os.path.realpath(picture)
     unfinished = picture + '.unfinished'
     try:
         figure.savefig(unfinished, format='png', dpi=100)
@@ -228,6 +227,9 @@ def draw_table(options):
         if getattr(options, key) not in ('', *table.titles):
             refuse("%s: unknown axis or column '%s'; known are %s"
                    % (key, getattr(options, key), ', '.join(list(table.titles)[1:])))
+    if options.only_try and 'verdict' in table.titles:  # all columns may be nan, but no verdict is a number
+        for row in table.rows:
+            row['verdict'] = 'ok'
     figure = draw(table, options)
     if not options.only_try:
         save(figure, options.picture)
