@@ -59,14 +59,14 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
 double Judge::change(const Chain& chain, const State& before, const State& after,
                      const JudgeOptions& options, double supplied) {
   const double energy_before = energyOf(before).total();
+  if (options.tolerance != options_.tolerance) sensitive_time_ = exceeded_time_ = 0.0;
   const double start_time = std::exchange(options_, options).start_time;
   chain_ = chain;
   options_.start_time = start_time;
   changed_ = true;
   if (worst_.kind == VerdictKind::kOk)
     worst_ = {VerdictKind::kNotChecked, entry_.time, 0,
-              fmt::format("not checked from t = {:.6g} s on: the chain was driven or changed",
-                          entry_.time)};
+              fmt::format("not checked from t = {:.6g} s on: driven or changed", entry_.time)};
   const double energy_after = energyOf(after).total();
   widenScale(after, energy_after);
   const double supplied_after = supplied + energy_after - energy_before;
@@ -79,8 +79,10 @@ void Judge::widenScale(const State& start, double energy) {
   const SpringLaw& spring = chain_.spring();
   // Sums from the free end: weight beyond a spring, -E_min, and springs that are hardly stretched.
   double weight = 0.0, depth = 0.0, least = 0.0;
+  Eigen::ArrayXd weights = chain_.masses() * std::abs(chain_.gravity());  // with applied forces
+  for (const auto& [i, force] : chain_.drive().forces) weights[i] += std::hypot(force.x, force.y);
   for (Eigen::Index i = chain_.size() - 1; i > 0; --i) {
-    weight += chain_.masses()[i] * std::abs(chain_.gravity());
+    weight += weights[i];
     depth += weight * spring.rest_length;
     if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
     const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
@@ -138,8 +140,7 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
     const double error = std::abs(entry_.energy.total() - truth);
     if (error <= kDriftThreshold * scale(time)) verdict.kind = VerdictKind::kOk;
   }
-  // What ended the measurement is said once.
-  const bool has_news = is_measuring || worst_.kind == VerdictKind::kOk;
+  const bool has_news = is_measuring || worst_.kind == VerdictKind::kOk;  // an end is said once
   if (verdict.kind == VerdictKind::kOk && has_news) verdict = positionVerdict(reference);
   latest_ = std::move(verdict);
   if (latest_.kind > worst_.kind || worst_.kind == VerdictKind::kOk) worst_ = latest_;

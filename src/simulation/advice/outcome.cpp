@@ -43,7 +43,6 @@ double durationOf(const Plan& plan) {
   return std::clamp(plan.timeOfFrame(plan.frames - 1), plan.step(), 1e300);
 }
 
-/// What is asked of a trial run.
 struct Trial {
   Verdict verdict;
   double position_error;  ///< the largest, m
