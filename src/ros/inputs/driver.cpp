@@ -77,7 +77,8 @@ std::string Driver::on(const SetConstant& request) {
     checkTolerance(wanted.tolerance, Chain(run_.chain().masses(), wanted.constants),
                    run_.isOver() ? run_.start() : run_.state());
   wanted_ = wanted;
-  return fmt::format("{} is {} from the next state on", name, option.text());
+  return fmt::format("{} is {} from the next state on{}", name, option.text(),
+                     name == "method" ? ", or from the next frame on" : "");
 }
 
 std::string Driver::on(const ApplyForceTo& request) {

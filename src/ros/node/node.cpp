@@ -21,6 +21,7 @@ namespace {
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
 constexpr double kShortWait = 0.002;        // s, for tf, or for recorders between parts of a step
+constexpr double kLongFrame = 1.0;          // s, whose states are never left out
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
 constexpr double kLongestSending = 10.0;    // s, at the end, for subscribers that are slower
 constexpr double kSettling = 1.0 / 30.0;    // s, of a particle that follows its target
@@ -120,15 +121,14 @@ void Node::end() {
 
 bool Node::isDue() const {
   if (run_.isOver() || rests()) return false;
-  return paused_ || ros::SteadyTime::now() >= pacer_.dueTime(run_.nextTime());
+  return paused_ || ros::SteadyTime::now() >= pacer_.dueTime(nextTime());
 }
 
 void Node::serve() {
   callBack(steps_wanted_ > 0 && driver_.isActing() ? kShortWait : 0.0);
   robots_.lookUp();
   if (isDue()) return;
-  const ros::SteadyTime next =
-      run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(run_.nextTime());
+  const ros::SteadyTime next = run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(nextTime());
   const double wait = (next - ros::SteadyTime::now()).toSec();
   if (wait > 0.0) callBack(std::min(wait, options_.held.empty() ? kLongestService : kShortWait));
 }
@@ -141,14 +141,21 @@ void Node::callBack(double wait) {
   }
 }
 
+double Node::nextTime() const {
+  const bool is_late = paused_ || pacer_.isLate(run_.nextTime(), ros::SteadyTime::now());
+  const bool is_long = run_.plan().timeOfFrame(1) > kLongFrame * options_.real_time_factor;
+  return driver_.isActing() || !is_late || is_long ? run_.nextTime() : run_.nextFrameTime();
+}
+
 void Node::advance() {
-  const double next = run_.nextTime();
+  const double next = nextTime();
+  const bool is_part = next < run_.nextFrameTime();
   change(next, false);
   // Another method may divide the frame otherwise.
-  if (run_.nextTime() != next) change(run_.nextTime(), false);
-  run_.advancePart();
+  if (is_part && run_.nextTime() != next) change(run_.nextTime(), false);
+  if (is_part) run_.advancePart();
   // Inside a frame nobody would call this a divergence.
-  if (!run_.isFinite()) run_.advance();
+  if (!is_part || !run_.isFinite()) run_.advance();
   if (steps_wanted_ > 0 && run_.isAtFrame()) --steps_wanted_;
   finishState();
 }
@@ -195,10 +202,7 @@ void Node::finishState() {
 
 void Node::show() {
   show_at_ = ros::SteadyTime::now() + ros::WallDuration(kShowAgainInterval);
-  // A run that is late leaves out states between frames.
-  const bool is_left_out = !run_.isAtFrame() && !driver_.isActing() &&
-                           pacer_.isLate(run_.time(), ros::SteadyTime::now());
-  const bool is_due = rests() || run_.isOver() || (!is_left_out && pacer_.isShown(run_.time()));
+  const bool is_due = rests() || run_.isOver() || pacer_.isShown(run_.time());
   const auto header = publisher_.publish(run_, {rests(), is_due, handles_.isDragging()});
   if (header && run_.isFinite()) {
     handles_.show();

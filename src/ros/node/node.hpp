@@ -48,6 +48,8 @@ class Node {
 
   void waitForSubscribers();
   bool isDue() const;
+  /// Simulated time to which the run advances next, s: the next state, or the next frame.
+  double nextTime() const;
   bool rests() const { return paused_ && steps_wanted_ == 0; }
   void serve();
   /// Calls what has come in, or waits this number of seconds for it.

@@ -101,7 +101,8 @@ std::string Node::on(const Pause& request) {
   for (int part = 0; paused && is_new && part < 50 && !run_.isAtFrame() && !run_.isOver(); ++part)
     advance();
   if (run_.isOver()) throw InputError(overMessage(run_));
-  const std::int64_t missing = paused && !run_.isAtFrame() ? 1 : 0, frame = run_.frame() + missing;
+  const std::int64_t missing = !is_new ? steps_wanted_ : paused && !run_.isAtFrame() ? 1 : 0;
+  const std::int64_t frame = run_.frame() + missing;
   std::string sentence = fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
                                      !paused       ? "running"
                                      : missing > 0 ? "pausing"
