@@ -83,7 +83,6 @@ class Sweep : public testing::Test {
     return fields;
   }
 
-  /// Runs the command line that --case prints.
   void expectRunOfExercise3(int index, const std::vector<std::string>& fields) const {
     const Result printed = run(sweep({"--case", std::to_string(index), "-o", "alone"}));
     EXPECT_EQ(printed.errors, "");
@@ -172,7 +171,6 @@ TEST_F(Sweep, KillsAndSignalsDoNotChangeTheTable) {
   EXPECT_EQ(readFile(folder_.path("killed.csv")), expected);
 }
 
-/// A random chain.
 std::string randomChain(std::mt19937& generator) {
   const auto uniform = [&](double least, double most) {
     return least + (most - least) * static_cast<double>(generator()) / 4294967296.0;
@@ -376,12 +374,14 @@ TEST_F(Sweep, RefusesBadArguments) {
   const std::pair<std::vector<std::string>, const char*> bad[] = {
       {{"other.yaml"}, "'other.yaml': give only one STUDY"},
       {{"--shard", "4/3"}, "--shard: must be I/N with I from 1 to N, N at most 1e9, got '4/3'"},
+      {{"--shard", "2/9223372036854775807"}, "N at most 1e9"},
       {{"--threads", "1", "--threads", "2"}, "--threads: is given twice"},
       {{"--case", "0", "-o", "x", "--plot"}, "--case: runs a single case; leave out --plot"},
       {{"--case", "400"}, "--case: must be from 0 to 399, got 400"},
       {{"--case", "3"}, "--case: its particles are in no file; give a folder with --output"},
       {{"-o", "chain.txt"}, "is an input of this run"},
       {{"-o", "study.png", "--plot"}, "choose another file"},
+      {{"-o", "."}, "is the folder of another output"},
   };
   Command ranks = sweep({});
   ranks.environment = {{"SLURM_STEP_NUM_TASKS", "4"}};  // MPI does not know of them
