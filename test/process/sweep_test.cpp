@@ -153,8 +153,7 @@ TEST_F(Sweep, KillsAndSignalsDoNotChangeTheTable) {
   for (int kill = 0; kill < 8; ++kill) {
     std::vector<std::string> options{"-o", "killed.csv", "--threads", std::to_string(1 + kill % 2)};
     if (kill % 3 == 1) options.insert(options.end(), {"--shard", "2/3"});
-    const int ranks = kill % 4 == 2 ? 2 : 1;
-    Process process(sweep(options, ranks));
+    Process process(sweep(options, kill % 4 == 2 ? 2 : 1));
     if (kill == 0) {
       process.waitForFile(folder_.path("killed.csv.journal"));
       process.sendSignal(SIGTERM);
@@ -223,8 +222,7 @@ TEST_F(Sweep, RowsAreRunsOfExercise3) {
     }
   }
   EXPECT_GT(verdicts["ok"], 20);
-  EXPECT_GT(verdicts["sensitive"], 1);
-  EXPECT_GT(verdicts["diverged"], 1);
+  EXPECT_GT(std::min(verdicts["sensitive"], verdicts["diverged"]), 1);
 }
 
 TEST_F(Sweep, DrawsItsTableWithTheTitleAsText) {
@@ -312,8 +310,7 @@ TEST_F(SweepWithAJournal, TellsEveryFaultInOneLine) {
     EXPECT_EQ(readFile(folder_.path("t.csv")), expected);
   }
   EXPECT_THAT(errors["write"], HasSubstr("journal: could not be written: Input/output error\n"));
-  EXPECT_THAT(errors["remove"],
-              HasSubstr("journal: could not be removed: Input/output error; the"));
+  EXPECT_THAT(errors["remove"], HasSubstr("journal: could not be removed: Input/output error; "));
 }
 
 TEST_F(Sweep, RunsASingleFrameAndAFixedParticleWithoutMass) {
@@ -363,10 +360,13 @@ TEST_F(Sweep, TwoStudiesAreNotOneTable) {
 }
 
 TEST_F(Sweep, ATableOfAnotherStudyIsNotItsOwn) {
+  folder_.write("study.yaml",
+                "base: {particles: chain.txt, duration: 4}\naxes: {time_step: [0.1, 1e-9]}\n");
   Process process(sweep({"-o", "t.csv", "--threads", "1"}));
-  process.waitForFile(folder_.path("t.csv.journal"));
+  process.waitForFile(folder_.path("t.csv.journal"), "\n0,");
   std::filesystem::remove(folder_.path("t.csv.journal"));
   folder_.write("t.csv", "case,x\n0,1\n");
+  process.sendSignal(SIGTERM);
   EXPECT_THAT(process.wait().errors, HasSubstr("was removed during the run"));
 }
 

@@ -1,5 +1,7 @@
 #include "support/process.hpp"
 
+#include "support/temporary_folder.hpp"
+
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -75,12 +77,12 @@ void Process::sendSignal(int signal_number) {
   kill(pid_, signal_number);
 }
 
-void Process::waitForFile(const std::string& path) const {
-  const auto exists = [&path] { return access(path.c_str(), F_OK) == 0; };
-  while (!exists()) {
+void Process::waitForFile(const std::string& path, const std::string& text) const {
+  const auto is_there = [&] { return readFile(path).find(text) != std::string::npos; };
+  while (!is_there()) {
     siginfo_t ended{};
     waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);
-    if (ended.si_pid == pid_ && !exists()) throw std::runtime_error(path + " was not written");
+    if (ended.si_pid == pid_ && !is_there()) throw std::runtime_error(path + " was not written");
     usleep(200);
   }
 }
