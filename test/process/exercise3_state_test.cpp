@@ -140,6 +140,16 @@ TEST_F(Exercise3State, RefusesStatesThatDoNotFit) {
                 incomplete + "50 without velocities");
 }
 
+// A hand can move it, and the state can be saved meanwhile.
+TEST_F(Exercise3State, TheFirstParticleOfAStateIsFixed) {
+  save("Runge-Kutta-4");
+  std::string state = read("state.txt");
+  state.replace(state.find("\n0 0 0.1 0 0\n"), 13, "\n0 0 0.1 3 4\n");
+  folder_.write("state.txt", state);
+  EXPECT_EQ(resume("Runge-Kutta-4", "--save-state after.txt").errors, "");
+  EXPECT_THAT(read("after.txt"), HasSubstr("\n0 0 0.1 0 0\n"));
+}
+
 TEST_F(Exercise3State, AStateIsAnOrdinaryParticleFileToo) {
   save("Runge-Kutta-4");
   EXPECT_EQ(runWith("Runge-Kutta-4 state.txt -o again --frames 2").status, 0);

@@ -79,6 +79,7 @@ class RowParser {
     if (!rows.have_velocities) return rows;
     state.vx() = table.col(3) + zero;
     state.vy() = table.col(4) + zero;
+    state.velocities().row(0).setZero();  // the first particle is fixed
     return rows;
   }
 
@@ -145,9 +146,7 @@ ParticleRows parseRows(std::string_view text, std::string_view name, bool is_sta
 }
 
 Scene parseParticles(std::string_view text, std::string_view name) {
-  Scene particles = parseRows(text, name).particles;
-  particles.state.velocities().row(0).setZero();  // the first particle is fixed
-  return particles;
+  return parseRows(text, name).particles;
 }
 
 Scene readParticleFile(const std::string& path) {
