@@ -48,11 +48,13 @@ std::string_view toString(VerdictKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options)
+Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options, double start_time)
     : chain_(chain),
       options_(options),
       start_energy_(computeEnergy(chain, start).total()),
-      start_height_(start.y()[0]) {
+      start_height_(start.y()[0]),
+      start_time_(start_time),
+      method_time_(start_time) {
   widenScale(start, start_energy_);
 }
 
@@ -60,9 +62,11 @@ double Judge::change(const Chain& chain, const State& before, const State& after
                      const JudgeOptions& options, double supplied) {
   const double energy_before = energyOf(before).total();
   if (options.tolerance != options_.tolerance) sensitive_time_ = exceeded_time_ = 0.0;
-  const double start_time = std::exchange(options_, options).start_time;
+  if (std::exchange(options_, options).symplectic_step != options.symplectic_step) {
+    method_time_ = entry_.time;
+    sums_.setZero();
+  }
   chain_ = chain;
-  options_.start_time = start_time;
   changed_ = true;
   if (worst_.kind == VerdictKind::kOk)
     worst_ = {VerdictKind::kNotChecked, entry_.time, 0,
@@ -106,7 +110,7 @@ Energy Judge::energyOf(const State& state) const {
 }
 
 double Judge::scale(double time) const {
-  const double elapsed = time - options_.start_time;
+  const double elapsed = time - start_time_;
   return std::max(constant_scale_ + fall_ * elapsed * elapsed, std::numeric_limits<double>::min());
 }
 
@@ -181,14 +185,11 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
   double gain = entry_.relative_gain;
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
-    // over a time t is at most (energy scale)/t.
-    gain_sum_ += gain;
-    residual_sum_ += residual;
-    frames_ += 1.0;
-    gain = gain_sum_ / frames_;
-    residual = residual_sum_ / frames_;
-    const double elapsed = time - options_.start_time;
-    allowance += elapsed > 0.0 ? options_.symplectic_step / elapsed : 0.0;
+    // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
+    sums_ += Eigen::Array3d(gain, residual, 1.0);
+    gain = sums_[0] / sums_[2];
+    residual = sums_[1] / sums_[2];
+    allowance += options_.symplectic_step / (time - method_time_);
   }
   if (gain > kGainThreshold + allowance)
     return {VerdictKind::kGainedEnergy, time, 0,

@@ -44,7 +44,6 @@ struct JudgeOptions {
   /// errors of at most ten tolerances, which change the length of a spring by up to 20. The energy of
   /// this change is no fault: for particles of 1e-9 kg it exceeds the energy scale.
   double tolerance = 0.0;
-  double start_time = 0.0;  ///< time of the start, s
 };
 
 /// Judges the frames of a run and keeps the worst verdict.
@@ -56,8 +55,9 @@ class Judge {
   /// In units of `ReferenceRun::length`. Smaller errors are not visible in a picture of the chain.
   static constexpr double kInaccurateThreshold = 0.01;
 
+  /// \param start_time s
   /// \throws InputError if an energy of the start exceeds the range of double
-  Judge(const Chain& chain, const State& start, const JudgeOptions& options);
+  Judge(const Chain& chain, const State& start, const JudgeOptions& options, double start_time = 0);
 
   /// Judges the state at `time` s by its energy and its positions.
   /// \param dissipated `Integrator::dissipatedEnergy()`, J; used only if tracked
@@ -67,8 +67,7 @@ class Judge {
                        const ReferenceRun* reference, double supplied = 0.0);
 
   /// Continues with another chain of as many particles, and from another state.
-  /// \param options  without its start time. `track_dissipation`: whether the dissipated energy is
-  ///   known from the start on
+  /// \param options  `track_dissipation`: whether the dissipated energy is known from the start on
   /// \param supplied energy supplied before the change, J
   /// \returns the energy supplied until after the change, J: it includes the difference of the energies
   /// \throws InputError if an energy exceeds the range of double; the judge is not valid then
@@ -104,15 +103,15 @@ class Judge {
   Chain chain_;
   JudgeOptions options_;
   bool changed_ = false;
-  double start_energy_;          ///< J
-  double start_height_;          ///< of P_1, m
-  double constant_scale_ = 0.0;  ///< J
-  double fall_ = 0.0;            ///< scale of the free fall, J/s²
-  double most_supplied_ = 0.0;   ///< largest amount at a change, J
-  double gain_sum_ = 0.0;        ///< sum of the relative gains of the judged frames
-  double residual_sum_ = 0.0;    ///< sum of the relative residuals of the judged frames
-  double frames_ = 0.0;
-  double worst_residual_ = 0.0;  ///< largest relative residual of the energy balance
+  double start_energy_;           ///< J
+  double start_height_;           ///< of P_1, m
+  double constant_scale_ = 0.0;   ///< J
+  double fall_ = 0.0;             ///< scale of the free fall, J/s²
+  double most_supplied_ = 0.0;    ///< largest amount at a change, J
+  double start_time_;             ///< s
+  double method_time_;            ///< since when there is the symplectic method, s
+  Eigen::Array3d sums_{0, 0, 0};  ///< over its frames: relative gain, relative residual, one each
+  double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.
   double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance
   double sensitive_time_ = 0.0;  ///< where none can promise it

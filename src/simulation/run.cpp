@@ -44,9 +44,8 @@ double toleranceOf(const Plan& plan) {
   return plan.method.get().hasFixedStep() ? 0.0 : plan.tolerance;
 }
 
-JudgeOptions judgeOptions(const Plan& plan, bool track_dissipation, std::int64_t first_frame) {
-  return {track_dissipation, plan.method.get().symplectic ? plan.time_step : 0.0, toleranceOf(plan),
-          plan.timeOfFrame(first_frame)};
+JudgeOptions judgeOptions(const Plan& plan, bool track) {
+  return {track, plan.method.get().symplectic ? plan.time_step : 0.0, toleranceOf(plan)};
 }
 
 /// Number of states shown per frame.
@@ -194,7 +193,8 @@ void Run::goTo(std::int64_t frame, const State& state) {
 void Run::begin(std::int64_t frame, const State& state) {
   checkFirstFrame(plan_, frame);
   checkState(state);
-  judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_, frame));
+  judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
+                                   plan_.timeOfFrame(frame));
   if (plan_.reference != ReferenceUse::kNever)
     reference_ = std::make_unique<ReferenceRun>(chain_, state, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);
@@ -232,8 +232,8 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
     checkTolerance(next.tolerance, chain, state);
   const bool knows_dissipation = energyEntry().dissipated.has_value();
   Judge judge = *judge_;
-  supplied_before_ = supplied_ = judge.change(
-      chain, state_, state, judgeOptions(next, knows_dissipation, first_frame_), supplied_);
+  supplied_before_ = supplied_ =
+      judge.change(chain, state_, state, judgeOptions(next, knows_dissipation), supplied_);
   chain_ = std::move(chain);
   plan_ = next;
   state_ = state;
