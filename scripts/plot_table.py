@@ -57,10 +57,12 @@ class Table:
 
     def __init__(self, path):
         with open(path, newline='', encoding='utf-8') as file:
-            titles, *rows = [*csv.reader(file)] or [[]]
+            titles, *rows = [*filter(None, csv.reader(file))] or [[]]
+        self.titles = {title.split(' [')[0]: title for title in titles}
         if not rows:
             refuse(path + ': the table has no rows')
-        self.titles = {title.split(' [')[0]: title for title in titles}
+        if len(self.titles) < len(titles):
+            refuse(path + ': two columns have the same name')
         self.rows = [dict(itertools.zip_longest(self.titles, row, fillvalue='nan')) for row in rows]
 
     def values(self, key):
@@ -136,8 +138,14 @@ def draw_map(axes, rows, table, options):
         mesh = axes.pcolormesh(*places, cells, cmap='viridis', norm=scale(min(shown), max(shown)))
         axes.figure.colorbar(mesh, ax=axes, label=table.title(options.color))
     if options.limit:
-        limits = dict(sorted((number(row[options.x]), number(row[options.limit])) for row in rows))
-        axes.plot(list(limits), list(limits.values()), 'k-', linewidth=2, label=table.title(options.limit))
+        limits = {}  # by x: that of the row which is nearest to its limit, since limits may depend on y
+        for row in rows:
+            place, limit = number(row[options.x]), number(row[options.limit])
+            distance = abs(number(row[options.y]) - limit)
+            if distance < limits.get(place, (math.inf, 0))[0]:
+                limits[place] = distance, limit
+        points = sorted((place, limit) for place, (_, limit) in limits.items())
+        axes.plot(*zip(*points) if points else ([], []), 'k-', linewidth=2, label=table.title(options.limit))
         axes.set_ylim(places[1][0], places[1][-1])
 
 
@@ -227,6 +235,8 @@ def draw_table(options):
         if getattr(options, key) not in ('', *table.titles):
             refuse("%s: unknown axis or column '%s'; known are %s"
                    % (key, getattr(options, key), ', '.join(list(table.titles)[1:])))
+    if options.limit and table.titles[options.limit][len(options.limit):] != table.titles[options.y][len(options.y):]:
+        refuse('limit: %s has another unit than %s' % (table.titles[options.limit], table.titles[options.y]))
     if options.only_try and 'verdict' in table.titles:  # all columns may be nan, but no verdict is a number
         for row in table.rows:
             row['verdict'] = 'ok'

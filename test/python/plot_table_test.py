@@ -55,6 +55,11 @@ class Maps(unittest.TestCase):
         self.assertEqual(shown, [[0, 3, 1, 4, 2, 5], [6, 9, 7, 10, 8, 11]])
         self.assertEqual({axes.get_ylabel() for axes in figure.axes[2:]}, {'tip_x [m]'})
 
+    def test_show_the_limit_nearest_to_a_row_of_a_place(self):
+        table = 'case,x,y,limit,error\n0,1,1,9,1\n1,1,4,5,1\n2,1,8,2,1\n3,2,1,9,1\n4,2,4,9,1\n5,2,8,9,1\n'
+        axes = draw(table, type='map', x='x', y='y', color='error', limit='limit').axes[0]
+        self.assertEqual([list(numbers) for numbers in axes.lines[0].get_data()], [[1, 2], [5, 9]])
+
 
 class Lines(unittest.TestCase):
     def test_of_all_methods_look_different_and_diverged_rows_are_left_out(self):
@@ -77,7 +82,7 @@ class Lines(unittest.TestCase):
 
 class Histograms(unittest.TestCase):
     def test_count_what_did_not_diverge(self):
-        rows = '0,3,ok\n1,1,ok\n2,2,ok\n3,10,ok\n4,nan,diverged\n'
+        rows = '0,3,ok\n\n1,1,ok\n2,2,ok\n3,10,ok\n4,nan,diverged\n'
         figure = draw('case,error,verdict\n%s' % rows, type='histogram', x='error')
         self.assertEqual(legend(figure), ['4 of 5 cases, median 2.5, 95 % at most 10'])
         bars = draw('case,x\n0,7e-6\n1,7e-6\n', type='histogram', x='x', log='x').axes[0].patches
@@ -88,6 +93,7 @@ class Tables(unittest.TestCase):
     def test_that_cannot_be_drawn_are_refused_in_one_line(self):
         for text, reason in ((b'', 'the table has no rows'), (b'case,x,y\n', 'the table has no rows'),
                              (b'png', 'the name of the picture must end in .png'),
+                             (b'case,x,y,y\n0,1,1,1\n', 'two columns have the same name'),
                              (b'case,x,y\n\xff,1,1\n', "can't decode byte"), (None, 'No such file or directory'),
                              (b'case,x,y\n0,1,1e308\n1,1,-1e308\n', 'cannot draw'),
                              (b'case,x,y\n0,2,1\n1,0,1\n', 'x = 0 cannot be on a logarithmic axis')):
