@@ -15,13 +15,8 @@
 
 #include "support/reference.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::positionError;
-using test::referenceScene;
-using test::referenceSolution;
-using test::Scene;
 
 std::vector<Method> errorControlledMethods() {
   std::vector<Method> methods;
@@ -163,4 +158,4 @@ TEST_P(ErrorControlledMethod, CountsTheDissipatedEnergyOnlyIfAskedTo) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

@@ -15,11 +15,8 @@
 #include "support/exact_motion.hpp"
 #include "support/reference.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::positionError;
-using test::Scene;
 
 constexpr double kInterval = 0.5;  // s
 constexpr int kOutputs = 6;
@@ -27,8 +24,8 @@ constexpr double kBudget = 0.25;          // s per scene; scenes that need more 
 constexpr double kLargestGrowth = 100.0;  // growth of perturbations of the start
 
 /// Largest error at an output, in tolerances.
-double errorInTolerances(const Scene& scene, const test::ExactMotion& exact,
-                         std::string_view method, double tolerance) {
+double errorInTolerances(const Scene& scene, const ExactMotion& exact, std::string_view method,
+                         double tolerance) {
   const auto integrator = makeIntegrator(method, scene.chain, {tolerance});
   State state = scene.start;
   double worst = 0.0;
@@ -41,11 +38,11 @@ double errorInTolerances(const Scene& scene, const test::ExactMotion& exact,
 
 TEST(Oracle, FindsTheReferenceSolutions) {
   for (const char* name : {"two_masses_45deg", "horizontal_11"}) {
-    const auto motion = test::exactMotion(test::referenceScene(name), 1.0, 2, 10.0);
+    const auto motion = exactMotion(referenceScene(name), 1.0, 2, 10.0);
     ASSERT_TRUE(motion);
     // Measured 5e-15.
-    EXPECT_LT(positionError(motion->states[0], test::referenceSolution(name, 1)), 1e-13);
-    EXPECT_LT(positionError(motion->states[1], test::referenceSolution(name, 2)), 1e-13);
+    EXPECT_LT(positionError(motion->states[0], referenceSolution(name, 1)), 1e-13);
+    EXPECT_LT(positionError(motion->states[1], referenceSolution(name, 2)), 1e-13);
   }
 }
 
@@ -53,7 +50,7 @@ TEST(Oracle, MeasuresGrowthOfASmallChange) {
   // The angle of an inverted rigid pendulum grows with exp(sqrt(g/L) t).
   Scene scene{"", Chain(Eigen::Vector2d::Ones(), {1e5, 100.0, 1.0}, 9.81), State(2)};
   scene.start.y()[1] = 1.0 - 9.81 / 1e5;
-  const auto motion = test::exactMotion(scene, 0.5, 4, 10.0);
+  const auto motion = exactMotion(scene, 0.5, 4, 10.0);
   ASSERT_TRUE(motion);
   const double expected = std::cosh(std::sqrt(9.81) * 2.0);  // 262 for a change of 1
   EXPECT_GT(motion->growth, 0.05 * expected);
@@ -63,8 +60,8 @@ TEST(Oracle, MeasuresGrowthOfASmallChange) {
 TEST(RandomScenes, AreReproducibleAndOfDifferentFamilies) {
   std::set<std::string> families;
   for (unsigned seed = 0; seed < 30; ++seed) {
-    const Scene scene = test::randomScene(seed);
-    EXPECT_EQ(scene.start.values(), test::randomScene(seed).start.values());
+    const Scene scene = randomScene(seed);
+    EXPECT_EQ(scene.start.values(), randomScene(seed).start.values());
     families.insert(scene.name.substr(0, scene.name.rfind(' ')));
   }
   EXPECT_EQ(families.size(), 30U);
@@ -73,8 +70,8 @@ TEST(RandomScenes, AreReproducibleAndOfDifferentFamilies) {
 TEST(RandomScenes, KeepTheTolerance) {
   int checked = 0;
   for (unsigned seed = 1000; seed < 1031; ++seed) {
-    const Scene scene = test::randomScene(seed);
-    const auto exact = test::exactMotion(scene, kInterval, kOutputs, kBudget);
+    const Scene scene = randomScene(seed);
+    const auto exact = exactMotion(scene, kInterval, kOutputs, kBudget);
     if (!exact || exact->growth > kLargestGrowth) continue;
     ++checked;
     for (const Method& method : methodTable()) {
@@ -88,4 +85,4 @@ TEST(RandomScenes, KeepTheTolerance) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

@@ -11,13 +11,8 @@
 
 #include "own_methods.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::positionError;
-using test::referenceScene;
-using test::referenceSolution;
-using test::Scene;
 
 /// Largest position error of a method after `seconds`, with `steps_per_second` steps.
 double errorAfter(Integrator& integrator, const Scene& scene, const std::string& name, int seconds,
@@ -133,4 +128,4 @@ TEST(Order, HoldsAgainstTheClosedFormOfOneSpring) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

@@ -13,11 +13,8 @@
 #include "support/precise_motion.hpp"
 #include "support/scenes.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::PreciseMotion;
-using test::Scene;
 
 constexpr double kInterval = 0.02;  // s between two inputs: 50 Hz
 
@@ -29,8 +26,8 @@ PlaneVector<double> handAcceleration(int k, double phase) {
 }
 
 Scene slackCable(Eigen::Index particles, double mass, double air_drag = 0.0) {
-  Scene scene = test::horizontalChain("slack cable", particles, mass);
-  scene.chain = test::inAir(scene.chain, air_drag);
+  Scene scene = horizontalChain("slack cable", particles, mass);
+  scene.chain = inAir(scene.chain, air_drag);
   scene.start.x() *= 0.8;
   return scene;
 }
@@ -183,7 +180,7 @@ TEST(DrivenRun, HangsFromAHeldParticleAsFromAnAnchor) {
 }
 
 TEST(DrivenRun, MovesUnchangedInAFrameOfConstantVelocity) {
-  const Scene scene = test::horizontalChain("horizontal", 5, 1.0);
+  const Scene scene = horizontalChain("horizontal", 5, 1.0);
   State rest = scene.start, moving = scene.start;
   moving.vx().array() += 2.0;
   makeIntegrator("Runge-Kutta-4", scene.chain)->advance(rest, 0.01, 300);
@@ -209,7 +206,7 @@ TEST(DrivenRun, KeepsTheVelocityOfAReleasedParticle) {
 
 // No free particle limits the step with which the work of the holder would be summed.
 TEST(DrivenRun, LeavesOutSpringsBetweenHeldParticles) {
-  const Scene scene = test::horizontalChain("pair", 2, 1.0);
+  const Scene scene = horizontalChain("pair", 2, 1.0);
   for (const Method& method : methodTable()) {
     DrivenPair pair(scenarioOf(method.name, scene), scene);
     State passing = scene.start;
@@ -225,7 +222,7 @@ TEST(DrivenRun, LeavesOutSpringsBetweenHeldParticles) {
 }
 
 TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
-  const Scene scene = test::horizontalChain("horizontal", 6, 1.0);
+  const Scene scene = horizontalChain("horizontal", 6, 1.0);
   Scenario undamped = scenarioOf("Auto", scene);
   undamped.constants.spring.damping = 0.0;
   DrivenPair pair(undamped, scene);
@@ -262,7 +259,7 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
 
 // So a saved state has the time of its frame, whatever methods have computed it.
 TEST(DrivenRun, KeepsTheIntervalOfItsFrames) {
-  const Scene scene = test::horizontalChain("horizontal", 3, 1.0);
+  const Scene scene = horizontalChain("horizontal", 3, 1.0);
   Scenario scenario = scenarioOf("Runge-Kutta-4", scene);
   scenario.time_step = 0.007;
   scenario.steps_per_frame = 10;
@@ -285,7 +282,7 @@ TEST(DrivenRun, KeepsTheIntervalOfItsFrames) {
 }
 
 TEST(DrivenRun, ReturnsToAMeasuredStart) {
-  const Scene scene = test::horizontalChain("horizontal", 4, 1.0);
+  const Scene scene = horizontalChain("horizontal", 4, 1.0);
   DrivenPair pair(scenarioOf("Auto", scene), scene);
   pair.drive({{{3, {1.0, 1.0}}}, {}});
   pair.advance();
@@ -323,8 +320,8 @@ TEST(AirDrag, KeepsTheTolerance) {
   // Light particles: the air damps them with 50/s, and strongly: with 2000/s.
   for (const auto& [mass, damping, air_drag] :
        {std::tuple{1.0, 1.0, 0.5}, {1.0, 0.0, 0.2}, {1e-3, 1.0, 0.05}, {1e-3, 0.1, 2.0}}) {
-    Scene scene = test::horizontalChain("in air", 7, mass, {50.0, damping, 1.0});
-    scene.chain = test::inAir(scene.chain, air_drag);
+    Scene scene = horizontalChain("in air", 7, mass, {50.0, damping, 1.0});
+    scene.chain = inAir(scene.chain, air_drag);
     PreciseMotion precise(scene);
     for (int frame = 0; frame < 60; ++frame) precise.advance(kInterval);
     for (const std::string& method : errorControlled()) {
@@ -351,7 +348,7 @@ TEST(AirDrag, LimitsTheSpeedOfAFall) {
   const Chain chain(Eigen::VectorXd::Constant(2, mass), {{0.0, 0.0, 1.0}, 9.81, drag});
   const double speed = 9.81 * mass / drag * (1.0 - std::exp(-drag / mass * time));
   for (const Method& method : methodTable()) {
-    State state = test::straightLine(2, 1.0, 0.0);
+    State state = straightLine(2, 1.0, 0.0);
     makeIntegrator(method, chain, {1e-9})->advance(state, 1e-3, 2000);
     EXPECT_NEAR(state.vy()[1], -speed, method.order == 1 ? 1e-2 : 1e-5) << method.name;
   }
@@ -360,7 +357,7 @@ TEST(AirDrag, LimitsTheSpeedOfAFall) {
 TEST(AirDrag, EntersPowerAndRates) {
   const double drag = 0.6;
   const Chain chain(Eigen::VectorXd::Constant(3, 2.0), {{0.0, 0.0, 1.0}, 9.81, drag});
-  State state = test::straightLine(3, 1.0, 0.0);
+  State state = straightLine(3, 1.0, 0.0);
   state.vx()[1] = 3.0;
   state.vy()[2] = 4.0;
   EXPECT_DOUBLE_EQ(dissipatedPower(chain, state), drag * 25.0);
@@ -369,4 +366,4 @@ TEST(AirDrag, EntersPowerAndRates) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

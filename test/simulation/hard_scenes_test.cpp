@@ -12,13 +12,8 @@
 
 #include "support/verdict_of_run.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::hangingAtRest;
-using test::horizontalChain;
-using test::Scene;
-using test::straightLine;
 
 constexpr double kThrown = 0.02237440318514361;  // m, the damped oscillation after 0.01 s
 
@@ -126,7 +121,7 @@ TEST(HardScenes, NeighboursThatPassCloselyStayFinite) {
     Scene scene{"close", chain, straightLine(3, 1.0, 0.0)};
     scene.start.x()[2] = miss;  // next to P_1, so P_2 is dragged back over both
     scene.start.y()[2] = miss;
-    EXPECT_LE(test::verdictOfRun(scene, findMethod("Runge-Kutta-4"), 0.01, 20.0, true).kind,
+    EXPECT_LE(verdictOfRun(scene, findMethod("Runge-Kutta-4"), 0.01, 20.0, true).kind,
               VerdictKind::kDrift)
         << miss;
   }
@@ -144,7 +139,7 @@ TEST(HardScenes, GravityUpwardsIsTheMirrorImageToTheLastBit) {
 TEST(HardScenes, OneTwoAndAMillionParticles) {
   for (const Eigen::Index particles : {1, 2, 1000000}) {
     const Scene scene = horizontalChain("", particles, 1.0);
-    EXPECT_EQ(test::verdictOfRun(scene, findMethod("Runge-Kutta-4"), 0.01, 0.04, false).kind,
+    EXPECT_EQ(verdictOfRun(scene, findMethod("Runge-Kutta-4"), 0.01, 0.04, false).kind,
               VerdictKind::kOk);
   }
 }
@@ -196,4 +191,4 @@ TEST(HardScenes, AMotionThatDiesAwayEndsInRoundingAndNotInDenormalNumbers) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

@@ -13,11 +13,8 @@
 #include "support/random_scenes.hpp"
 #include "support/verdict_of_run.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::forEachFixedStepMethod;
-using test::Scene;
 
 constexpr double kDuration = 5.0;  // s
 
@@ -83,7 +80,7 @@ TEST(GrowthPerStep, OfOwnMethodsFollowsFromWhatTheirRowSays) {
 
 // Undamped oscillations grow at every step size: the energy of the slowest swing may grow by 1 %.
 TEST(LinearStepLimit, OfEulerDependsOnTheDuration) {
-  const Scene scene = test::horizontalChain("", 11, 1.0);
+  const Scene scene = horizontalChain("", 11, 1.0);
   const Method& euler = findMethod("Euler");
   const double step = linearStepLimit(euler, scene.chain, 10.0);
   const double longer = linearStepLimit(euler, scene.chain, 100.0);
@@ -97,7 +94,7 @@ TEST(LinearStepLimit, OfEulerDependsOnTheDuration) {
 TEST(LinearStepLimit, IsStable) {
   int cases = 0;
   for (unsigned seed = 0; seed < 30; ++seed) {
-    const Scene scene = test::randomScene(seed);
+    const Scene scene = randomScene(seed);
     SCOPED_TRACE(scene.name);
     forEachFixedStepMethod([&](const Method& method) {
       const double step = linearStepLimit(method, scene.chain, kDuration);
@@ -106,7 +103,7 @@ TEST(LinearStepLimit, IsStable) {
       // The energy of the symplectic Euler method sways with its first-order error, however stable.
       const auto kind = method.name == "Semi-Implicit-Euler" ? VerdictKind::kDiverged
                                                              : VerdictKind::kGainedEnergy;
-      EXPECT_LT(test::verdictOfRun(scene, method, step, kDuration, true, kind).kind, kind) << step;
+      EXPECT_LT(verdictOfRun(scene, method, step, kDuration, true, kind).kind, kind) << step;
     });
   }
   EXPECT_GE(cases, 90);
@@ -119,4 +116,4 @@ TEST(LinearStepLimit, IsInfiniteWithoutSprings) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

@@ -16,11 +16,9 @@
 #include "support/random_scenes.hpp"
 #include "support/verdict_of_run.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
 
-using test::forEachFixedStepMethod;
-using test::Scene;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -41,12 +39,12 @@ Scenario scenarioOf(const Scene& scene, const Method& method, double step) {
 
 bool isStable(const Scene& scene, const Method& method, double step) {
   const auto kind = VerdictKind::kGainedEnergy;
-  return test::verdictOfRun(scene, method, step, kDuration, true, kind).kind < kind;
+  return verdictOfRun(scene, method, step, kDuration, true, kind).kind < kind;
 }
 
 TEST(StabilityAdvice, LargestStableStepIsThatOfRealRuns) {
   for (const unsigned seed : {1U, 6U, 14U, 18U, 29U}) {
-    const Scene scene = test::randomScene(seed);
+    const Scene scene = randomScene(seed);
     SCOPED_TRACE(scene.name);
     forEachFixedStepMethod([&](const Method& method) {
       const double step =
@@ -85,7 +83,7 @@ TEST(StabilityAdvice, OneStepIsNamedEverywhere) {
 }
 
 TEST(StabilityAdvice, LargestAccurateStepKeepsOnePercentOfTheLength) {
-  const Scene scene = test::horizontalChain("", 6, 1.0);
+  const Scene scene = horizontalChain("", 6, 1.0);
   forEachFixedStepMethod([&](const Method& method) {
     const double step =
         checkStability(scene.chain, scene.start, scenarioOf(scene, method, 1e-4)).accurate_step;
@@ -101,17 +99,17 @@ TEST(StabilityAdvice, LargestAccurateStepKeepsOnePercentOfTheLength) {
 
 // Air takes code without a fast kernel. Counted work of both differed from real time by a factor of 18.
 TEST(StabilityAdvice, ResemblesItselfWithAndWithoutSlightAir) {
-  const Scene scene = test::horizontalChain("", 6, 1.0);
+  const Scene scene = horizontalChain("", 6, 1.0);
   Scenario scenario = scenarioOf(scene, findMethod("Runge-Kutta-4"), 1e-3);
   const StabilityReport without = checkStability(scene.chain, scene.start, scenario);
   scenario.constants.air_drag = 1e-9;
-  const auto with = checkStability(test::inAir(scene.chain, 1e-9), scene.start, scenario);
+  const auto with = checkStability(inAir(scene.chain, 1e-9), scene.start, scenario);
   EXPECT_EQ(with.stable.step, without.stable.step);
   EXPECT_NEAR(with.accurate_step, without.accurate_step, 0.04 * without.accurate_step);
 }
 
 TEST(StabilityAdvice, CheckReportsTheVeryRun) {
-  const Scene scene = test::horizontalChain("", 11, 1.0);
+  const Scene scene = horizontalChain("", 11, 1.0);
   Scenario scenario;
   scenario.frames = 51;
   const std::string text = checkStability(scene.chain, scene.start, scenario).text;
@@ -128,7 +126,7 @@ TEST(StabilityAdvice, CheckReportsTheVeryRun) {
 }
 
 TEST(StabilityAdvice, CheckSaysWhatIsTooLargeToTry) {
-  const Scene scene = test::horizontalChain("", 30000, 1.0);
+  const Scene scene = horizontalChain("", 30000, 1.0);
   EXPECT_THAT(
       checkStability(scene.chain, scene.start, {}).text,
       StartsWith("Runge-Kutta-4: takes too long to try\nlargest stable step size: 0.05 s (linear "
@@ -141,13 +139,13 @@ TEST(StabilityAdvice, CheckSaysThatAccuracyWouldTakeTooLongToJudge) {
   const Chain chain(masses, {50.0, 1.0, 1.0}, 9.81);
   Scenario scenario;
   scenario.frames = 201;
-  EXPECT_THAT(checkStability(chain, test::straightLine(4, 1.0, 0.0), scenario).text,
+  EXPECT_THAT(checkStability(chain, straightLine(4, 1.0, 0.0), scenario).text,
               ContainsRegex("stable step size: 0.0001.* s\nlargest accurate step size: unknown, as "
                             "a reference run would take too long\n"));
 }
 
 TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
-  const Scene light = test::horizontalChain("", 11, 0.001);
+  const Scene light = horizontalChain("", 11, 0.001);
   const std::string text = remedyForDivergence(light.chain, light.start, Scenario{});
   const std::string before = "largest stable step for Runge-Kutta-4: ";
   ASSERT_THAT(text, StartsWith(before));
@@ -162,7 +160,7 @@ TEST(StabilityAdvice, RemedyNamesAStepThatIsStable) {
 }
 
 TEST(StabilityAdvice, RemedyEndsWhenItIsStopped) {
-  const Scene light = test::horizontalChain("", 11, 0.001);
+  const Scene light = horizontalChain("", 11, 0.001);
   int asked = 0;
   const auto stop = [&asked] { return ++asked > 3; };
   EXPECT_EQ(remedyForDivergence(light.chain, light.start, Scenario{}, stop), "");
@@ -170,7 +168,7 @@ TEST(StabilityAdvice, RemedyEndsWhenItIsStopped) {
 }
 
 TEST(StabilityAdvice, RefusesWhatHasNoAnswer) {
-  const Scene scene = test::horizontalChain("", 3, 1.0);
+  const Scene scene = horizontalChain("", 3, 1.0);
   Scenario controlled;
   controlled.method = findMethod("Auto");
   EXPECT_TRUE(std::isnan(largestStableStep(scene.chain, scene.start, controlled).step));
@@ -201,7 +199,7 @@ TEST(StabilityAdvice, LimitsTheWorkOfOwnErrorControlledMethods) {
   method.make = [](const Method&, const Chain&, const IntegratorOptions&) {
     return std::make_unique<Slow>();
   };
-  const Scene scene = test::horizontalChain("", 3, 1.0);
+  const Scene scene = horizontalChain("", 3, 1.0);
   Scenario scenario;
   scenario.method = method;
   EXPECT_EQ(checkStability(scene.chain, scene.start, scenario).text,
@@ -213,13 +211,13 @@ TEST(StabilityWarning, NeverComesBeforeAStableRun) {
   int unstable = 0;
   int warned = 0;
   for (unsigned seed = 0; seed < 36; ++seed) {
-    const Scene scene = test::randomScene(seed);
+    const Scene scene = randomScene(seed);
     SCOPED_TRACE(scene.name);
     forEachFixedStepMethod([&](const Method& method) {
       for (const double step : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 0.3}) {
         const bool warns = isClearlyUnstable(method, scene.chain, step, kDuration);
         const bool is_unstable =
-            test::verdictOfRun(scene, method, step, kDuration, false, bad).kind >= bad;
+            verdictOfRun(scene, method, step, kDuration, false, bad).kind >= bad;
         EXPECT_TRUE(!warns || is_unstable) << step << " s";
         unstable += is_unstable ? 1 : 0;
         warned += warns ? 1 : 0;
@@ -230,7 +228,7 @@ TEST(StabilityWarning, NeverComesBeforeAStableRun) {
 }
 
 TEST(StabilityWarning, IsSilentWithoutSpringsOrSteps) {
-  const Scene light = test::horizontalChain("", 11, 0.001);
+  const Scene light = horizontalChain("", 11, 0.001);
   Scenario still = scenarioOf(light, findMethod("Euler"), 0.01);
   still.frames = 1;
   EXPECT_THAT(stabilityWarning(light.chain, light.start, still), IsEmpty());
@@ -242,16 +240,16 @@ TEST(StabilityWarning, IsSilentWithoutSpringsOrSteps) {
 // Neither the energy of a test spring nor the duration may exceed the range of a double.
 TEST(StabilityWarning, ComesAlsoWithExtremeValues) {
   const Chain chain(Eigen::Vector2d::Ones(), {50.0, 1e160, 1.0}, 9.81);
-  EXPECT_THAT(stabilityWarning(chain, test::straightLine(2, 1.0, 0.0), Scenario{}),
+  EXPECT_THAT(stabilityWarning(chain, straightLine(2, 1.0, 0.0), Scenario{}),
               StartsWith("Runge-Kutta-4 may be unstable with a time step of 0.01 s; largest"));
   Scenario long_step;
   long_step.time_step = 1e308;
   long_step.frames = 2;
   long_step.steps_per_frame = 1;
-  const Scene scene = test::horizontalChain("", 11, 1.0);
+  const Scene scene = horizontalChain("", 11, 1.0);
   EXPECT_THAT(stabilityWarning(scene.chain, scene.start, long_step),
               StartsWith("Runge-Kutta-4 may be unstable with a time step of 1e+308 s; largest"));
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

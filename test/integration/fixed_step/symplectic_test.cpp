@@ -11,12 +11,8 @@
 
 #include "support/reference.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::positionError;
-using test::referenceScene;
-using test::Scene;
 
 std::vector<const Method*> symplecticMethods() {
   std::vector<const Method*> rows;
@@ -107,4 +103,4 @@ TEST(Symplectic, EvaluatesTheForcesOnceOrWithDampingTwiceAStep) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test

@@ -11,13 +11,8 @@
 #include "support/dense_output.hpp"
 #include "support/reference.hpp"
 
-namespace spring_pendulum {
+namespace spring_pendulum::test {
 namespace {
-
-using test::positionError;
-using test::referenceScene;
-using test::referenceSolution;
-using test::Scene;
 
 /// Steps of a fixed size, of the whole chain.
 class FixedSteps {
@@ -88,7 +83,7 @@ TEST(TaylorStepper, GapsInTheSeriesDoNotLengthenTheStep) {
 TEST(TaylorStepper, DenseOutputHasTheOrderToo) {
   const Scene scene = referenceScene("two_masses_45deg");
   for (const int order : {4, 6, 8}) {
-    const double found = test::denseOutputOrder(scene, 1.0, 1e-3, [&](double tolerance) {
+    const double found = denseOutputOrder(scene, 1.0, 1e-3, [&](double tolerance) {
       return std::make_unique<TaylorStepper>(scene.chain, order, tolerance);
     });
     EXPECT_NEAR(found, order + 1, 0.2) << order;  // 4.96, 6.90, 8.92
@@ -148,4 +143,4 @@ TEST(TaylorStepper, ShowsThatItDiverged) {
 }
 
 }  // namespace
-}  // namespace spring_pendulum
+}  // namespace spring_pendulum::test
