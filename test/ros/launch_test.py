@@ -84,8 +84,8 @@ class Launch(unittest.TestCase):
         with Folder() as folder:
             # A replay with --clock leaves this behind.
             rosgraph.Master('/test').setParam('/use_sim_time', True)
-            output = launch('record.launch', 'bag:=one run.bag', 'frames:=12', 'real_time_factor:=2.0',
-                            'params:={display_rate: 20.0}', cwd=folder)
+            output = launch('record.launch', 'bag:=one run.bag', 'frames:=12',
+                            'params:={display_rate: 20.0, real_time_factor: 2.0}', cwd=folder)
             self.assertEqual(os.listdir(folder), ['one run.bag'], output)
             with rosbag.Bag(folder + '/one run.bag') as bag:
                 self.assertGreaterEqual(bag.get_message_count('/tf_static'), 1)
