@@ -13,10 +13,13 @@ namespace spring_pendulum::sweep {
 
 int drawPlot(const Study& study, const std::string& table, const std::string& picture,
              bool only_try) {
-  constexpr const char* kPython = "/usr/bin/python3";  // the one that has matplotlib from Debian
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  std::vector<std::string> arguments{kPython, "-B", program.parent_path() / "plot_table.py",
-                                     "--title=" + study.name};
+  // The python3 that has matplotlib from Debian. It would print a traceback if Ctrl-C came before the
+  // first line of the script.
+  std::vector<std::string> arguments{"/usr/bin/env", "--ignore-signal=INT", "/usr/bin/python3",
+                                     "-B"};
+  arguments.insert(arguments.end(),
+                   {program.parent_path() / "plot_table.py", "--title=" + study.name});
   arguments.insert(arguments.end(), study.plot.begin(), study.plot.end());
   if (only_try) arguments.emplace_back("--try");
   arguments.insert(arguments.end(), {"--", "/dev/stdin", picture});
@@ -29,9 +32,9 @@ int drawPlot(const Study& study, const std::string& table, const std::string& pi
   // The path of an unfinished table is valid in the child only until the script starts.
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, table.c_str(), O_RDONLY, 0);
   pid_t child = 0;
-  int status = ::posix_spawn(&child, kPython, &actions, nullptr, argv.data(), ::environ);
+  int status = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), ::environ);
   ::posix_spawn_file_actions_destroy(&actions);
-  if (status != 0) throw FileError(std::string("--plot: could not run ") + kPython);
+  if (status != 0) throw FileError("--plot: could not run " + arguments[0]);
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -82,13 +82,12 @@ class Sweep {
     checkCases(study_, options_.threads);
     const int status = counter_.rank() == 0 ? tryOutputs() : kDone;
     if (status != kDone) return status;
+    // At the end of a study, its last shard has removed the journal.
+    if (options_.shards > 1 && std::filesystem::exists(options_.output) &&
+        !std::filesystem::exists(options_.output + ".journal"))
+      throw InputError(options_.output + ": exists; remove it to run its shards anew");
     journal_.emplace(options_.output + ".journal", study_.hash);
     readJournal();
-    const bool is_new = std::count(rows_.begin(), rows_.end(), std::string()) == study_.cases();
-    if (options_.shards > 1 && is_new && std::filesystem::exists(options_.output)) {
-      std::filesystem::remove(journal_->path());
-      throw InputError(options_.output + ": exists; remove it to run its shards anew");
-    }
     return kDone;
   }
 
@@ -146,21 +145,20 @@ class Sweep {
       printOutput(fmt::format("{}; the last shard writes {}\n", done, options_.output));
       return kDone;
     }
-    if (missing > 0) {
+    if (missing > 0)
       throw FileError(
           fmt::format("{}; all ranks must see the same file {}", done, journal_->path()));
-    }
     return writeTable();
   }
 
  private:
-  /// Whether the table has all rows that this process knows.
+  /// Whether the table has all cases, and the rows that this process knows.
   bool isInTable() const {
     const std::string table = readTextFile(options_.output);
     std::size_t at = 0;
     for (std::size_t i = 0; i < rows_.size() && at != std::string::npos; ++i) {
       const std::string start = rowStart(study_, static_cast<std::int64_t>(i));
-      if (!rows_[i].empty()) at = table.find('\n' + start + rows_[i] + '\n', at);
+      at = table.find('\n' + start + (rows_[i].empty() ? "," : rows_[i] + '\n'), at);
     }
     return at != std::string::npos;
   }
@@ -197,10 +195,9 @@ class Sweep {
     // After a kill before this, the same command draws the picture.
     std::error_code error;
     std::filesystem::remove(journal_->path(), error);
-    if (error) {
+    if (error)
       throw FileError(fmt::format("{}: could not be removed: {}; the table {} is complete",
                                   fullPath(journal_->path()), error.message(), options_.output));
-    }
     printOutput(text + "\n");
     return kDone;
   }

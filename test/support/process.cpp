@@ -1,7 +1,5 @@
 #include "support/process.hpp"
 
-#include "support/temporary_folder.hpp"
-
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -16,6 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
+
+#include "support/temporary_folder.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -77,8 +77,8 @@ void Process::sendSignal(int signal_number) {
   kill(pid_, signal_number);
 }
 
-void Process::waitForFile(const std::string& path, const std::string& text) const {
-  const auto is_there = [&] { return readFile(path).find(text) != std::string::npos; };
+void Process::waitForFile(const std::string& path) const {
+  const auto is_there = [&] { return readFile(path).find('\n') != std::string::npos; };
   while (!is_there()) {
     siginfo_t ended{};
     waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);

@@ -37,9 +37,9 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void sendSignal(int signal_number);
-  /// Waits until the program has written a file that contains `text`.
+  /// Waits until the program has written a line of a file.
   /// \throws std::runtime_error if the program ends without it
-  void waitForFile(const std::string& path, const std::string& text = "\n") const;
+  void waitForFile(const std::string& path) const;
   Result wait();
 
  private:
