@@ -69,7 +69,7 @@ struct RunFiles::Files {
 
   /// Whether a frame is to be written; counts it as written.
   bool takes(std::int64_t frame) {
-    if (!frames && !energy && !state) return false;
+    if (!frames && !energy) return false;
     const auto after = missing.upper_bound(frame);
     if (after == missing.begin()) return false;
     const auto [first, end] = *std::prev(after);
@@ -104,14 +104,16 @@ RunFiles::~RunFiles() = default;
 void RunFiles::write(const Run& run) {
   Files& to = *files_;
   const std::int64_t frame = run.frame();
-  if (to.finished || !run.isAtFrame() || !run.isShown() || !to.takes(frame)) return;
+  if (to.finished || !run.isAtFrame() || !run.isShown()) return;
+  if (to.state) {  // also of a frame that was written before a reset
+    if (to.last.masses.size() == 0) to.last.masses = run.chain().masses();
+    to.last.state = run.state();
+    to.last.frame = frame;
+    to.last_time = run.time();
+  }
+  if (!to.takes(frame)) return;
   if (to.frames) to.frames->write(frame, run.state());
   if (to.energy) to.energy->write(energyRow(frame, run.energyEntry(), run.positionError().now));
-  if (!to.state) return;
-  if (to.last.masses.size() == 0) to.last.masses = run.chain().masses();
-  to.last.state = run.state();
-  to.last.frame = frame;
-  to.last_time = run.time();
 }
 
 void RunFiles::finish() {
