@@ -53,13 +53,12 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
       options_(options),
       start_energy_(computeEnergy(chain, start).total()),
       start_height_(start.y()[0]),
-      start_time_(start_time),
       method_time_(start_time) {
-  widenScale(start, start_energy_);
+  widenScale(start, start_energy_, start_time);
 }
 
 double Judge::change(const Chain& chain, const State& before, const State& after,
-                     const JudgeOptions& options, double supplied) {
+                     const JudgeOptions& options, double supplied, bool has_moved) {
   const double energy_before = energyOf(before).total();
   if (options.tolerance != options_.tolerance) sensitive_time_ = exceeded_time_ = 0.0;
   if (std::exchange(options_, options).symplectic_step != options.symplectic_step) {
@@ -67,18 +66,22 @@ double Judge::change(const Chain& chain, const State& before, const State& after
     sums_.setZero();
   }
   chain_ = chain;
+  // What a chain that has not moved was like for a moment cannot explain its later errors.
+  scale_.supplied = std::max(scale_.supplied, std::abs(supplied));
+  if (has_moved || !changed_) moved_scale_ = scale_;
+  scale_ = moved_scale_;
   changed_ = true;
   if (worst_.kind == VerdictKind::kOk)
     worst_ = {VerdictKind::kNotChecked, entry_.time, 0,
               fmt::format("not checked from t = {:.6g} s on: driven or changed", entry_.time)};
   const double energy_after = energyOf(after).total();
-  widenScale(after, energy_after);
+  widenScale(after, energy_after, entry_.time);
   const double supplied_after = supplied + energy_after - energy_before;
-  most_supplied_ = std::max({most_supplied_, std::abs(supplied), std::abs(supplied_after)});
+  scale_.supplied = std::max(scale_.supplied, std::abs(supplied_after));
   return supplied_after;
 }
 
-void Judge::widenScale(const State& start, double energy) {
+void Judge::widenScale(const State& start, double energy, double time) {
   requireSize(chain_.size(), start.size());
   const SpringLaw& spring = chain_.spring();
   // Sums from the free end: weight beyond a spring, -E_min, and springs that are hardly stretched.
@@ -92,9 +95,11 @@ void Judge::widenScale(const State& start, double energy) {
     const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
     least += 0.5 * spring.stiffness * stretch * stretch;
   }
-  if (spring.stiffness == 0.0) fall_ = 0.5 * weight * std::abs(chain_.gravity());
-  constant_scale_ = std::max({constant_scale_, std::max(energy, 0.0) + depth, least});
-  if (!std::isfinite(energy) || !std::isfinite(constant_scale_) || !std::isfinite(fall_))
+  const double fall = spring.stiffness == 0.0 ? 0.5 * weight * std::abs(chain_.gravity()) : 0.0;
+  if ((fall > 0.0) != (scale_.fall > 0.0)) scale_ = {scale(time), 0.0, time, scale_.supplied};
+  scale_.fall = fall;
+  scale_.constant = std::max({scale_.constant, std::max(energy, 0.0) + depth, least});
+  if (!std::isfinite(energy) || !std::isfinite(scale_.constant) || !std::isfinite(fall))
     throw InputError(
         "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
         "gravity must be smaller");
@@ -110,8 +115,8 @@ Energy Judge::energyOf(const State& state) const {
 }
 
 double Judge::scale(double time) const {
-  const double elapsed = time - start_time_;
-  return std::max(constant_scale_ + fall_ * elapsed * elapsed, std::numeric_limits<double>::min());
+  const double fallen = scale_.fall * (time - scale_.fall_time) * (time - scale_.fall_time);
+  return std::max(scale_.constant + fallen, std::numeric_limits<double>::min());
 }
 
 EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
@@ -122,7 +127,7 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
   entry.supplied = supplied;
   entry.gain = entry.energy.total() - start_energy_ - supplied;
   // Energy that is taken back leaves its rounding and step errors in the chain.
-  const double scale_now = scale(time) + std::max(most_supplied_, std::abs(supplied));
+  const double scale_now = scale(time) + std::max(scale_.supplied, std::abs(supplied));
   entry.relative_gain = entry.gain / scale_now;
   if (options_.track_dissipation) entry.dissipated = dissipated;
   if (!chain_.isDissipative() && !changed_) entry.dissipated = 0.0;

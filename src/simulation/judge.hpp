@@ -69,33 +69,34 @@ class Judge {
   /// Continues with another chain of as many particles, and from another state.
   /// \param options  `track_dissipation`: whether the dissipated energy is known from the start on
   /// \param supplied energy supplied before the change, J
+  /// \param has_moved whether the chain has moved since the change before
   /// \returns the energy supplied until after the change, J: it includes the difference of the energies
   /// \throws InputError if an energy exceeds the range of double; the judge is not valid then
   double change(const Chain& chain, const State& before, const State& after,
-                const JudgeOptions& options, double supplied);
+                const JudgeOptions& options, double supplied, bool has_moved);
 
   /// Returns the energy balance of a state; arguments as of `judge`.
   EnergyEntry balanceOf(double time, const State& state, double dissipated,
                         double supplied = 0.0) const;
-  /// Energy scale at a time in s, J; positive.
-  double scale(double time) const;
+  double scale(double time) const;  ///< energy scale at a time in s, J; positive
 
-  /// The energy balance of the last judged state.
-  const EnergyEntry& entry() const { return entry_; }
+  const EnergyEntry& entry() const { return entry_; }  ///< of the last judged state
   const PositionError& positionError() const { return position_error_; }
   double largestEnergyError() const { return entry_.residual ? worst_residual_ : std::nan(""); }
-  /// As Run::isShown, for the last judged frame.
-  bool isShown(bool continues_after_divergence) const;
-  /// The first of the most severe verdicts so far: the verdict on the run.
-  const Verdict& worst() const { return worst_; }
+  bool isShown(bool continues_after_divergence) const;  ///< as Run::isShown, of the last frame
+  const Verdict& worst() const { return worst_; }       ///< the first of the most severe so far
 
   std::string measurements() const;     ///< as Run::measurements
   std::string toleranceRemark() const;  ///< as Run::toleranceRemark
 
  private:
+  /// The energy scale: J, J/s² since `fall_time` s, and the largest energy supplied at a change, J.
+  struct Scale {
+    double constant = 0.0, fall = 0.0, fall_time = 0.0, supplied = 0.0;
+  };
   /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
   Energy energyOf(const State& state) const;
-  void widenScale(const State& start, double energy);
+  void widenScale(const State& start, double energy, double time);
   void measure(const State& state, const ReferenceRun* reference);
   Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
   Verdict positionVerdict(const ReferenceRun* reference) const;
@@ -105,10 +106,7 @@ class Judge {
   bool changed_ = false;
   double start_energy_;           ///< J
   double start_height_;           ///< of P_1, m
-  double constant_scale_ = 0.0;   ///< J
-  double fall_ = 0.0;             ///< scale of the free fall, J/s²
-  double most_supplied_ = 0.0;    ///< largest amount at a change, J
-  double start_time_;             ///< s
+  Scale scale_, moved_scale_;     ///< now, and before changes since which the chain has not moved
   double method_time_;            ///< since when there is the symplectic method, s
   Eigen::Array3d sums_{0, 0, 0};  ///< over its frames: relative gain, relative residual, one each
   double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance

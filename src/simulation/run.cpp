@@ -70,12 +70,10 @@ void keepFrames(Plan& plan, double interval) {
   plan.time_step = interval / static_cast<double>(plan.steps_per_frame);
 }
 
-/// Whether the speed of every particle is at most `tolerance` m/s, and its current acceleration
-/// changes the velocity by at most this in `duration` s, so that none is at a turning point.
-bool isAtRest(const Chain& chain, const State& state, double duration, double tolerance) {
-  const auto exceeds = [&](double x, double y) {
-    return !(x * x + y * y <= tolerance * tolerance);
-  };
+/// Whether the speed of every particle is at most `most` m/s, and its current acceleration changes
+/// the velocity by at most this in `duration` s, so that none is at a turning point.
+bool isAtRest(const Chain& chain, const State& state, double duration, double most) {
+  const auto exceeds = [&](double x, double y) { return !(x * x + y * y <= most * most); };
   PlaneVector<double> left{};
   for (Eigen::Index i = 0; i < state.size(); ++i) {
     const auto right =
@@ -181,13 +179,12 @@ void Run::judgeFrame(double work) {
 }
 
 void Run::reset() {
-  begin(first_frame_, start_);
-  changed_ = false;
+  goTo(first_frame_, start_);
 }
 
 void Run::goTo(std::int64_t frame, const State& state) {
   begin(frame, state);
-  changed_ = true;
+  changed_ = frame != first_frame_ || state.values() != start_.values();
 }
 
 void Run::begin(std::int64_t frame, const State& state) {
@@ -233,7 +230,8 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   const bool knows_dissipation = energyEntry().dissipated.has_value();
   Judge judge = *judge_;
   supplied_before_ = supplied_ =
-      judge.change(chain, state_, state, judgeOptions(next, knows_dissipation), supplied_);
+      judge.change(chain, state_, state, judgeOptions(next, knows_dissipation), supplied_,
+                   integrator_->forceEvaluations() > 0);
   chain_ = std::move(chain);
   plan_ = next;
   state_ = state;

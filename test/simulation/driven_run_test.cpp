@@ -288,7 +288,8 @@ TEST(DrivenRun, ReturnsToAMeasuredStart) {
   pair.advance();
   EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kNotChecked);
   pair.run.change(pair.run.plan(), pair.run.chain().constants(), {}, pair.run.start());
-  pair.run.reset();
+  pair.run.goTo(0, pair.run.start());
+  EXPECT_FALSE(pair.run.isChanged());
   EXPECT_EQ(pair.run.time(), 0.0);
   for (int k = 0; k < 10; ++k) pair.run.advance();
   EXPECT_EQ(pair.run.verdict().kind, VerdictKind::kOk) << pair.run.verdict().text;

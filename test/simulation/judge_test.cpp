@@ -25,6 +25,10 @@ State horizontal(Eigen::Index particles, double spacing = 1.0) {
   return test::straightLine(particles, spacing, 0.0);
 }
 
+Chain uniform(Eigen::Index particles, const SpringLaw& spring, double gravity) {
+  return {Eigen::VectorXd::Ones(particles), spring, gravity};
+}
+
 TEST(Verdict, IsDivergedWhileAllIsFinite) {
   const test::Scene light = test::horizontalChain("", 11, 0.01);
   const Verdict verdict = test::verdictOfRun(light, findMethod("Runge-Kutta-4"), 0.01, 5.0, true);
@@ -37,25 +41,22 @@ TEST(Verdict, IsDivergedWhileAllIsFinite) {
 TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
   const Chain chain(Eigen::VectorXd::Ones(5), SpringLaw{}, 9.81);
   const State start = horizontal(5);
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-        -std::numeric_limits<double>::infinity()}) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), infinity, -infinity}) {
     for (const Eigen::Index column : {0, 1, 2, 3}) {
       State state = start;
       state.values()(3, column) = bad;
       Judge judge(chain, start, JudgeOptions{false});
       EXPECT_EQ(judge.judge(0.5, state, 0.0, nullptr).kind, VerdictKind::kDiverged);
       EXPECT_EQ(judge.worst().particle, 4);
-      EXPECT_EQ(judge.worst().text,
-                "diverged at t = 0.5 s: particle 4 is no longer a finite number");
+      EXPECT_THAT(judge.worst().text, HasSubstr("0.5 s: particle 4 is no longer a finite number"));
     }
   }
 }
 
 TEST(Verdict, FindsANumberThatIsNotFiniteWithoutSpringsAndGravity) {
-  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{0.0, 0.0, 0.0}, 0.0);
   State state = horizontal(3);
-  Judge judge(chain, state, JudgeOptions{false});
+  Judge judge(uniform(3, {0.0, 0.0, 0.0}, 0.0), state, {false});
   EXPECT_EQ(judge.judge(0.0, state, 0.0, nullptr).kind, VerdictKind::kNotChecked);
   state.y()[2] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(judge.judge(0.1, state, 0.0, nullptr).kind, VerdictKind::kDiverged);
@@ -63,17 +64,15 @@ TEST(Verdict, FindsANumberThatIsNotFiniteWithoutSpringsAndGravity) {
 }
 
 TEST(Verdict, IsDriftIfTheDissipatedEnergyIsNotANumber) {
-  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
   const State start = horizontal(3);
-  Judge judge(chain, start, JudgeOptions{true});
+  Judge judge(uniform(3, SpringLaw{}, 9.81), start, {true});
   EXPECT_EQ(judge.judge(0.0, start, 0.0, nullptr).kind, VerdictKind::kNotChecked);
   EXPECT_EQ(judge.judge(0.1, start, std::nan(""), nullptr).kind, VerdictKind::kDrift);
 }
 
 TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
-  const Chain chain(Eigen::VectorXd::Ones(3), SpringLaw{}, 9.81);
   const State start = horizontal(3);
-  Judge judge(chain, start, JudgeOptions{false});
+  Judge judge(uniform(3, SpringLaw{}, 9.81), start, {false});
   judge.judge(0.0, start, 0.0, nullptr);
   State raised = start;
   raised.y()[2] = 0.2;  // 2 J up
@@ -85,14 +84,9 @@ TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
 }
 
 TEST(Verdict, IsOkForTheFixedParticleAlone) {
-  const Chain chain(Eigen::VectorXd::Ones(1), SpringLaw{}, 9.81);
-  Judge judge(chain, State(1), JudgeOptions{false});
+  Judge judge(uniform(1, SpringLaw{}, 9.81), State(1), {false});
   EXPECT_EQ(judge.judge(1.0, State(1), 0.0, nullptr).kind, VerdictKind::kNotChecked);
   EXPECT_EQ(judge.entry().relative_gain, 0.0);
-}
-
-Chain uniform(Eigen::Index particles, const SpringLaw& spring, double gravity) {
-  return {Eigen::VectorXd::Ones(particles), spring, gravity};
 }
 
 double scaleOf(const Chain& chain, const State& start) {
@@ -116,6 +110,21 @@ TEST(EnergyScale, KnowsStretchedWeightlessAndFallingChains) {
   EXPECT_GT(scaleOf(uniform(3, {50.0, 1.0, 0.0}, 0.0), horizontal(3)), 0.0);
   const Judge balance(uniform(3, {0.0, 0.0, 1.0}, 10.0), horizontal(3), {false});
   EXPECT_DOUBLE_EQ(balance.scale(2.0) - balance.scale(0.0), 2.0 * 100.0 * 4.0 / 2.0);
+}
+
+TEST(EnergyScale, ForgetsAChainThatHasNotMoved) {
+  const Chain chain = uniform(3, SpringLaw{}, 9.81), slack = uniform(3, {0.0, 0.0, 1.0}, 9.81);
+  const State start = horizontal(3), far = horizontal(3, 1000.0);
+  Judge judge(chain, start, {false});
+  const double scale = judge.scale(0.0);
+  for (const bool has_moved : {false, true}) {
+    double supplied = judge.change(slack, start, far, {false}, 0.0, true);
+    supplied = judge.change(uniform(3, {1e6, 0.0, 1.0}, 0.0), far, far, {false}, supplied, false);
+    judge.change(chain, far, start, {false}, supplied, has_moved);
+    EXPECT_EQ(judge.scale(100.0), judge.scale(0.0));
+    EXPECT_EQ(judge.scale(0.0) > scale, has_moved);
+    EXPECT_EQ(judge.balanceOf(0.0, start, 0.0, 1.0).relative_gain > -1e-3 / scale, has_moved);
+  }
 }
 
 TEST(EnergyScale, RefusesEnergiesBeyondADouble) {
@@ -178,7 +187,7 @@ test::Scene withMass(double mass) {
   return test::horizontalChain("", 11, mass);
 }
 
-test::Scene withDamping(double damping) {
+test::Scene damped(double damping) {
   return test::horizontalChain("", 11, 1.0, {50.0, damping, 1.0});
 }
 
@@ -192,11 +201,9 @@ TEST(StabilityMap, OfStepAgainstMass) {
 }
 
 TEST(StabilityMap, OfStepAgainstDamping) {
-  EXPECT_EQ(mapOf("Euler", kDampings, withDamping), "XXXXXX XXXXXX XXXXXX XXXdXX ggdddX gddd.X");
-  EXPECT_EQ(mapOf("Runge-Kutta-2", kDampings, withDamping),
-            "XXXXXX XXXXXX ggddXX ....XX .....X .....X");
-  EXPECT_EQ(mapOf("Runge-Kutta-4", kDampings, withDamping),
-            "XXXXXX dddXXX ....XX ....XX .....X .....X");
+  EXPECT_EQ(mapOf("Euler", kDampings, damped), "XXXXXX XXXXXX XXXXXX XXXdXX ggdddX gddd.X");
+  EXPECT_EQ(mapOf("Runge-Kutta-2", kDampings, damped), "XXXXXX XXXXXX ggddXX ....XX .....X .....X");
+  EXPECT_EQ(mapOf("Runge-Kutta-4", kDampings, damped), "XXXXXX dddXXX ....XX ....XX .....X .....X");
 }
 
 }  // namespace
