@@ -32,10 +32,12 @@ constexpr double kMostTrials = 30.0;
 constexpr double kFrameTime = 2.5e-8;
 constexpr double kPlainTime = 4e-7;
 
-/// Rounds down to three significant digits; `largestSpringMode` is 1e-4 too large at most.
+/// Rounds down to three significant digits; `largestSpringMode` is 1e-4 too large at most. The result is
+/// the number that is printed, since one with another last bit may have another verdict.
 double roundedDown(double step) {
   const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
-  return std::isnormal(unit) ? std::floor(step / unit * (1.0 + 1e-4)) * unit : step;
+  if (!std::isnormal(unit)) return step;
+  return *parseNumber(fmt::format("{:.2e}", std::floor(step / unit * (1.0 + 1e-4)) * unit));
 }
 
 /// Simulated time of a run, s.
@@ -136,8 +138,7 @@ class Trials {
     return found;
   }
 
-  /// When the motion becomes sensitive with the step size that was found, if it does.
-  const std::string& until() const { return until_; }
+  const std::string& until() const { return until_; }  ///< when the found motion becomes sensitive
 
  private:
   /// Whether trials that end at a verdict need the position error.
@@ -206,8 +207,7 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   // The error grows with a power of the step size: the order of the method.
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
   const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
-  double failed = kInfinity;
-  if (isBad(report.verdict->kind)) failed = plan.time_step;
+  const double failed = isBad(report.verdict->kind) ? plan.time_step : kInfinity;
   report.accurate_step = trials.largestStep(plan.time_step * (std::isnan(factor) ? 1.0 : factor),
                                             std::min(report.stable.step, durationOf(plan)),
                                             VerdictKind::kInaccurate, failed);
@@ -232,12 +232,11 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Pl
   const Method& method = plan.method;
   const StableStep stable = stableStep(trials, chain, plan);
   std::string text = fmt::format("largest stable step for {}: {}", method.name, stepText(stable));
-  if (!method.hasFixedStep()) {
+  // The equations of an implicit method may have no solution for this step, and one for larger steps.
+  if (!method.hasFixedStep())
     text = fmt::format("try a tolerance below {} m", numberText(plan.tolerance));
-  } else if (stable.step > plan.time_step) {
-    // The equations of an implicit method may have no solution for this step, and one for larger steps.
+  else if (stable.step > plan.time_step)
     text = fmt::format("try a step below {} s", numberText(plan.time_step));
-  }
   if (method.name != "Auto") {
     Plan other = plan;
     other.method = findMethod("Auto");
@@ -252,8 +251,8 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Pl
 
 Remarks remarksOn(const Run& run) {
   Remarks remarks;
-  const std::string memory = memoryRemark(run.plan(), run.chain().size());
-  if (!memory.empty()) remarks.notes.push_back(memory);
+  if (std::string memory = memoryRemark(run.plan(), run.chain().size()); !memory.empty())
+    remarks.notes.push_back(std::move(memory));
   if (const double gravity = run.chain().gravity(); gravity < 0.0)
     remarks.notes.push_back(
         fmt::format("gravity of {} m/s² points up: the chain falls upwards", numberText(gravity)));
