@@ -76,7 +76,9 @@ class Checker {
       if (agreement.complete) {
         if (agreement.last_frame > last_frame_) methods_.clear();
         last_frame_ = std::max(last_frame_, agreement.last_frame);
-        if (agreement.last_frame == last_frame_) methods_.push_back(method->name);
+        const std::string within = fmt::format(" within {} m", numberText(plan.tolerance));
+        if (agreement.last_frame == last_frame_)
+          methods_.push_back(method->name + (method->hasFixedStep() ? "" : within));
       }
       // The departure from the nearest of the wanted methods that students write, or from the only one.
       const bool is_nearer = !departure_ || agreement.frames > known_frames_ ||
@@ -239,10 +241,10 @@ class Checker {
   std::string methodsText() const {
     const auto count = static_cast<std::int64_t>(frames_.frames.size());
     const bool has_all = last_frame_ == frames_.frames.back().index;
-    return fmt::format(
-        "{}: {} in the {} printed", fmt::join(methods_, " or "),
-        has_all ? "all " + counted(count, "frame") : fmt::format("frames up to {}", last_frame_),
-        counted(frames_.digits, "digit"));
+    const std::string which =
+        has_all ? "all " + counted(count, "frame") : fmt::format("frames up to {}", last_frame_);
+    return fmt::format("{}: {} in the {} printed", fmt::join(methods_, " or "), which,
+                       counted(frames_.digits, "digit"));
   }
 
   FrameCheck equal() const {
@@ -257,12 +259,10 @@ class Checker {
                           frames_.frames.front().index, kTooLate);
     } else {
       text += "equal to " + methodsText();
-      if (last_frame_ != frames_.frames.back().index) {
+      if (last_frame_ != frames_.frames.back().index)
         text += fmt::format("; later frames are not compared: {}", kTooLate);
-      } else if (!has_last) {
-        text +=
-            fmt::format("; the frames up to {} are missing (--frames {})", last, scenario_.frames);
-      }
+      else if (!has_last)
+        text += fmt::format("; frames up to {} are missing (--frames {})", last, scenario_.frames);
     }
     return {has_last ? FrameVerdict::kEqual : FrameVerdict::kUndecided, {text}};
   }

@@ -293,9 +293,10 @@ def resumed_run_is_equal(lab, method):
     for words in ((start, '--frames', '51', '--save-state', state, '--no-frames'),
                   (state, '--frames', '101', '--resume', '--output', folder)):
         subprocess.run([lab.exercise, method, *words], stdout=subprocess.DEVNULL, check=True)
-    return all(subprocess.run([lab.check, folder, '--method', method, '--frames', '101', *words], check=False,
-                              stdout=subprocess.DEVNULL).returncode == 0
-               for words in (('--particles', start), ('--particles', state, '--resume')))
+    runs = [subprocess.run([lab.check, folder, '--method', method, '--frames', '101', *words], check=False,
+                           capture_output=True, text=True)
+            for words in (('--particles', start), ('--particles', state, '--resume'))]
+    return all(run.returncode == 0 and (' within 1e-06 m:' in run.stdout) == (method == 'Auto') for run in runs)
 
 
 def stops_inside_a_frame(lab):
