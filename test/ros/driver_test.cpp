@@ -72,6 +72,9 @@ TEST(Driver, BringAParticleBeyondThePositionsThatBoundedTheTolerance) {
 
 TEST(Driver, ChangesEachConstantThatIsWanted) {
   Live live;
+  live.driver.on(SetConstant{"tolerance", "1e-3"});  // not used yet
+  live.go(0.1);
+  EXPECT_FALSE(live.run.isChanged());
   for (const SetConstant& wanted : {SetConstant{"stiffness", "60"},
                                     {"damping", "0.5"},
                                     {"rest_length", "1.1"},

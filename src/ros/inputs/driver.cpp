@@ -44,10 +44,11 @@ std::vector<double> numbersOf(const Drive& drive) {
   return numbers;
 }
 
-/// Whether the run has this method, this tolerance and these constants.
+/// Whether the run has this method, its tolerance and these constants.
 bool isSame(const Scenario& wanted, const Run& run) {
-  return &wanted.method.get() == &run.plan().method.get() &&
-         wanted.tolerance == run.plan().tolerance && wanted.constants == run.chain().constants();
+  const Method& method = run.plan().method;
+  return &wanted.method.get() == &method && wanted.constants == run.chain().constants() &&
+         (method.hasFixedStep() || wanted.tolerance == run.plan().tolerance);
 }
 
 }  // namespace
@@ -217,10 +218,7 @@ void Driver::reset(Run& run, const Scene* to) {
       run.change(wanted_, wanted_.constants, {}, state);
     }
   }
-  if (to != nullptr)
-    run.goTo(to->frame, to->state);
-  else
-    run.reset();
+  run.goTo(to != nullptr ? to->frame : run.firstFrame(), state);
   if (log_ != nullptr) log_->started(run, time);
 }
 
