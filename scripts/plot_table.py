@@ -119,7 +119,7 @@ def draw_map(axes, rows, table, options):
     for row in rows:
         place = row[options.x], row[options.y]
         if place in drawn:
-            refuse('several rows have %s = %s and %s = %s; draw them in panels'
+            refuse('several rows have %s = %s and %s = %s; draw them in panels or leave some out'
                    % (options.x, place[0], options.y, place[1]))
         drawn.add(place)
         value = row[options.color]
@@ -262,6 +262,8 @@ def main():
     options = parser.parse_args()
     if not options.picture.endswith('.png'):
         refuse("the name of the picture must end in .png, got '%s'" % options.picture)
+    if os.path.exists(options.picture) and not (os.path.isfile(options.picture) and os.access(options.picture, os.W_OK)):
+        refuse('%s: is no regular file, or one without write permission' % options.picture, 1)
     warnings.simplefilter('ignore')  # of matplotlib, about what a picture cannot show
     try:
         draw_table(options)

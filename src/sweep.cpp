@@ -62,10 +62,9 @@ void setShard(CommandLine& line) {
   const std::size_t slash = std::min(line.shard.find('/'), line.shard.size() - 1);
   const auto part = parseInteger(line.shard.substr(0, slash));
   const auto parts = parseInteger(line.shard.substr(slash + 1));
-  if (!part || !parts || *part < 1 || *part > *parts || static_cast<double>(*parts) > kMostCases) {
+  if (!part || !parts || *part < 1 || *part > *parts || static_cast<double>(*parts) > kMostCases)
     throw InputError(fmt::format("--shard: must be I/N with I from 1 to N, N at most 1e9, got {}",
                                  inQuotes(line.shard)));
-  }
   line.sweep.shard = *part;
   line.sweep.shards = *parts;
 }

@@ -34,10 +34,9 @@ class MpiCounter : public CaseCounter {
   void check() const {
     int size = 0;
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    if (size == 1) {
+    if (size == 1)
       throw InputError(
           "several processes, but each is alone in MPI: use mpirun, srun --mpi=pmix or --shard");
-    }
     if (threads_ >= MPI_THREAD_SERIALIZED) return;
     throw InputError("this MPI does not support threads (MPI_THREAD_SERIALIZED); use --shard");
   }

@@ -157,8 +157,7 @@ TEST_F(Exercise3Input, NamesTheOptionIfTheDefaultParticleFileIsMissing) {
   std::filesystem::remove(path("particle.txt"));
   const Result result = runWith("Euler");
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.errors,
-            path("particle.txt") + ": no such file; give a particle file with --particles\n");
+  EXPECT_THAT(result.errors, HasSubstr("no such file; give a particle file with --particles\n"));
   EXPECT_TRUE(list().empty());
 }
 

@@ -102,6 +102,9 @@ TEST(Study, HashDependsOnTheParticles) {
 }
 
 TEST(Study, ShippedStudiesAreValid) {
+  const TemporaryFolder folder;  // ".." after a link is not where the link is
+  std::filesystem::create_directory_symlink(PROJECT_DIR "/config/studies", folder.path("linked"));
+  EXPECT_NO_THROW(readStudy(folder.path("linked/order.yaml")));
   int studies = 0;
   for (const auto& entry : std::filesystem::directory_iterator(PROJECT_DIR "/config/studies")) {
     const Study study = readStudy(entry.path().string());
@@ -151,18 +154,14 @@ TEST(Study, BadInputIsFoundBeforeTheFirstCase) {
       {"a: &x 1\nb: *x\n", "must not use aliases"},
       {"[[[[[[[[1]]]]]]]]\n", "is nested too deeply"},
       {"base: 'x\n", "a quotation mark is not closed"},
-      {"axes: {frames: {linear: [1, 9999, 9999]}, damping: {linear: [0, 1, 9999]}, gravity: "
-       "{linear: [0, 1, 99]}}\n",
-       "there are more than 1e9 cases"},
+      {"axes: {damping: {linear: [0, 1, 99999]}, gravity: {linear: [0, 1, 99999]}}\n", "1e9 cases"},
       // These depend on several values, so each case is tried.
       {"axes: {frames: [10, 9000000000000000000]}\n", "case 1: frames times steps_per_frame"},
       {"base: {method: Auto}\naxes: {tolerance: [1e-6, 1e-30]}\n", "case 1: tolerance: must be at"},
       {"axes: {mass_factor: [1, 1e308]}\n", "case 1: particle 3: mass must be positive and finite"},
       {"axes: {gravity: [1, 1e308]}\n", "case 1: the initial energy exceeds"},
-      {"base: {duration: 1}\naxes: {time_step: [0.1, 0.3]}\n",
-       "case 1: time_step: whole steps must"},
-      {"base: {time_step: 0.3}\naxes: {duration: [0.9, 1]}\n",
-       "case 1: time_step: whole steps must"},
+      {"base: {duration: 1}\naxes: {time_step: [0.1, 0.3]}\n", "case 1: time_step: whole steps"},
+      {"base: {time_step: 0.3}\naxes: {duration: [0.9, 1]}\n", "case 1: time_step: whole steps"},
   };
   const TemporaryFolder folder;
   for (const auto& [text, message] : bad) {

@@ -85,10 +85,9 @@ void setParticles(const Study& study, Case& made) {
     double& mass = made.particles.masses[i];
     mass *= made.settings.mass_factor;
     mass *= draw(study.mass_factor, of_mass);
-    if (!std::isfinite(mass) || mass <= 0.0) {
+    if (!std::isfinite(mass) || mass <= 0.0)
       throw InputError(fmt::format("particle {}: mass must be positive and finite, got {}", i + 1,
                                    numberText(mass)));
-    }
     state.x()[i] += draw(study.displacement, of_position);
     state.y()[i] += draw(study.displacement, of_position);
     state.vx()[i] += draw(study.velocity, of_velocity);

@@ -36,11 +36,10 @@ const std::string& textOf(const YamlTree& tree, std::string_view key) {
 
 void setOption(const YamlTree& tree, const Option& option, OptionSet& options) {
   const bool is_text = option.isText();
-  if (tree.kind != Kind::kScalar || (tree.is_quoted && !is_text)) {
+  if (tree.kind != Kind::kScalar || (tree.is_quoted && !is_text))
     refuse(tree, option.key,
            fmt::format("must be {}, a single value{}", option.range(),
                        is_text ? "" : " without quotes"));
-  }
   options.set(option, tree.text, fmt::format("{}: {}", tree.place, option.key));
 }
 
@@ -131,11 +130,10 @@ Distribution distributionOf(const YamlTree& tree, std::string_view key) {
   const bool is_log = name != "uniform" && name != "normal";
   const bool is_range = name == "uniform" || name == "log_uniform";
   if (is_log && numbers[0] <= 0.0) refuse(list, name, "the first number must be above 0");
-  if (numbers[1] < (is_range ? numbers[0] : 0.0)) {
+  if (numbers[1] < (is_range ? numbers[0] : 0.0))
     refuse(list, name,
            is_range ? "the second number must be at least the first one"
                     : "the deviation must be at least 0");
-  }
   return {numbers[0], numbers[1], true, is_log, is_range};
 }
 
@@ -242,10 +240,9 @@ class StudyReader {
     }
     if (study_.samples == 0) refuse(*random, "random", "samples is missing");
     const Distribution& factor = study_.mass_factor;
-    if (!factor.is_log && factor.is_given && (!factor.is_range || factor.first <= 0.0)) {
+    if (!factor.is_log && factor.is_given && (!factor.is_range || factor.first <= 0.0))
       refuse(*random, "mass_factor",
              "must have positive values only: use log_normal, log_uniform or uniform above 0");
-    }
   }
 
   void readColumns() {
@@ -274,7 +271,11 @@ class StudyReader {
   /// Reads the particle file of the settings, whose path is relative to the study.
   void load(const YamlTree& tree) {
     std::string& path = settings_.scenario.particles;
-    path = (folder_ / path).lexically_normal().string();
+    const std::filesystem::path full = folder_ / path, normal = full.lexically_normal();
+    std::error_code ignored;  // after a symbolic link, ".." leads elsewhere
+    const bool differs = std::filesystem::exists(full, ignored) &&
+                         !std::filesystem::equivalent(full, normal, ignored);
+    path = (differs ? full : normal).string();
     if (study_.particles.count(path) > 0) return;
     try {
       study_.hash = hashOf(readTextFile(path) + '\0', study_.hash);
