@@ -141,9 +141,8 @@ TEST(Misuse, StartsOfRuns) {
   const auto start = [](const State& state, double interval) {
     spring_pendulum::Run({chain().masses(), state}, Plan{}, {false, interval});
   };
-  for (const double interval : {kNan, -1.0})
-    EXPECT_EQ(messageOf([&] { start(horizontal(), interval); }),
-              "display_interval must be at least 0 s");
+  for (const double s : {kNan, -1.0})
+    EXPECT_EQ(messageOf([&] { start(horizontal(), s); }), "display_interval must be at least 0 s");
   spring_pendulum::Run run({chain().masses(), horizontal()}, Plan{});
   EXPECT_EQ(messageOf([&] { run.goTo(-1, horizontal()); }), "frame: must be at least 0, got -1");
   for (const double value : {kNan, kInfinity}) {

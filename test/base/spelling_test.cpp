@@ -88,8 +88,7 @@ TEST(Spelling, PrintsNoByteThatIsNotUtf8) {
 TEST(Spelling, TellsTheKnownNames) {
   EXPECT_EQ(unknownName("key", "framse", {"frames", "sleep"}),
             "unknown key 'framse'; did you mean 'frames'? Known keys: frames, sleep");
-  EXPECT_EQ(unknownName("key", "mass", {"frames", "sleep"}),
-            "unknown key 'mass'; known keys: frames, sleep");
+  EXPECT_EQ(unknownName("key", "mass", {"x", "y"}), "unknown key 'mass'; known keys: x, y");
   EXPECT_LT(unknownName("key", std::string(100000, 'x'), {"frames"}).size(), 100U);
 }
 
