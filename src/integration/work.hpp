@@ -8,7 +8,7 @@
 namespace spring_pendulum {
 
 /// Time in s of one evaluation for the whole chain, with its share of all other work of a step.
-/// Measured with AVX2 for 2 to 10,000 particles; mostly within a factor of 2 of the measurements.
+/// Measured with AVX2 for 2 to 10,000 particles; mostly within a factor of 2, but up to 8 for short chains.
 struct NominalTime {
   double per_particle;
   double overhead = 8.0;  ///< in particles
