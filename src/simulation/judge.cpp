@@ -40,6 +40,14 @@ Verdict diverged(const EnergyEntry& entry, const Chain& chain, const State& stat
                   time, entry.gain, entry.relative_gain, most + 2)};
 }
 
+/// The kinetic energy of the whole chain at the speed of its fastest held particle, J.
+double energyOfHolders(const Chain& chain, const State& state) {
+  double fastest = 0.0;
+  for (const HeldParticle& held : chain.drive().held)
+    fastest = std::max(fastest, state.velocities().row(held.particle).squaredNorm());
+  return 0.5 * chain.masses().tail(chain.size() - 1).sum() * fastest;
+}
+
 }  // namespace
 
 std::string_view toString(VerdictKind kind) {
@@ -96,8 +104,8 @@ void Judge::widenScale(const State& start, double energy, double time) {
     least += 0.5 * spring.stiffness * stretch * stretch;
   }
   const double fall = spring.stiffness == 0.0 ? 0.5 * weight * std::abs(chain_.gravity()) : 0.0;
-  if ((fall > 0.0) != (scale_.fall > 0.0)) scale_ = {scale(time), 0.0, time, scale_.supplied};
-  scale_.fall = fall;
+  if (fall != scale_.fall) scale_ = {scale(time), fall, time, scale_.supplied};
+  least = std::max(least, energyOfHolders(chain_, start));
   scale_.constant = std::max({scale_.constant, std::max(energy, 0.0) + depth, least});
   if (!std::isfinite(energy) || !std::isfinite(scale_.constant) || !std::isfinite(fall))
     throw InputError(
@@ -127,7 +135,8 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
   entry.supplied = supplied;
   entry.gain = entry.energy.total() - start_energy_ - supplied;
   // Energy that is taken back leaves its rounding and step errors in the chain.
-  const double scale_now = scale(time) + std::max(scale_.supplied, std::abs(supplied));
+  const double scale_now = std::max(scale(time), energyOfHolders(chain_, state)) +
+                           std::max(scale_.supplied, std::abs(supplied));
   entry.relative_gain = entry.gain / scale_now;
   if (options_.track_dissipation) entry.dissipated = dissipated;
   if (!chain_.isDissipative() && !changed_) entry.dissipated = 0.0;
@@ -177,6 +186,7 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
 }
 
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
+  scale_.supplied = std::max(scale_.supplied, std::abs(supplied));
   entry_ = balanceOf(time, state, dissipated, supplied);
   const double spread = 2.0 * kPromise * options_.tolerance;  // m, of the length of a spring
   const double tolerated =
@@ -202,8 +212,8 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
                 "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy "
                 "scale, although {}",
                 entry_.gain, time, 100.0 * entry_.relative_gain,
-                supplied == 0.0 ? "no force drives the chain"
-                                : "the energy supplied to the chain is counted")};
+                changed_ ? "the energy supplied to the chain is counted"
+                         : "no force drives the chain")};
   if (!(std::abs(residual) <= kDriftThreshold + allowance))
     return {
         VerdictKind::kDrift, time, 0,

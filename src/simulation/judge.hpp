@@ -1,26 +1,22 @@
 // Judges a run.
 //
 // Energy and positions are judged after every frame, before it is written. Beyond the energy that its
-// drive supplies, a chain never gains energy, whatever its damping. So an energy above that of the
-// start proves an unstable or inaccurate integration, even if every number is finite. A reference run,
-// if there is one, gives the position error. If the energy balance is off, it also shows whether the
-// energy or only the dissipated energy is wrong.
+// drive supplies, a chain never gains energy, whatever its damping: more energy proves an unstable or
+// inaccurate integration, even if every number is finite.
 //
 // The energy balance is E(t) + D(t) - S(t) = E(0), with the energy E = kinetic + gravity + spring, the
-// dissipated energy D and the energy S that holders of particles and applied forces have supplied; S is
-// 0 unless the chain is driven. The residual E(t) + D(t) - S(t) - E(0) is the integration error of a
-// quantity whose exact value is known. It is given relative to the energy scale of the scene: the energy
-// available to the motion, which is the difference between the larger of E(0) and 0 (all springs
+// dissipated energy D and the energy S that holders and applied forces have supplied. The residual
+// E(t) + D(t) - S(t) - E(0) is the integration error of a quantity whose exact value is known. It is
+// given relative to the energy scale: the difference between the larger of E(0) and 0 (all springs
 // unstretched and all particles at the height of P_1) and the minimum, the chain hanging at rest, where
 // spring i carries the weight W_i of all particles beyond it:
 //
 //     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
 //
-// For a chain that starts in equilibrium, this is the energy of lifting it to the height of P_1.
-// The largest supplied energy so far adds to the scale. Two rules keep the scale positive and finite:
-// - it is at least the energy of all springs stretched by a millionth of their length;
-// - without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
-//   the mass M until time t, replaces the last term.
+// Forces count as weights. The largest supplied energy so far adds to the scale, which is at least the
+// energy of all springs stretched by a millionth of their length, and of the chain at the speed of a
+// holder. Without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
+// the mass M until time t, replaces the last term.
 #pragma once
 
 #include "simulation/reference_run.hpp"

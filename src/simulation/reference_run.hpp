@@ -40,26 +40,18 @@ class ReferenceRun {
   /// \throws InputError as Integrator::advance
   bool advance(double time_step, std::int64_t steps, const std::function<bool()>& stop = {});
 
-  /// Measures the uncertainty, and stops measuring if it or the cost is too large. Call it once per
-  /// frame.
+  /// Measures the uncertainty once per frame. Stops measuring if it or the cost is too large.
   /// \param run_work Integrator::work of the run so far, s. Until the next frame, the reference may
   ///   cost as much or 0.12 s, whichever is more.
   void measure(double run_work);
 
-  /// Work so far, s, see Integrator::work.
-  double work() const;
-
-  /// Stops measuring.
-  void stop(std::string_view reason, VerdictKind verdict = VerdictKind::kNotChecked);
-
+  double work() const;  ///< so far, s, see Integrator::work
   bool isMeasuring() const { return verdict_ == VerdictKind::kOk; }
   /// After the measurement has stopped: `kSensitive` if the true motion is not known, else `kNotChecked`.
   VerdictKind verdict() const { return verdict_; }
-  /// Why the measurement has stopped.
-  std::string_view reason() const { return reason_; }
+  std::string_view reason() const { return reason_; }  ///< why the measurement has stopped
 
-  /// State of the reference at the time that `advance` has reached; null if it is not known.
-  const State* state() const;
+  const State* state() const;  ///< at the time that `advance` has reached; null if it is not known
 
   /// Length to which position errors are related, m: `chainLength`, but at least a hundredth of the
   /// largest length of the reference at the measured frames (for particles that start close together).
@@ -79,6 +71,8 @@ class ReferenceRun {
   bool isSensitive() const;
 
  private:
+  void stop(std::string_view reason, VerdictKind verdict = VerdictKind::kNotChecked);
+
   struct Trajectory {
     std::unique_ptr<Integrator> integrator;
     State state;
