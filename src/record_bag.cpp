@@ -113,6 +113,7 @@ void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files)
     if (replay == nullptr || run.wasStopped()) continue;
     // A run that is over may go back.
     goes_on = replay->apply(run) || (goes_on && !replay->isOver(run));
+    files.write(run);  // its state may be another now
   }
   if (!run.isShown()) recorder.write(run);
 }

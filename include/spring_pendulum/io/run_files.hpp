@@ -29,11 +29,12 @@ class RunFiles {
   RunFiles(const Run& run, const Scenario& scenario, const std::string& config = "");
   ~RunFiles();
 
-  /// Writes the current frame of a run unless it has been written before or must not be shown.
+  /// Writes the current frame of a run unless it has been written before or must not be shown. Notes
+  /// the state in any case.
   /// \throws FileError naming the file
   void write(const Run& run);
 
-  /// Completes the files. No write after this.
+  /// Completes the files, as `write` does at the last frame. No write after this.
   /// \throws FileError naming the file
   void finish();
 

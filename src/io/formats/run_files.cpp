@@ -111,9 +111,11 @@ void RunFiles::write(const Run& run) {
     to.last.frame = frame;
     to.last_time = run.time();
   }
-  if (!to.takes(frame)) return;
-  if (to.frames) to.frames->write(frame, run.state());
-  if (to.energy) to.energy->write(energyRow(frame, run.energyEntry(), run.positionError().now));
+  const bool is_new = to.takes(frame);
+  if (is_new && to.frames) to.frames->write(frame, run.state());
+  if (is_new && to.energy)
+    to.energy->write(energyRow(frame, run.energyEntry(), run.positionError().now));
+  if (run.isOver()) finish();  // of a node, which may go on after a reset
 }
 
 void RunFiles::finish() {

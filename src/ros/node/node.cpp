@@ -168,7 +168,7 @@ void Node::change(double next_time, bool paused) {
   } catch (const InputError& error) {
     if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }
-  if (paused) keepFrame();
+  keepFrame();  // whose state may be another now
 }
 
 void Node::goTo(const Scene* to) {
@@ -187,6 +187,7 @@ void Node::keepFrame() {
   if (!run_.isAtFrame() || !run_.isShown() || !run_.isFinite()) return;
   last_frame_ = run_.state();
   last_frame_number_ = run_.frame();
+  files_.write(run_);
 }
 
 void Node::finishState() {
@@ -194,8 +195,6 @@ void Node::finishState() {
   const ros::SteadyTime now = ros::SteadyTime::now();
   pacer_.reached(run_.time(), now);
   keepFrame();
-  files_.write(run_);
-  if (run_.isOver() && run_.isShown()) files_.finish();  // after a divergence, more may follow
   show();
   show_at_ = now;
 }
