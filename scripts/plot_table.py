@@ -5,7 +5,9 @@ sweep --plot calls it with the options of the study's entry `plot`; docs/sweep.m
 draw an existing table again. With --try, it only finds out whether it could; the table may lack columns.
 """
 import signal
-signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C is no reason for a traceback
+if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C is no reason for a traceback
+signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
 
 import argparse
 import csv

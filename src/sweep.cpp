@@ -90,22 +90,20 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
     if (key == "version") line.answer = "spring_pendulum " SPRING_PENDULUM_VERSION "\n";
     if (!line.answer.empty()) return line;
     const std::string text = argument.value.empty() ? "true" : argument.value.front();
-    if (!key.empty()) {
+    if (!key.empty())
       options.set(options.find(key, ""), text, "--" + key);
-    } else if (line.study.empty()) {
+    else if (line.study.empty())
       line.study = text;
-    } else {
+    else
       throw InputError(inQuotes(text) + ": give only one STUDY");
-    }
   }
   for (const char* const other : {"plot", "shard", "threads"}) {
     if (!options.isGiven("case") || !options.isGiven(other)) continue;
     throw InputError(fmt::format("--case: runs a single case; leave out --{}", other));
   }
-  if (line.study.empty()) {
+  if (line.study.empty())
     throw InputError(
         "STUDY is missing; try: sweep config/studies/order.yaml (--help lists the options)");
-  }
   setShard(line);
   if (line.only_case < 0 && line.sweep.output.empty())
     line.sweep.output = std::filesystem::path(line.study).stem().string() + ".csv";

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <filesystem>
 #include <sstream>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -23,7 +24,7 @@ namespace {
 
 }  // namespace
 
-Journal::Journal(std::string path, std::uint64_t hash)
+Journal::Journal(std::string path, std::uint64_t hash, const std::string& table)
     : path_(std::move(path)),
       hash_(hash),
       head_(fmt::format("spring_pendulum " SPRING_PENDULUM_VERSION " sweep {:016x}\n", hash)) {
@@ -34,12 +35,14 @@ Journal::Journal(std::string path, std::uint64_t hash)
     if (!file_.isOpen()) refuse(path_);
   } while (!lock());
   const std::string begin = readTextFile(path_).substr(0, head_.size());
-  if (head_.compare(0, begin.size(), begin) != 0) {
-    throw InputError(fmt::format(
-        "{}: is the journal of another study or version; remove it to start anew, or give another "
-        "--output",
-        fullPath(path_)));
+  if (begin.empty() && !table.empty() && std::filesystem::exists(table)) {
+    ::unlink(path_.c_str());
+    throw InputError(table + ": exists; remove it to run its shards anew");
   }
+  if (head_.compare(0, begin.size(), begin) != 0)
+    throw InputError(fmt::format(
+        "{}: is the journal of another study or version; remove it, or give another --output",
+        fullPath(path_)));
   cutTornLine();
   if (begin.size() < head_.size()) write(head_);
   unlock();
@@ -53,10 +56,9 @@ void Journal::read(
   // A line that ends with the file is unfinished.
   for (int number = 2; std::getline(lines, line) && !lines.eof(); ++number) {
     const std::string row = line.substr(0, line.rfind(' '));
-    if (line + '\n' != lineOf(row)) {
+    if (line + '\n' != lineOf(row))
       throw InputError(fmt::format("{}:{}: is damaged; remove the line to run its case anew",
                                    fullPath(path_), number));
-    }
     const std::size_t comma = row.find(',');
     take(parseInteger(row.substr(0, comma)).value(), row.substr(comma));
   }

@@ -17,9 +17,10 @@ namespace spring_pendulum::sweep {
 class Journal {
  public:
   /// Opens the file, or creates it.
-  /// \param hash of the study
-  /// \throws FileError, and InputError for a journal of another study or version
-  Journal(std::string path, std::uint64_t hash);
+  /// \param hash  of the study
+  /// \param table whose shards it is of; "": no shards
+  /// \throws FileError, InputError for a journal of another study or if only the table is there
+  Journal(std::string path, std::uint64_t hash, const std::string& table);
 
   /// Passes all finished cases to `take`, in any order.
   /// \throws FileError, and InputError for a damaged line

@@ -2,6 +2,7 @@
 #include <spring_pendulum/base/errors.hpp>
 
 #include <cerrno>
+#include <csignal>
 #include <fcntl.h>
 #include <filesystem>
 #include <spawn.h>
@@ -14,12 +15,9 @@ namespace spring_pendulum::sweep {
 int drawPlot(const Study& study, const std::string& table, const std::string& picture,
              bool only_try) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  // The python3 that has matplotlib from Debian. It would print a traceback if Ctrl-C came before the
-  // first line of the script.
-  std::vector<std::string> arguments{"/usr/bin/env", "--ignore-signal=INT", "/usr/bin/python3",
-                                     "-B"};
-  arguments.insert(arguments.end(),
-                   {program.parent_path() / "plot_table.py", "--title=" + study.name});
+  std::vector<std::string> arguments{"/usr/bin/python3", "-B",  // has matplotlib from Debian
+                                     program.parent_path() / "plot_table.py",
+                                     "--title=" + study.name};
   arguments.insert(arguments.end(), study.plot.begin(), study.plot.end());
   if (only_try) arguments.emplace_back("--try");
   arguments.insert(arguments.end(), {"--", "/dev/stdin", picture});
@@ -32,7 +30,13 @@ int drawPlot(const Study& study, const std::string& table, const std::string& pi
   // The path of an unfinished table is valid in the child only until the script starts.
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, table.c_str(), O_RDONLY, 0);
   pid_t child = 0;
+  // Python would print a traceback before the first line of the script, which ends the blocking.
+  sigset_t interrupt, before;
+  sigemptyset(&interrupt);
+  sigaddset(&interrupt, SIGINT);
+  ::pthread_sigmask(SIG_BLOCK, &interrupt, &before);
   int status = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), ::environ);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ::posix_spawn_file_actions_destroy(&actions);
   if (status != 0) throw FileError("--plot: could not run " + arguments[0]);
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

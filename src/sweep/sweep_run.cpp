@@ -82,11 +82,8 @@ class Sweep {
     checkCases(study_, options_.threads);
     const int status = counter_.rank() == 0 ? tryOutputs() : kDone;
     if (status != kDone) return status;
-    // At the end of a study, its last shard has removed the journal.
-    if (options_.shards > 1 && std::filesystem::exists(options_.output) &&
-        !std::filesystem::exists(options_.output + ".journal"))
-      throw InputError(options_.output + ": exists; remove it to run its shards anew");
-    journal_.emplace(options_.output + ".journal", study_.hash);
+    journal_.emplace(options_.output + ".journal", study_.hash,
+                     options_.shards > 1 ? options_.output : "");
     readJournal();
     return kDone;
   }

@@ -273,9 +273,9 @@ class StudyReader {
     std::string& path = settings_.scenario.particles;
     const std::filesystem::path full = folder_ / path, normal = full.lexically_normal();
     std::error_code ignored;  // after a symbolic link, ".." leads elsewhere
-    const bool differs = std::filesystem::exists(full, ignored) &&
-                         !std::filesystem::equivalent(full, normal, ignored);
-    path = (differs ? full : normal).string();
+    const bool same = std::filesystem::equivalent(full, normal, ignored) ||
+                      !(exists(full, ignored) || exists(normal, ignored));
+    path = (same ? normal : full).string();
     if (study_.particles.count(path) > 0) return;
     try {
       study_.hash = hashOf(readTextFile(path) + '\0', study_.hash);
