@@ -96,6 +96,7 @@ void Robots::reset() {
     robot.follower.restart();
     driver_.on(Hold{robot.particle, {}});
   }
+  forget_at_ = ros::SteadyTime::now().toSec() + kForgetInterval;  // followers are silent at first
 }
 
 void Robots::receive(Robot& robot, const std_msgs::Header& header,

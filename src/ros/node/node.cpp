@@ -142,7 +142,8 @@ void Node::callBack(double wait) {
 }
 
 double Node::nextTime() const {
-  const bool is_late = paused_ || pacer_.isLate(run_.nextTime(), ros::SteadyTime::now());
+  const bool is_late = paused_ || (pacer_.isLate(run_.nextTime(), ros::SteadyTime::now()) &&
+                                   pacer_.dueTime(run_.nextFrameTime()) <= ros::SteadyTime::now());
   const bool is_long = run_.plan().timeOfFrame(1) > kLongFrame * options_.real_time_factor;
   return driver_.isActing() || !is_late || is_long ? run_.nextTime() : run_.nextFrameTime();
 }
@@ -176,7 +177,7 @@ void Node::goTo(const Scene* to) {
   driver_.reset(run_, to);
   robots_.reset();
   steps_wanted_ = 0;
-  if (options_.at_end == AtEnd::kHold) logged_ = {};
+  logged_ = {};
   run_.advance();
   pacer_ = Pacer(options_.real_time_factor, options_.display_rate);
   pacer_.start(run_.time(), ros::SteadyTime::now());

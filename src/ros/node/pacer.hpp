@@ -25,8 +25,7 @@ class Pacer {
   /// Whether states between the frames should be left out to keep up.
   bool isLate(double simulated_time, ros::SteadyTime now) const;
 
-  /// Whether a state is one of those that `display_rate` asks for, or must be shown. Must be called once
-  /// per state.
+  /// Whether `display_rate` asks for a state, or it must be shown. Must be called once per state.
   bool isShown(double simulated_time, bool must = false);
 
  private:

@@ -10,6 +10,7 @@
 #include <spring_pendulum/SetMethod.h>
 #include <spring_pendulum/StatePath.h>
 #include <spring_pendulum/base/errors.hpp>
+#include <spring_pendulum/integration/method_table.hpp>
 
 #include <boost/function.hpp>
 #include <fmt/format.h>
@@ -146,11 +147,11 @@ std::string Node::on(const LoadState& request) {
   static_cast<Plan&>(scenario) = run_.plan();
   scenario.particles = request.file.empty() ? kDefaultStateFile : request.file;
   const Scene loaded = readStateFile(scenario);
-  if (loaded.masses.size() != run_.chain().size() ||
-      loaded.masses.view() != run_.chain().masses()) {
+  if (loaded.masses.size() != run_.chain().size() || loaded.masses.view() != run_.chain().masses())
     throw InputError(
         fmt::format("{}: is the state of another chain: the masses differ", scenario.particles));
-  }
+  if (!scenario.method.get().hasFixedStep())
+    checkTolerance(scenario.tolerance, run_.chain(), loaded.state);
   goTo(&loaded);
   return fmt::format("to frame {} of {}", loaded.frame, fullPath(scenario.particles));
 }
