@@ -32,8 +32,7 @@ constexpr double kMostTrials = 30.0;
 constexpr double kFrameTime = 2.5e-8;
 constexpr double kPlainTime = 4e-7;
 
-/// Rounds down to three significant digits; `largestSpringMode` is 1e-4 too large at most. The result is
-/// the number that is printed, since one with another last bit may have another verdict.
+/// Rounds down to three digits, exactly as printed; `largestSpringMode` is 1e-4 too large at most.
 double roundedDown(double step) {
   const double unit = std::pow(10.0, std::floor(std::log10(step)) - 2.0);
   if (!std::isnormal(unit)) return step;
@@ -207,7 +206,8 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   // The error grows with a power of the step size: the order of the method.
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
   const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
-  const double failed = isBad(report.verdict->kind) ? plan.time_step : kInfinity;
+  double failed = kInfinity;
+  if (isBad(report.verdict->kind)) failed = plan.time_step;
   report.accurate_step = trials.largestStep(plan.time_step * (std::isnan(factor) ? 1.0 : factor),
                                             std::min(report.stable.step, durationOf(plan)),
                                             VerdictKind::kInaccurate, failed);
