@@ -74,7 +74,7 @@ double Judge::change(const Chain& chain, const State& before, const State& after
     sums_.setZero();
   }
   chain_ = chain;
-  // What a chain that has not moved was like for a moment cannot explain its later errors.
+  // Neither a chain that has not moved nor energy gained by errors can explain later errors.
   scale_.supplied = std::max(scale_.supplied, std::abs(supplied));
   if (has_moved || !changed_) moved_scale_ = scale_;
   scale_ = moved_scale_;
@@ -83,8 +83,8 @@ double Judge::change(const Chain& chain, const State& before, const State& after
     worst_ = {VerdictKind::kNotChecked, entry_.time, 0,
               fmt::format("not checked from t = {:.6g} s on: driven or changed", entry_.time)};
   const double energy_after = energyOf(after).total();
-  widenScale(after, energy_after, entry_.time);
   const double supplied_after = supplied + energy_after - energy_before;
+  widenScale(after, std::min(energy_after, start_energy_ + supplied_after), entry_.time);
   scale_.supplied = std::max(scale_.supplied, std::abs(supplied_after));
   return supplied_after;
 }

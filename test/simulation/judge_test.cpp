@@ -86,7 +86,6 @@ TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
 TEST(Verdict, IsOkForTheFixedParticleAlone) {
   Judge judge(uniform(1, SpringLaw{}, 9.81), State(1), {false});
   EXPECT_EQ(judge.judge(1.0, State(1), 0.0, nullptr).kind, VerdictKind::kNotChecked);
-  EXPECT_EQ(judge.entry().relative_gain, 0.0);
 }
 
 double scaleOf(const Chain& chain, const State& start) {
@@ -98,7 +97,6 @@ TEST(EnergyScale, IsTheDepthOfTheHangingChainForAStartWithoutEnergy) {
   const double depth = 3.0 * 9.81 + 5.0 * 9.81 * 9.81 / 100.0;
   const Judge balance(uniform(3, SpringLaw{}, 9.81), horizontal(3), {false});
   EXPECT_NEAR(balance.scale(0.0), depth, 1e-12);
-  EXPECT_EQ(balance.scale(100.0), balance.scale(0.0));
 }
 
 TEST(EnergyScale, KnowsStretchedWeightlessAndFallingChains) {
@@ -117,6 +115,8 @@ TEST(EnergyScale, ForgetsAChainThatHasNotMoved) {
   const State start = horizontal(3), far = horizontal(3, 1000.0);
   Judge judge(chain, start, {false});
   const double scale = judge.scale(0.0);
+  judge.change(chain, far, far, {false}, 0.0, true);  // far by an error, not by a holder
+  EXPECT_EQ(judge.scale(0.0), scale);
   for (const bool has_moved : {false, true}) {
     double supplied = judge.change(slack, start, far, {false}, 0.0, true);
     supplied = judge.change(uniform(3, {1e6, 0.0, 1.0}, 0.0), far, far, {false}, supplied, false);

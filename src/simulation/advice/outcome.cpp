@@ -235,7 +235,7 @@ std::string remedyForDivergence(const Chain& chain, const State& start, const Pl
   // The equations of an implicit method may have no solution for this step, and one for larger steps.
   if (!method.hasFixedStep())
     text = fmt::format("try a tolerance below {} m", numberText(plan.tolerance));
-  else if (stable.step > plan.time_step)
+  else if (stable.step >= plan.time_step)
     text = fmt::format("try a step below {} s", numberText(plan.time_step));
   if (method.name != "Auto") {
     Plan other = plan;
