@@ -45,7 +45,7 @@ double energyOfHolders(const Chain& chain, const State& state) {
   double fastest = 0.0;
   for (const HeldParticle& held : chain.drive().held)
     fastest = std::max(fastest, state.velocities().row(held.particle).squaredNorm());
-  return 0.5 * chain.masses().tail(chain.size() - 1).sum() * fastest;
+  return fastest > 0.0 ? 0.5 * chain.masses().tail(chain.size() - 1).sum() * fastest : 0.0;
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ class Judge {
   std::string toleranceRemark() const;  ///< as Run::toleranceRemark
 
  private:
-  /// The energy scale: J, J/s² since `fall_time` s, and the largest energy supplied at a change, J.
+  /// The energy scale: a constant, J, a fall since `fall_time` s, J/s², and the largest supply, J.
   struct Scale {
     double constant = 0.0, fall = 0.0, fall_time = 0.0, supplied = 0.0;
   };
@@ -103,7 +103,7 @@ class Judge {
   double start_energy_;           ///< J
   double start_height_;           ///< of P_1, m
   Scale scale_, moved_scale_;     ///< now, and before changes since which the chain has not moved
-  double method_time_;            ///< since when there is the symplectic method, s
+  double method_time_;            ///< when the symplectic method began, s
   Eigen::Array3d sums_{0, 0, 0};  ///< over its frames: relative gain, relative residual, one each
   double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.

@@ -169,7 +169,7 @@ void Node::change(double next_time, bool paused) {
   } catch (const InputError& error) {
     if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }
-  keepFrame();  // whose state may be another now
+  if (run_.isChanged()) keepFrame();  // whose state may be another now
 }
 
 void Node::goTo(const Scene* to) {
