@@ -54,11 +54,13 @@ class PythonIntegrator {
   PythonIntegrator(const Method& method, Chain chain, const IntegratorOptions& options)
       : method_(method),
         chain_(std::move(chain)),
+        tolerance_(options.tolerance),
         integrator_(makeIntegrator(method_, chain_, options)) {}
 
   void advance(State& state, double time_step, std::int64_t steps) {
     const auto used = use();
     integrator_->advance(state, time_step, steps < 0 ? steps : 0);  // checks the arguments
+    if (!method_.hasFixedStep()) checkTolerance(tolerance_, chain_, state);
     Interruption interruption;
     {
       const Computation computation;
@@ -88,6 +90,7 @@ class PythonIntegrator {
 
   const Method& method_;
   Chain chain_;
+  double tolerance_;
   std::unique_ptr<Integrator> integrator_;
   mutable std::atomic<bool> busy_{false};
 };

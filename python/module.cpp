@@ -26,8 +26,8 @@ std::string reprOf(const py::handle& value) {
 
 Numbers toNumbers(const py::object& argument, const std::string& name, py::ssize_t dimensions) {
   const auto refuse = [&](const std::string& got) {
-    throw InputError(name + ": must be numbers in an array of " + std::to_string(dimensions) +
-                     (dimensions == 1 ? " dimension, got " : " dimensions, got ") + got);
+    throw InputError(name + ": must be numbers in an array with ndim " +
+                     std::to_string(dimensions) + ", got " + got);
   };
   py::array array;
   try {
@@ -36,7 +36,8 @@ Numbers toNumbers(const py::object& argument, const std::string& name, py::ssize
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
     refuse(reprOf(argument));
   }
-  if (std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos)
+  if (std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos ||
+      py::module_::import("numpy.ma").attr("is_masked")(argument).cast<bool>())
     refuse(reprOf(argument));
   if (array.ndim() != dimensions) refuse("shape " + reprOf(array.attr("shape")));
   return {array};

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <new>
 #include <pybind11/stl.h>
 #include <utility>
@@ -22,7 +22,6 @@ namespace {
 
 using namespace py::literals;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Numbers of a frame, as `recordNumbers` writes them.
 constexpr py::ssize_t kFrameNumbers = 9;
 
@@ -100,8 +99,8 @@ void recordNumbers(const Run& run, double* column, py::ssize_t frames) {
   const EnergyEntry entry = run.energyEntry();
   for (const double number :
        {entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
-        entry.energy.total(), entry.dissipated.value_or(kNan), entry.residual.value_or(kNan),
-        entry.relative_residual.value_or(kNan), run.positionError().now}) {
+        entry.energy.total(), entry.dissipated.value_or(NAN), entry.residual.value_or(NAN),
+        entry.relative_residual.value_or(NAN), run.positionError().now}) {
     *column = number;
     column += frames;
   }
@@ -156,11 +155,10 @@ py::tuple check(const py::object& particles, const py::dict& options) {
   const Scene scene = sceneOf(particles, scenario);
   scenario.frames -= scene.frame;  // a trial counts them from the start
   Interruption interruption;
-  StabilityReport report;
-  {
+  const StabilityReport report = [&] {
     const Computation computation;
-    report = checkStability(scene.chain(), scene.state, scenario, [&] { return interruption(); });
-  }
+    return checkStability(scene.chain(), scene.state, scenario, [&] { return interruption(); });
+  }();
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();
   return py::make_tuple(report.text, report.verdict ? tupleOf(*report.verdict) : py::tuple(),
                         report.position_error, report.stable.step, report.accurate_step);

@@ -67,8 +67,7 @@ Returns:
     a Report
 
 Raises:
-    InputError: a wrong value, an unknown keyword or a malformed file
-    FileError: a file that cannot be read
+    InputError, FileError: as simulate
 """
     text, verdict, *limits = _core.check(particles, options)
     return Report(text, Verdict(*verdict) if verdict else None, *(None if math.isnan(x) else x for x in limits))

@@ -167,9 +167,9 @@ void checkMethod(const Method& method) {
   const auto refuse = [&](std::string_view what) {
     throw InputError(fmt::format("method '{}': {}", method.name, what));
   };
-  if (method.name.empty()) throw InputError("a method needs a name");
+  if (isSameName(method.name, "")) throw InputError("a method needs a name with a letter or a digit");
   for (const Method& known : methodTable()) {
-    if (known.name == method.name) refuse("a method of this name exists");
+    if (isSameName(known.name, method.name)) refuse("a method of this name exists");
   }
   if (method.order < 1) refuse("order must be at least 1");
   if (method.stages < 1) refuse("stages must be at least 1");
