@@ -62,7 +62,7 @@ Judge::Judge(const Chain& chain, const State& start, const JudgeOptions& options
       start_energy_(computeEnergy(chain, start).total()),
       start_height_(start.y()[0]),
       method_time_(start_time) {
-  widenScale(start, start_energy_, start_time);
+  measureChain(start, start_energy_, start_time);
 }
 
 double Judge::change(const Chain& chain, const State& before, const State& after,
@@ -73,44 +73,45 @@ double Judge::change(const Chain& chain, const State& before, const State& after
     method_time_ = entry_.time;
     sums_.setZero();
   }
+  if (has_moved) largest_scale_ = scale(entry_.time, supplied);
   chain_ = chain;
-  // Neither a chain that has not moved nor energy gained by errors can explain later errors.
-  scale_.supplied = std::max(scale_.supplied, std::abs(supplied));
-  if (has_moved || !changed_) moved_scale_ = scale_;
-  scale_ = moved_scale_;
   changed_ = true;
   if (worst_.kind == VerdictKind::kOk)
     worst_ = {VerdictKind::kNotChecked, entry_.time, 0,
               fmt::format("not checked from t = {:.6g} s on: driven or changed", entry_.time)};
   const double energy_after = energyOf(after).total();
-  const double supplied_after = supplied + energy_after - energy_before;
-  widenScale(after, std::min(energy_after, start_energy_ + supplied_after), entry_.time);
-  scale_.supplied = std::max(scale_.supplied, std::abs(supplied_after));
-  return supplied_after;
+  measureChain(after, energy_after, entry_.time);
+  return supplied + energy_after - energy_before;
 }
 
-void Judge::widenScale(const State& start, double energy, double time) {
-  requireSize(chain_.size(), start.size());
+void Judge::measureChain(const State& state, double energy, double time) {
+  requireSize(chain_.size(), state.size());
   const SpringLaw& spring = chain_.spring();
-  // Sums from the free end: weight beyond a spring, -E_min, and springs that are hardly stretched.
-  double weight = 0.0, depth = 0.0, least = 0.0;
-  Eigen::ArrayXd weights = chain_.masses() * std::abs(chain_.gravity());  // with applied forces
-  for (const auto& [i, force] : chain_.drive().forces) weights[i] += std::hypot(force.x, force.y);
+  Eigen::ArrayXd forces = Eigen::ArrayXd::Zero(chain_.size());
+  for (const auto& [i, force] : chain_.drive().forces) forces[i] += std::hypot(force.x, force.y);
+  // Sums from the free end: weight and forces beyond a spring, -E_min, and springs hardly stretched.
+  double weight = 0.0, pull = 0.0, depth = 0.0, least = 0.0;
+  pulled_depth_ = 0.0;
   for (Eigen::Index i = chain_.size() - 1; i > 0; --i) {
-    weight += weights[i];
+    weight += chain_.masses()[i] * std::abs(chain_.gravity());
+    pull += forces[i];
     depth += weight * spring.rest_length;
-    if (spring.stiffness > 0.0) depth += 0.5 * weight * weight / spring.stiffness;
-    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(start, i - 1));
+    pulled_depth_ += pull * spring.rest_length;
+    if (spring.stiffness > 0.0) {
+      depth += 0.5 * weight * weight / spring.stiffness;
+      pulled_depth_ += pull * (weight + 0.5 * pull) / spring.stiffness;
+    }
+    const double stretch = kLeastStretch * std::max(spring.rest_length, springLength(state, i - 1));
     least += 0.5 * spring.stiffness * stretch * stretch;
   }
+  still_scale_ = std::max(std::max(start_energy_, 0.0) + depth, least);
   const double fall = spring.stiffness == 0.0 ? 0.5 * weight * std::abs(chain_.gravity()) : 0.0;
-  if (fall != scale_.fall) scale_ = {scale(time), fall, time, scale_.supplied};
-  least = std::max(least, energyOfHolders(chain_, start));
-  scale_.constant = std::max({scale_.constant, std::max(energy, 0.0) + depth, least});
-  if (!std::isfinite(energy) || !std::isfinite(scale_.constant) || !std::isfinite(fall))
-    throw InputError(
-        "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
-        "gravity must be smaller");
+  if (std::exchange(fall_, fall) != fall) fall_time_ = time;
+  for (const double number : {energy, still_scale_, pulled_depth_, fall_})
+    if (!std::isfinite(number))
+      throw InputError(
+          "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
+          "gravity must be smaller");
 }
 
 Energy Judge::energyOf(const State& state) const {
@@ -122,9 +123,10 @@ Energy Judge::energyOf(const State& state) const {
   return energy;
 }
 
-double Judge::scale(double time) const {
-  const double fallen = scale_.fall * (time - scale_.fall_time) * (time - scale_.fall_time);
-  return std::max(scale_.constant + fallen, std::numeric_limits<double>::min());
+double Judge::scale(double time, double supplied) const {
+  const double fallen = fall_ * (time - fall_time_) * (time - fall_time_);
+  const double now = still_scale_ + fallen + std::abs(supplied);
+  return std::max({largest_scale_, now, std::numeric_limits<double>::min()});
 }
 
 EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
@@ -134,9 +136,9 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
   entry.energy = energyOf(state);
   entry.supplied = supplied;
   entry.gain = entry.energy.total() - start_energy_ - supplied;
-  // Energy that is taken back leaves its rounding and step errors in the chain.
-  const double scale_now = std::max(scale(time), energyOfHolders(chain_, state)) +
-                           std::max(scale_.supplied, std::abs(supplied));
+  // A drive that has just begun has supplied less energy than it is going to.
+  const double scale_now =
+      std::max(scale(time, supplied) + pulled_depth_, energyOfHolders(chain_, state));
   entry.relative_gain = entry.gain / scale_now;
   if (options_.track_dissipation) entry.dissipated = dissipated;
   if (!chain_.isDissipative() && !changed_) entry.dissipated = 0.0;
@@ -156,7 +158,7 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
     // In a stiff transient, the dissipated energy can be wrong although the state is right.
     const double truth = computeEnergy(chain_, *reference->state()).total();
     const double error = std::abs(entry_.energy.total() - truth);
-    if (error <= kDriftThreshold * scale(time)) verdict.kind = VerdictKind::kOk;
+    if (error <= kDriftThreshold * largest_scale_) verdict.kind = VerdictKind::kOk;
   }
   const bool has_news = is_measuring || worst_.kind == VerdictKind::kOk;  // an end is said once
   if (verdict.kind == VerdictKind::kOk && has_news) verdict = positionVerdict(reference);
@@ -186,12 +188,11 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
 }
 
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
-  scale_.supplied = std::max(scale_.supplied, std::abs(supplied));
   entry_ = balanceOf(time, state, dissipated, supplied);
+  largest_scale_ = scale(time, supplied);
   const double spread = 2.0 * kPromise * options_.tolerance;  // m, of the length of a spring
-  const double tolerated =
-      static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness * spread * spread;
-  double allowance = tolerated > 0.0 ? tolerated / scale(time) : 0.0;
+  double allowance = static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness *
+                     spread * spread / largest_scale_;
   double residual = entry_.relative_residual.value_or(0.0);
   worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.

@@ -13,10 +13,10 @@
 //
 //     scale = max(E(0), 0) - E_min ,   E_min = -sum( W_i L_0 + W_i²/(2 k_s) )
 //
-// Forces count as weights. The largest supplied energy so far adds to the scale, which is at least the
-// energy of all springs stretched by a millionth of their length, and of the chain at the speed of a
-// holder. Without stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of
-// the mass M until time t, replaces the last term.
+// The scale is at least the energy of all springs stretched by a millionth of their length. Without
+// stiffness (k_s = 0) there is no minimum, and M g² t²/2, the energy of the free fall of the mass M until
+// time t, replaces the last term. |S| adds to the scale, which never becomes smaller. Only while they act,
+// forces count as weights, and the scale is at least the energy of the chain at the speed of a holder.
 #pragma once
 
 #include "simulation/reference_run.hpp"
@@ -74,7 +74,7 @@ class Judge {
   /// Returns the energy balance of a state; arguments as of `judge`.
   EnergyEntry balanceOf(double time, const State& state, double dissipated,
                         double supplied = 0.0) const;
-  double scale(double time) const;  ///< energy scale at a time in s, J; positive
+  double scale(double time, double supplied = 0.0) const;  ///< J, of a drive that has ended; positive
 
   const EnergyEntry& entry() const { return entry_; }  ///< of the last judged state
   const PositionError& positionError() const { return position_error_; }
@@ -86,13 +86,9 @@ class Judge {
   std::string toleranceRemark() const;  ///< as Run::toleranceRemark
 
  private:
-  /// The energy scale: a constant, J, a fall since `fall_time` s, J/s², and the largest supply, J.
-  struct Scale {
-    double constant = 0.0, fall = 0.0, fall_time = 0.0, supplied = 0.0;
-  };
   /// Returns the energy of a state, with the height of P_1 at the start as height 0 of all states.
   Energy energyOf(const State& state) const;
-  void widenScale(const State& start, double energy, double time);
+  void measureChain(const State& state, double energy, double time);
   void measure(const State& state, const ReferenceRun* reference);
   Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
   Verdict positionVerdict(const ReferenceRun* reference) const;
@@ -100,10 +96,13 @@ class Judge {
   Chain chain_;
   JudgeOptions options_;
   bool changed_ = false;
-  double start_energy_;           ///< J
-  double start_height_;           ///< of P_1, m
-  Scale scale_, moved_scale_;     ///< now, and before changes since which the chain has not moved
-  double method_time_;            ///< when the symplectic method began, s
+  double start_energy_;                  ///< J
+  double start_height_;                  ///< of P_1, m
+  double still_scale_ = 0.0;             ///< without fall and supplied energy, J
+  double fall_ = 0.0, fall_time_ = 0.0;  ///< J/s² since this time, s
+  double pulled_depth_ = 0.0;            ///< by which forces lower the energy at rest, J
+  double largest_scale_ = 0.0;           ///< at which the chain has moved, J
+  double method_time_;                   ///< when the symplectic method began, s
   Eigen::Array3d sums_{0, 0, 0};  ///< over its frames: relative gain, relative residual, one each
   double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.
