@@ -167,7 +167,7 @@ void checkMethod(const Method& method) {
   const auto refuse = [&](std::string_view what) {
     throw InputError(fmt::format("method '{}': {}", method.name, what));
   };
-  if (isSameName(method.name, "")) throw InputError("a method needs a name with a letter or a digit");
+  if (isSameName(method.name, "")) throw InputError("a method needs a name of letters or digits");
   for (const Method& known : methodTable()) {
     if (isSameName(known.name, method.name)) refuse("a method of this name exists");
   }

@@ -158,7 +158,7 @@ bool Run::integrate(std::int64_t steps) {
 
 bool Run::sleeps() {
   const bool was_asleep = asleep_;
-  asleep_ = isAtRest(chain_, state_, plan_.timeOfFrame(1), plan_.sleep);
+  asleep_ = isAtRest(chain_, state_, std::max(plan_.timeOfFrame(1), 1.0), plan_.sleep);
   if (was_asleep && !asleep_) {
     // The integrator keeps data from before the sleep. Its restart also clears the dissipated energy.
     dissipated_before_ += integrator_->dissipatedEnergy();

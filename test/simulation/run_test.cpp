@@ -206,7 +206,7 @@ TEST(Run, SkipsTheStepsOfAChainAtRestOnlyOnRequest) {
   EXPECT_NE(asleep.closingLine().find("(9 at rest, not integrated)"), std::string::npos);
 }
 
-// Measured: asleep in 2295 frames of 3000, 5.1e-7 m from where it would have gone.
+// Measured: asleep in 2248 frames of 3000, 3.8e-9 m from where it would have gone.
 TEST(Run, FallsAsleepCloseToWhereTheChainWouldHaveComeToRest) {
   Scenario scenario;
   scenario.frames = 3001;
@@ -215,7 +215,7 @@ TEST(Run, FallsAsleepCloseToWhereTheChainWouldHaveComeToRest) {
   test::ProgramRun run(scenario, hanging(0.5), {true});
   while (awake.advance() && run.advance()) {
   }
-  EXPECT_NEAR(static_cast<double>(run.integrator().forceEvaluations()), 40 * 705, 40 * 20);
+  EXPECT_NEAR(static_cast<double>(run.integrator().forceEvaluations()), 40 * 752, 40 * 20);
   EXPECT_LT((run.state().positions() - awake.state().positions()).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_NEAR(run.energyEntry().dissipated.value(), awake.energyEntry().dissipated.value(), 1e-6);
   EXPECT_EQ(run.verdict().kind, VerdictKind::kOk);
@@ -236,9 +236,9 @@ TEST(Run, SleepsOnlyWhereNothingMovesAndNothingTurns) {
   Scene moving = hanging(0.0);
   moving.state.vx()[2] = 2e-9;
   EXPECT_FALSE(sleeps(moving, 1e-9));
-  const Scene turning = hanging(1e-7);  // without speed: 50 N/m give 5e-7 m/s in 0.1 s
-  EXPECT_FALSE(sleeps(turning, 1e-9));
-  EXPECT_TRUE(sleeps(turning, 1e-6));
+  const Scene turning = hanging(1e-7);  // without speed: 50 N/m give 5e-6 m/s in 1 s
+  EXPECT_FALSE(sleeps(turning, 1e-6));
+  EXPECT_TRUE(sleeps(turning, 1e-5));
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
   const double allowed = Judge::kInaccurateThreshold * chainLength(chain, start);
   const double factor = std::pow(allowed / report.position_error, 1.0 / std::max(method.order, 1));
   double failed = kInfinity;
-  if (isBad(report.verdict->kind)) failed = plan.time_step;
+  if (plan.sleep == 0.0 && isBad(report.verdict->kind)) failed = plan.time_step;
   report.accurate_step = trials.largestStep(plan.time_step * (std::isnan(factor) ? 1.0 : factor),
                                             std::min(report.stable.step, durationOf(plan)),
                                             VerdictKind::kInaccurate, failed);

@@ -89,7 +89,7 @@ std::vector<Option> scenarioOptions(Scenario& s) {
       {"threads", Count{&s.threads, Range::atLeast(0)}, "",
        "largest number of threads; 0: one per processor core; results do not depend on it"},
       {"sleep", Number{&s.sleep, Range::atLeast(0)}, "m/s",
-       "do not integrate while all particles stay slower than this; 0: always integrate"},
+       "do not integrate if all particles stay slower than this for 1 s; 0: always integrate"},
   };
 }
 
