@@ -3,6 +3,7 @@ terminal, subscribers that stop, come and go, and long runs."""
 import contextlib
 import os
 import pty
+import resource
 import signal
 import socket
 import subprocess
@@ -18,7 +19,7 @@ from spring_pendulum.msg import PendulumState, PendulumStatus
 
 from fault_injection import INJECTION, check_faults
 from pendulum_process import (HORIZONTAL, SCENE, Folder, Listener, PendulumNode, case, connected, ended_node, pose,
-                              program, read_frames, run_exercise, running, wait_until, write)
+                              program, read_frames, run_exercise, running, service, wait_until, write)
 
 
 @contextlib.contextmanager
@@ -61,9 +62,8 @@ class Node(unittest.TestCase):
                     'http://127.0.0.1:65536', 'http://:1'):
             for source, variable, arguments in (('ROS_MASTER_URI', uri, []), ('__master', valid, ['__master:=' + uri])):
                 with case(variable=variable, arguments=arguments):
-                    self.assertEqual(
-                        self.fail_to_start({'ROS_MASTER_URI': variable}, arguments),
-                        (2, "%s: must be http://HOST:PORT, got '%s'\n" % (source, uri)))
+                    self.assertEqual(self.fail_to_start({'ROS_MASTER_URI': variable}, arguments),
+                                     (2, "%s: must be http://HOST:PORT, got '%s'\n" % (source, uri)))
 
     def test_a_master_that_is_lost_before_the_parameters_are_read_is_an_error(self):
         for lost in ('hasParam', 'getParam'):
@@ -126,11 +126,9 @@ class Node(unittest.TestCase):
                 if moved:
                     os.rename(folder + '/out', folder + '/moved')
                 subprocess.run(['rosnode', 'kill', '/pendulum'], check=True, stdout=subprocess.DEVNULL)
-                self.assertEqual(node.wait(), 1 if moved else 0, node.output())
-                if moved:
-                    self.assertIn('out: was moved or removed during the run', node.lines('FATAL')[0])
-                else:
-                    self.assertIn('verdict: ', node.lines('INFO')[-1])
+                node.ends(1 if moved else 0)
+                self.assertIn('out: was moved or removed during the run' if moved else 'verdict: ',
+                              node.output().splitlines()[-1])
 
     def test_a_thread_that_cannot_be_started_is_an_error(self):
         # The stack of a thread has the size of the limit, and this size exceeds the address space.
@@ -138,8 +136,7 @@ class Node(unittest.TestCase):
                 '(1 << 47, resource.RLIM_INFINITY)); os.execv(sys.argv[1], sys.argv[1:])'
         done = subprocess.run(['/usr/bin/python3', '-c', limit, program('pendulum_node')],
                               capture_output=True, text=True, timeout=60)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(done.stderr.count('\n'), 1, done.stderr)
+        self.assertEqual((done.returncode, done.stderr.count('\n')), (1, 1), done.stderr)
 
     def test_a_vanished_terminal_does_not_end_it(self):
         ours, other_end = pty.openpty()
@@ -164,16 +161,12 @@ def master(port):
         yield
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(('127.0.0.1', 0))
-        return probe.getsockname()[1]
-
-
 class Faults(unittest.TestCase):
 
     def test_the_master_dies_and_comes_back(self):
-        port = free_port()
+        with socket.socket() as probe:
+            probe.bind(('127.0.0.1', 0))
+            port = probe.getsockname()[1]
         with Folder() as folder, Folder() as expected_folder, \
                 PendulumNode(env={'ROS_MASTER_URI': 'http://127.0.0.1:%d/' % port},
                              arguments=['_particles:=' + HORIZONTAL, '_output:=' + folder, '_frames:=100000',
@@ -188,6 +181,15 @@ class Faults(unittest.TestCase):
             expected = run_exercise(expected_folder, 'Runge-Kutta-4', '--particles', HORIZONTAL, '--frames', len(frames))
             self.assertEqual(frames, expected)
 
+    def test_a_frame_that_a_service_cannot_write_ends_it(self):
+        state = Listener('state', PendulumState)
+        with Folder() as folder, PendulumNode(output=folder, frames=2, real_time_factor=0.02, at_end='hold') as node:
+            state.wait_for_any(lambda m: m.time > 0.0)
+            resource.prlimit(node.process.pid, resource.RLIMIT_FSIZE, (0, 0))
+            self.assertIn('File too large', service('pause')(True).message)
+            node.ends(1)
+        state.close()
+
     def test_a_subscriber_that_stops_does_not_stop_the_node_or_make_it_grow(self):
         with Folder() as folder:
             scene = write(folder + '/chain.txt', ''.join('%d 0 1\n' % i for i in range(2000)))
@@ -199,10 +201,8 @@ class Faults(unittest.TestCase):
                 listener.send_signal(signal.SIGSTOP)
                 largest = start = node.resident_bytes()
                 while node.process.poll() is None:
-                    try:
+                    with contextlib.suppress(FileNotFoundError, AttributeError):
                         largest = max(largest, node.resident_bytes())
-                    except (FileNotFoundError, AttributeError):
-                        break
                     time.sleep(0.05)
                 # 3000 messages of 98 kB would be 290 MB; the queue holds 64 MB of them.
                 self.assertLess(largest - start, 120e6)

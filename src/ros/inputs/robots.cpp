@@ -132,8 +132,7 @@ void Robots::lookUp(Robot& robot, double now) {
 void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_msgs::Point& point,
                   const std::optional<tf2::Vector3>& velocity, double now) {
   const tf2::Vector3 at = frame.transform * tf2::Vector3(point.x, point.y, point.z);
-  const tf2::Vector3 speed =
-      frame.transform.getBasis() * velocity.value_or(tf2::Vector3(0.0, 0.0, 0.0));
+  const tf2::Vector3 speed = frame.transform.getBasis() * velocity.value_or(tf2::Vector3(0, 0, 0));
   const bool accepted = robot.follower.take({{at.x(), at.z()}, {speed.x(), speed.z()}, {}},
                                             velocity.has_value(), frame.stamp, now);
   if (accepted && !robot.warned && !(std::abs(at.y()) <= kOutOfPlane)) {

@@ -56,9 +56,7 @@ PendulumStatus statusOf(const Run& run, bool paused) {
   if (!run.isShown()) {
     status.code = PendulumStatus::DIVERGED;
     status.text = verdict.text;
-    return status;
-  }
-  if (run.isOver()) {
+  } else if (run.isOver()) {
     status.code = PendulumStatus::FINISHED;
     status.text = fmt::format("finished: {}, {:.6g} s, {}", counted(run.frame() + 1, "frame"),
                               run.time(), run.measurements());
@@ -70,7 +68,7 @@ PendulumStatus statusOf(const Run& run, bool paused) {
     status.text = fmt::format("running, {} to t = {:.6g} s", counted(run.plan().frames, "frame"),
                               run.plan().timeOfFrame(run.plan().frames - 1));
   }
-  status.text += ", verdict: " + verdict.text;
+  if (run.isShown()) status.text += ", verdict: " + verdict.text;
   return status;
 }
 
@@ -139,9 +137,8 @@ void RunMessages::draw(const Run& run, const std_msgs::Header& header, bool same
   const Picture picture{run, options_, view_, drawn_};
   // The other chains keep to the view of the first one.
   if (run.isFinite() && run.isShown() && options_.text_row <= 1 && !same_camera &&
-      view_.widenFor(run.state())) {
+      view_.widenFor(run.state()))
     camera_moved_ = !options_.camera_frame.empty();
-  }
   for (std::size_t i = 0; i < markers_.markers.size(); ++i) {
     Marker& marker = markers_.markers[i];
     marker.header = header;

@@ -12,7 +12,6 @@
 #include <ros/ros.h>
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
 namespace spring_pendulum {
@@ -139,6 +138,7 @@ void Node::callBack(double wait) {
   } catch (const std::exception& error) {  // of interactive_markers, if the clock is beyond 2^31 s
     if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }
+  if (failure_) std::rethrow_exception(failure_);  // a service told it to its caller only
 }
 
 double Node::nextTime() const {
@@ -188,7 +188,12 @@ void Node::keepFrame() {
   if (!run_.isAtFrame() || !run_.isShown() || !run_.isFinite()) return;
   last_frame_ = run_.state();
   last_frame_number_ = run_.frame();
-  files_.write(run_);
+  try {
+    files_.write(run_);
+  } catch (const FileError&) {
+    failure_ = std::current_exception();
+    throw;
+  }
 }
 
 void Node::finishState() {
@@ -228,18 +233,15 @@ void Node::logChanges() {
   const std::string& method = run_.plan().method.get().name;
   if (verdict.kind > logged_.verdict) {
     logged_.verdict = verdict.kind;
-    if (verdict.kind == VerdictKind::kDiverged) {
+    if (verdict.kind == VerdictKind::kDiverged)
       ROS_ERROR_STREAM(method << ": " << outcomeOf(run_, interruption).lines.front()
                               << (run_.isChanged() ? "; call ~reset to start again" : ""));
-    } else if (verdict.kind != VerdictKind::kNotChecked) {
+    else if (verdict.kind != VerdictKind::kNotChecked)
       ROS_WARN_STREAM(method << ": " << verdict.text);
-    }
   }
-  if (std::string remark = run_.toleranceRemark();
-      remark.size() > logged_.tolerance_remark.size()) {
-    ROS_WARN_STREAM(method << ": " << remark);
-    logged_.tolerance_remark = std::move(remark);
-  }
+  const std::string remark = run_.toleranceRemark();
+  if (remark.size() > logged_.tolerance_remark.size()) ROS_WARN_STREAM(method << ": " << remark);
+  logged_.tolerance_remark = remark;
   if (!run_.isOver() || logged_.frames != 0) return;
   logged_.frames = run_.shownFrames();
   ROS_INFO_STREAM(closingLine());

@@ -10,6 +10,7 @@
 #include "ros/parameters/node_options.hpp"
 #include <spring_pendulum/io/run_files.hpp>
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,7 @@ class Node {
   Throttle refusals_;
   State last_frame_;  ///< for SaveState; empty before the run has started
   std::int64_t last_frame_number_ = 0;
+  std::exception_ptr failure_;  ///< of writing a frame; ends the node
 };
 
 }  // namespace spring_pendulum
