@@ -102,8 +102,9 @@ class Judge {
   double fall_ = 0.0, fall_time_ = 0.0;  ///< J/s² since this time, s
   double pulled_depth_ = 0.0;            ///< by which forces lower the energy at rest, J
   double largest_scale_ = 0.0;           ///< at which the chain has moved, J
-  double method_time_;                   ///< when the symplectic method began, s
-  Eigen::Array3d sums_{0, 0, 0};  ///< over its frames: relative gain, relative residual, one each
+  double mean_time_;                     ///< since when the mean is judged, s
+  Eigen::Array3d sums_{0, 0, 0};  ///< since then: relative gain, relative residual, one each frame
+  double excused_ = 0.0;          ///< residual of a state that the reference confirms, J
   double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.
   double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance

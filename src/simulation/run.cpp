@@ -178,10 +178,6 @@ void Run::judgeFrame(double work) {
   judge_->judge(time(), state_, dissipated_, reference_.get(), supplied_);
 }
 
-void Run::reset() {
-  goTo(first_frame_, start_);
-}
-
 void Run::goTo(std::int64_t frame, const State& state) {
   begin(frame, state);
   changed_ = frame != first_frame_ || state.values() != start_.values();

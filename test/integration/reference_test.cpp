@@ -65,8 +65,7 @@ TEST(Euler, LosesHorizontal11WithinFiftySeconds) {
 double slope(Integrator& integrator, const std::string& name, int seconds, int steps_per_second) {
   const Scene scene = referenceScene(name);
   const double coarse = errorAfter(integrator, scene, name, seconds, steps_per_second);
-  const double fine = errorAfter(integrator, scene, name, seconds, 2 * steps_per_second);
-  return std::log2(coarse / fine);
+  return std::log2(coarse / errorAfter(integrator, scene, name, seconds, 2 * steps_per_second));
 }
 
 /// Steps per second that are enough to show the order when the step is halved.

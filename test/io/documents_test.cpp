@@ -20,8 +20,7 @@ namespace {
 std::vector<std::string> tableRows(const std::string& path, const std::string& header) {
   std::ifstream file(PROJECT_DIR "/" + path);
   std::string line;
-  while (std::getline(file, line) && line.rfind(header, 0) != 0) {
-  }
+  while (std::getline(file, line) && line.rfind(header, 0) != 0) continue;
   std::getline(file, line);  // the line below the header
   std::vector<std::string> rows;
   while (std::getline(file, line) && line.rfind('|', 0) == 0) rows.push_back(line);

@@ -119,14 +119,12 @@ TEST(Run, EndsWhereTheMotionDiverges) {
   scenario.frames = 500;
   const Scene particles = readParticleFile(PROJECT_DIR "/data/horizontal_11.txt");
   test::ProgramRun run(scenario, particles, {false, 0.0});
-  while (run.advance()) {
-  }
+  while (run.advance()) continue;
   EXPECT_FALSE(run.isShown());
   EXPECT_LT(run.frame(), 499);
   scenario.on_divergence = OnDivergence::kContinue;
   test::ProgramRun continued(scenario, particles, {false, 0.0});
-  while (continued.advance()) {
-  }
+  while (continued.advance()) continue;
   EXPECT_GT(continued.frame(), run.frame());
   EXPECT_EQ(continued.verdict().kind, VerdictKind::kDiverged);
   const std::string text = continued.measurements();  // also of frames after the divergence
@@ -199,8 +197,7 @@ TEST(Run, SkipsTheStepsOfAChainAtRestOnlyOnRequest) {
   EXPECT_EQ(awake.integrator().forceEvaluations(), 40);
   scenario.sleep = 1e-9;
   test::ProgramRun asleep(scenario, hanging(0.0));
-  while (asleep.advance()) {
-  }
+  while (asleep.advance()) continue;
   EXPECT_EQ(asleep.integrator().forceEvaluations(), 0);
   EXPECT_TRUE(asleep.state().values() == asleep.start().values());
   EXPECT_NE(asleep.closingLine().find("(9 at rest, not integrated)"), std::string::npos);
@@ -213,8 +210,7 @@ TEST(Run, FallsAsleepCloseToWhereTheChainWouldHaveComeToRest) {
   test::ProgramRun awake(scenario, hanging(0.5), {true});
   scenario.sleep = 1e-6;
   test::ProgramRun run(scenario, hanging(0.5), {true});
-  while (awake.advance() && run.advance()) {
-  }
+  while (awake.advance() && run.advance()) continue;
   EXPECT_NEAR(static_cast<double>(run.integrator().forceEvaluations()), 40 * 752, 40 * 20);
   EXPECT_LT((run.state().positions() - awake.state().positions()).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_NEAR(run.energyEntry().dissipated.value(), awake.energyEntry().dissipated.value(), 1e-6);

@@ -28,8 +28,7 @@ class ProgramRun : public Run {
 
   /// Advances to the first frame at or after `seconds`, or to the end of the run.
   void advanceTo(double seconds) {
-    while (time() < seconds - 1e-9 && advance()) {
-    }
+    while (time() < seconds - 1e-9 && advance()) continue;
   }
   void reset() {
     Run::reset();

@@ -62,7 +62,7 @@ class Run {
 
   /// Returns to the start, as before the first call of `advance`, and discards the verdict. The closing
   /// line counts the work of all rounds. Changed constants and the drive stay.
-  void reset();
+  void reset() { goTo(first_frame_, start_); }
 
   /// Goes to a frame and a state at it, as if the run had started there: energies, errors and verdict
   /// are relative to it until a reset. Changed constants and the drive stay.

@@ -80,9 +80,8 @@ double stepForMode(const Method& method, double frequency, double damping, doubl
 
 double growthPerStep(const Method& method, double swing, double decay) {
   if (method.tableau == nullptr && method.hasFixedStep() &&
-      std::isfinite(method.imaginary_stability_limit) && method.imaginary_stability_limit > 0.0) {
+      std::isfinite(method.imaginary_stability_limit) && method.imaginary_stability_limit > 0.0)
     return growthFromLimits(method, swing, decay);
-  }
   const double center = -0.5 * decay;
   const double discriminant = center * center - swing * swing;
   const double radius = std::sqrt(std::abs(discriminant));

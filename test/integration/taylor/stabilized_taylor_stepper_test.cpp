@@ -64,9 +64,8 @@ TEST(StabilizedPolynomials, ErrorEstimatesKeepClearOfFastModes) {
     for (const StabilizedPolynomial& p : stabilizedPolynomials(order)) {
       EXPECT_EQ(p.errorWeight(order - 1), 0.0);
       EXPECT_EQ(p.errorWeight(order), first) << p.terms;
-      for (double x = 0.0; x < p.real_stability_limit; x += 0.01) {
+      for (double x = 0.0; x < p.real_stability_limit; x += 0.01)
         ASSERT_LT(estimatedError(p, -x), 1.2) << p.terms << " " << x;  // 1.10
-      }
     }
   }
 }
