@@ -125,10 +125,9 @@ int runCommandLine(int argc, const char* const* argv) {
   TouchedFiles touched{{scenario.particles, switches.config, tableau}, {}, ""};
   for (const std::string& folder : switches.folders) {
     std::error_code ignored;  // reported when the frames are read
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-      const std::string name = entry.path().filename();
-      if (name.rfind("frame_", 0) == 0) touched.inputs.push_back(entry.path());
-    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (entry.path().filename().string().rfind("frame_", 0) == 0)
+        touched.inputs.push_back(entry.path());
   }
   checkTouchedFiles(touched);  // the report must not be appended to a frame
   return checkAll(scenario, is_given, switches.folders);

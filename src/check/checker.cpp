@@ -147,12 +147,11 @@ class Checker {
 
   /// Tries all mistakes from `first` on, or wrong numbers, besides those that a program has.
   void tryChanges(const StudentProgram& base, std::size_t first, bool numbers) {
-    for (const Constant& constant : fittedConstants()) {
-      for (const double factor : {1.0, 0.1, 10.0, -1.0}) {
-        if (!numbers || search_limit_.isOver() || fit(base, constant, factor)) break;
-        if (!base.mistakes.empty()) break;
-      }
-    }
+    for (const Constant& constant : fittedConstants())
+      for (const double factor : {1.0, 0.1, 10.0, -1.0})
+        if (!numbers || search_limit_.isOver() || fit(base, constant, factor) ||
+            !base.mistakes.empty())
+          break;
     for (std::size_t i = first; i < table_.size() && !numbers && !search_limit_.isOver(); ++i)
       if (base.canMake(table_[i])) explains(base.with(table_[i]));
   }
@@ -162,15 +161,18 @@ class Checker {
     return compare(frames_, make, limit);
   }
 
-  bool isExplanation(const Agreement& agreement) const {
-    return agreement.complete && agreement.frames > known_frames_ && !search_limit_.isOver();
+  /// Rounding errors as large as the departure would explain any. Those of float may be as large.
+  bool isExplanation(const StudentProgram& program, const Agreement& agreement) const {
+    return agreement.complete && agreement.frames > known_frames_ && !search_limit_.isOver() &&
+           (program.single_precision ||
+            !(agreement.roundings[known_frames_] > 0.1 * departure_->distance));
   }
 
   bool explains(StudentProgram program) {
     const Agreement agreement = agreementWith(program, search_limit_);
     program.last_frame = agreement.last_frame;
-    if (isExplanation(agreement)) found_.push_back(program);
-    return isExplanation(agreement);
+    if (isExplanation(program, agreement)) found_.push_back(program);
+    return isExplanation(program, agreement);
   }
 
   /// Fits a constant to a frame: the secant method for least squares.
@@ -225,7 +227,7 @@ class Checker {
       if (!agreement.complete) agreement = round(6);  // a student writes few digits
       if (!agreement.complete && agreement.frames <= before) return false;
     }
-    if (!isExplanation(agreement)) return false;
+    if (!isExplanation(program, agreement)) return false;
     program.last_frame = round(kMostDigits).last_frame;
     const double scale = right == 0.0 ? 1.0 : std::abs(right);
     if (std::abs(value - right) <= kSmallestMistake * scale) return false;
@@ -240,9 +242,9 @@ class Checker {
   /// "Euler or Auto: all 500 frames in the 6 digits printed"
   std::string methodsText() const {
     const auto count = static_cast<std::int64_t>(frames_.frames.size());
-    const bool has_all = last_frame_ == frames_.frames.back().index;
-    const std::string which =
-        has_all ? "all " + counted(count, "frame") : fmt::format("frames up to {}", last_frame_);
+    const std::string which = last_frame_ == frames_.frames.back().index
+                                  ? "all " + counted(count, "frame")
+                                  : fmt::format("frames up to {}", last_frame_);
     return fmt::format("{}: {} in the {} printed", fmt::join(methods_, " or "), which,
                        counted(frames_.digits, "digit"));
   }

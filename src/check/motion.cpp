@@ -136,9 +136,8 @@ class ProgramMotion : public Motion {
     const double step = program_.time_step;
     StudentMove move{state_.col(i), slopes_[0].col(i), state_.col(i) + step * change,
                      step,          sum * step,        ends_step};
-    if (particles_[static_cast<std::size_t>(i)].moves) {
+    if (particles_[static_cast<std::size_t>(i)].moves)
       for (const auto change_move : program_.moves) change_move(move);
-    }
     return move.result;
   }
 
@@ -243,8 +242,7 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
 
 Motion::Motion(const Plan& plan, const Scene& particles)
     : plan_(plan), frame_(particles.frame), state_(particles.state.values().transpose().array()) {
-  constexpr double kPrecisionOfSolvers = 1e-9;  // at which students end an iteration
-  if (kindOf(plan.method) == StudentProgram::kImplicit) precision_ = kPrecisionOfSolvers;
+  if (kindOf(plan.method) == StudentProgram::kImplicit) precision_ = 1e-9;  // of iterations
 }
 
 void Motion::disturb(std::mt19937& random, bool off_line) {
@@ -281,8 +279,7 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
   const std::array companions{make(), make()};
   for (const auto& companion : companions) companion->disturb(random, off_line);
   Agreement agreement;
-  double rounding = 0.0;  // m
-  double scale = 0.0;     // largest coordinate, m
+  double rounding = 0.0, scale = 0.0;  // m: errors, and the largest coordinate
   std::int64_t index = frames.start;
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver() || !motion->advanceTo(index, limit)) break;
@@ -305,6 +302,7 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
       return compare(frames, make, limit, true);
     if (agreement.departure) return agreement;
     ++agreement.frames;
+    agreement.roundings.push_back(rounding);
     agreement.last_frame = index;
     ++frame;
   }

@@ -213,6 +213,7 @@ struct Departure {
 
 struct Agreement {
   std::size_t frames = 0;              ///< leading frames that agree
+  std::vector<double> roundings;       ///< rounding errors in each of these, m
   bool complete = false;               ///< whether all frames that could be compared agree
   std::optional<Departure> departure;  ///< in a later frame
   std::int64_t last_frame = -1;        ///< index of the last frame that agrees
