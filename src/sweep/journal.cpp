@@ -77,8 +77,7 @@ std::string Journal::lineOf(std::string_view row) const {
 
 bool Journal::lock() {
   // Where a file system has no locks, appending one line is still one call.
-  while (::flock(file_.get(), LOCK_EX) != 0 && errno == EINTR) {
-  }
+  while (::flock(file_.get(), LOCK_EX) != 0 && errno == EINTR) continue;
   struct stat named {};
   struct stat opened {};
   return ::stat(path_.c_str(), &named) == 0 && ::fstat(file_.get(), &opened) == 0 &&

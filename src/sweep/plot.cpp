@@ -39,8 +39,7 @@ int drawPlot(const Study& study, const std::string& table, const std::string& pi
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ::posix_spawn_file_actions_destroy(&actions);
   if (status != 0) throw FileError("--plot: could not run " + arguments[0]);
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

@@ -194,7 +194,7 @@ std::string randomStudy(std::mt19937& generator) {
       pick({"0", "0", "0.5"}),
       pick({"duration: 2.3", "frames: 500", "frames: 500, on_divergence: continue"}),
       pick({"reference: always", "reference: always", "reference: never", "gravity: 20",
-            "air_drag: 0.1", "sleep: 1e-3", "start: at_rest"}),
+            "air_drag: 0.1", "sleep: 1e-3", "gravity: -1"}),
       pick({"Euler, Auto", "Runge-Kutta-4, Taylor-8", "Auto, Radau-9",
             "Velocity-Verlet, Dormand-Prince-5", "Backward-Euler, Taylor-12",
             "Runge-Kutta-2, Stabilized-Taylor-4"}),

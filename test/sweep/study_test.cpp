@@ -160,8 +160,8 @@ TEST(Study, BadInputIsFoundBeforeTheFirstCase) {
       {"base: {method: Auto}\naxes: {tolerance: [1e-6, 1e-30]}\n", "case 1: tolerance: must be at"},
       {"axes: {mass_factor: [1, 1e308]}\n", "case 1: particle 3: mass must be positive and finite"},
       {"axes: {gravity: [1, 1e308]}\n", "case 1: the initial energy exceeds"},
+      {"base: {start: at_rest}\nrandom: {samples: 1, velocity: {normal: [0, 1]}}\n", "start: at"},
       {"base: {duration: 1}\naxes: {time_step: [0.1, 0.3]}\n", "case 1: time_step: whole steps"},
-      {"base: {time_step: 0.3}\naxes: {duration: [0.9, 1]}\n", "case 1: time_step: whole steps"},
   };
   const TemporaryFolder folder;
   for (const auto& [text, message] : bad) {

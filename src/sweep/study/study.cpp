@@ -51,11 +51,10 @@ void setFrames(Settings& settings) {
   double frames = partsOf(duration, scenario.frame_interval);
   if (scenario.method.get().hasFixedStep()) {
     const double fitted = fittedTimeStep(settings, scenario.time_step);
-    if (fitted != scenario.time_step) {
+    if (fitted != scenario.time_step)
       throw InputError(
           fmt::format("time_step: whole steps must end at the duration, {} s, got {} s; try {}",
                       numberText(duration), numberText(scenario.time_step), numberText(fitted)));
-    }
     const double steps = std::round(duration / fitted);
     double per_frame = std::floor(scenario.frame_interval / fitted + 1e-9);
     per_frame = std::clamp(per_frame, 1.0, std::min(steps, kMostStepsPerFrame));
@@ -73,6 +72,9 @@ void setFrames(Settings& settings) {
 void setParticles(const Study& study, Case& made) {
   made.particles = study.particles.at(made.settings.scenario.particles);
   if (!study.changesParticles(made.settings)) return;
+  if (made.settings.scenario.start == Start::kAtRest &&
+      (study.displacement.is_given || study.velocity.is_given))
+    throw InputError("start: at_rest takes nothing from random displacement or velocity");
   State& state = made.particles.state;
   for (Eigen::Index i = 1; i < state.size(); ++i) {  // the mass of the fixed particle is not used
     const auto numbers_of = [&](std::uint32_t quantity) {

@@ -157,9 +157,8 @@ class StudyReader {
     if (static_cast<double>(study_.cases()) > kMostCases)
       refuse(tree_, "study", "there are more than 1e9 cases");
     if (options_.isGiven("duration") &&
-        (options_.isGiven("frames") || options_.isGiven("steps_per_frame"))) {
+        (options_.isGiven("frames") || options_.isGiven("steps_per_frame")))
       throw InputError(tree_.place + ": duration sets frames and steps_per_frame; leave them out");
-    }
     refuseUnused();
     return std::move(study_);
   }
@@ -172,7 +171,7 @@ class StudyReader {
         setOption(value, options_.find(key, value.place, "key"), options_);
     }
     const YamlTree* const axes = tree_.find("axes");
-    if (axes == nullptr || axes->find("particles") == nullptr) load(tree_);
+    if (axes == nullptr || axes->find("particles") == nullptr) load();
     study_.base = settings_;
   }
 
@@ -186,7 +185,7 @@ class StudyReader {
       Axis axis{key, std::string(option.unit), {}};
       for (const auto& [unnamed, one] : valuesOf(value, option, study_.base)) {
         setOption(one, option, options_);
-        if (key == "particles") load(one);
+        if (key == "particles") load();
         axis.values.push_back(option.text());
       }
       axis.is_joined = isJoined(value, axis);
@@ -269,7 +268,7 @@ class StudyReader {
   }
 
   /// Reads the particle file of the settings, whose path is relative to the study.
-  void load(const YamlTree& tree) {
+  void load() {
     std::string& path = settings_.scenario.particles;
     const std::filesystem::path full = folder_ / path, normal = full.lexically_normal();
     std::error_code ignored;  // after a symbolic link, ".." leads elsewhere
@@ -281,7 +280,8 @@ class StudyReader {
       study_.hash = hashOf(readTextFile(path) + '\0', study_.hash);
       study_.particles.emplace(path, readParticleFile(path));
     } catch (const FileError& error) {
-      throw FileError(fmt::format("{}: particles: {}", tree.place, error.what()));
+      const std::string given = options_.placeOf("particles");
+      throw FileError((given.empty() ? tree_.place + ": particles" : given) + ": " + error.what());
     }
   }
 
