@@ -103,8 +103,7 @@ std::string topicPrefix(const std::string& name_space) {
 
 /// Records until the end of the run or a signal, also the status of a run that diverged.
 void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files) {
-  bool goes_on = true;
-  while (goes_on) {
+  for (bool goes_on = true; goes_on;) {
     goes_on = run.advancePart();
     if (goes_on) {
       recorder.write(run);
@@ -172,8 +171,7 @@ std::string recordBag(Run& run, const Scenario& scenario, Replay* replay,
     std::string reason = is_io ? "could not be written: " + messageForErrno() : error.what();
     if (is_io && has_earlier && errno == 0)
       reason = "is not a complete bag, so nothing can be appended to it";
-    static_cast<void>(
-        bag.release());  // its destructor would close again and throw, which ends the program
+    static_cast<void>(bag.release());  // its destructor would throw, which ends the program
     throw FileError(fmt::format("{}: {}", file.path(), reason));
   } catch (...) {
     static_cast<void>(bag.release());
@@ -199,10 +197,8 @@ int record(int argc, const char* const* argv) {
   options.add(displayOptions(display));
   options.add(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
-  if (!switches.answer.empty()) {
-    printOutput(switches.answer);
-    return kDone;
-  }
+  printOutput(switches.answer);
+  if (!switches.answer.empty()) return kDone;
   if (!options.isGiven("output")) scenario.no_frames = true;
   checkNodeOptions(display);
   bag.config = switches.config;

@@ -21,6 +21,7 @@ constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
 constexpr double kShortWait = 0.002;        // s, for tf, or for recorders between parts of a step
 constexpr double kLongFrame = 1.0;          // s, whose states are never left out
+constexpr double kLongestGap = 0.1;         // s, between the states of a run that is late
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
 constexpr double kLongestSending = 10.0;    // s, at the end, for subscribers that are slower
 constexpr double kSettling = 1.0 / 30.0;    // s, of a particle that follows its target
@@ -206,9 +207,12 @@ void Node::finishState() {
 }
 
 void Node::show() {
-  show_at_ = ros::SteadyTime::now() + ros::WallDuration(kShowAgainInterval);
-  const bool is_due = rests() || run_.isOver() || pacer_.isShown(run_.time());
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  show_at_ = now + ros::WallDuration(kShowAgainInterval);
+  const bool is_left_out = pacer_.isLate(run_.time(), now) && (now - shown_).toSec() < kLongestGap;
+  const bool is_due = (pacer_.isShown(run_.time()) && !is_left_out) || rests() || run_.isOver();
   const auto header = publisher_.publish(run_, {rests(), is_due, handles_.isDragging()});
+  if (header) shown_ = now;
   if (header && run_.isFinite()) {
     handles_.show();
     robots_.show(*header);
