@@ -13,7 +13,10 @@ bag=$1; shift
 [[ $bag = *.bag ]] || bag+=.bag
 bag=$(realpath -m "$bag")  # of a symbolic link, the file it leads to
 topics=()
-for argument in "$@"; do [[ $argument = __* ]] || topics+=("$argument"); done
+for argument in "$@"; do
+  [[ $argument = [/-]* ]] || argument=$(tr -s / <<< "/${ROS_NAMESPACE-}/$argument")  # rosbag writes names as they are
+  [[ $argument = */__* ]] || topics+=("$argument")
+done
 
 fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$bag" "$1" >&2; exit 1; }
 mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be created"

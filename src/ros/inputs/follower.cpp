@@ -156,8 +156,9 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
     left_ = 0.0;
   } else if (left_ == 0.0 && distance > kLost) {
     left_ = now;
+    if (now > expected_ || std::isinf(expected_))  // two inputs in turn would warn all the time
+      warn_(name_ + fmt::format(": the particle comes to it from {:.3g} m away", distance));
     expected_ = now + 2.0 * distance / kApproachSpeed + 1.0;
-    warn_(name_ + fmt::format(": the particle comes to it from {:.3g} m away", distance));
   } else if (left_ != 0.0 && now > expected_) {
     expected_ = std::numeric_limits<double>::infinity();
     warn_(name_ + fmt::format(" has not been met for {:.3g} s: the particle is {:.3g} m away",

@@ -60,6 +60,7 @@ std::vector<ros::ServiceServer> Node::advertiseServices() {
   using std_srvs::Trigger;
   ros::NodeHandle node("~");
   const RequestHandler take = [this](const Request& request) { return this->take(request); };
+  const auto method = [](auto& call) { return SetConstant{"method", call.method}; };
   const auto constant = [](Set::Request& call) {
     if (call.name == "method") throw InputError("method: give its name to ~set_method");
     return SetConstant{call.name, numberText(call.value)};
@@ -75,10 +76,7 @@ std::vector<ros::ServiceServer> Node::advertiseServices() {
       service<Trigger>(node, "step", take, [](auto&) { return Step{}; }),
       service<Trigger>(node, "reset", take, [](auto&) { return Reset{}; }),
       service<Set>(node, "set", take, constant),
-      service<SetMethod>(node, "set_method", take,
-                         [](auto& call) {
-                           return SetConstant{"method", call.method};
-                         }),
+      service<SetMethod>(node, "set_method", take, method),
       service<ApplyForce>(node, "apply_force", take, force),
       service<Trigger>(node, "clear_forces", take, [](auto&) { return ClearForces{}; }),
       service<Trigger>(node, "at_rest", take, [](auto&) { return ComeToRest{}; }),
