@@ -219,6 +219,7 @@ def save(figure, picture):
     # Whole or absent, as all outputs, and where a link leads to.
     picture = os.path.realpath(picture)
     unfinished = picture + '.unfinished'
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGHUP, signal.SIGINT, signal.SIGTERM])  # until this program ends
     try:
         figure.savefig(unfinished, format='png', dpi=100)
         os.replace(unfinished, picture)
