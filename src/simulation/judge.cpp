@@ -69,7 +69,7 @@ double Judge::change(const Chain& chain, const State& before, const State& after
                      const JudgeOptions& options, double supplied, bool has_moved) {
   const double energy_before = energyOf(before).total();
   if (options.tolerance != options_.tolerance) sensitive_time_ = exceeded_time_ = 0.0;
-  if (options.symplectic_step != options_.symplectic_step ||
+  if (!changed_ || options.symplectic_step != options_.symplectic_step ||
       !(chain.constants() == chain_.constants())) {
     mean_time_ = entry_.time;
     sums_.setZero();

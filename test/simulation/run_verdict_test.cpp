@@ -49,7 +49,6 @@ TEST(Run, RungeKutta4IsOk) {
   EXPECT_EQ(run.verdict().kind, VerdictKind::kOk);
   EXPECT_NEAR(run.positionError().largest, 3.9e-3, 1e-4);
   EXPECT_LT(run.positionError().uncertainty, 1e-8);
-  EXPECT_THAT(run.measurements(), HasSubstr("largest energy error "));
 }
 
 TEST(Run, SaysUntilWhenItMeasured) {
@@ -109,11 +108,13 @@ TEST(Run, TheMeanEnergyOfASymplecticMethodIsThatSinceTheLastChange) {
 TEST(Run, AWrongDissipatedEnergyIsNoDriftAfterAChangeEither) {
   test::Scene scene = test::horizontalChain("transient", 3, 1.0, {50.0, 50.0, 1.0});
   scene.start.vx() << 0.0, 3.0, -3.0;
-  test::ProgramRun run = runAfter(scenarioOf("Runge-Kutta-4"), scene, 1.0);
-  EXPECT_GT(run.largestEnergyError(), 0.03);
-  run.change(run.plan(), run.chain().constants(), {{}, {{2, {1e-3, 0.0}}}}, run.state());
-  run.advanceTo(9.0);
-  EXPECT_EQ(run.verdict().kind, VerdictKind::kNotChecked) << run.verdict().text;
+  for (const char* method : {"Runge-Kutta-4", "Velocity-Verlet"}) {
+    test::ProgramRun run = runAfter(scenarioOf(method), scene, 1.0);
+    EXPECT_GT(run.largestEnergyError(), 0.03);
+    run.change(run.plan(), run.chain().constants(), {{}, {{2, {1e-3, 0.0}}}}, run.state());
+    run.advanceTo(9.0);
+    EXPECT_EQ(run.verdict().kind, VerdictKind::kNotChecked) << run.verdict().text;
+  }
 }
 
 // A position error of 5e-6 m, far below the tolerance, holds 4 % of the energy of this scene.
