@@ -22,8 +22,7 @@ namespace {
 
 using namespace py::literals;
 
-/// Numbers of a frame, as `recordNumbers` writes them.
-constexpr py::ssize_t kFrameNumbers = 9;
+constexpr py::ssize_t kFrameNumbers = 9;  ///< as `recordNumbers` writes them
 
 /// Unlike a program, Python writes frame files only if asked.
 Scenario pythonDefaults() {

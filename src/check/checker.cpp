@@ -161,11 +161,12 @@ class Checker {
     return compare(frames_, make, limit);
   }
 
-  /// Rounding errors as large as the departure would explain any. Those of float may be as large.
+  /// Visible rounding errors as large as the departure would explain any. Those of float may be.
   bool isExplanation(const StudentProgram& program, const Agreement& agreement) const {
+    const double visible = 1e-6 * frames_.frames[known_frames_].positions.abs().maxCoeff();
     return agreement.complete && agreement.frames > known_frames_ && !search_limit_.isOver() &&
            (program.single_precision ||
-            !(agreement.roundings[known_frames_] > 0.1 * departure_->distance));
+            !(agreement.roundings[known_frames_] > std::max(0.1 * departure_->distance, visible)));
   }
 
   bool explains(StudentProgram program) {
@@ -177,7 +178,6 @@ class Checker {
 
   /// Fits a constant to a frame: the secant method for least squares.
   void improve(StudentProgram& program, const Constant& constant, const FrameNumbers& frame) {
-    constexpr int kMostSteps = 12;
     constexpr double kFirstChange = 1e-4;
     constexpr double kRounding = 1e-12;  // relative; weighs tiny numbers with many digits less
     const auto differences = [&]() -> Eigen::ArrayX2d {
@@ -189,7 +189,7 @@ class Checker {
     double& value = constant.in(program);
     double change = value == 0.0 ? kFirstChange : kFirstChange * value;
     Eigen::ArrayX2d old = differences();
-    for (int i = 0; i < kMostSteps && !search_limit_.isOver(); ++i) {
+    for (int i = 0; i < 12 && !search_limit_.isOver(); ++i) {
       value += change;
       const Eigen::ArrayX2d now = differences();
       const Eigen::ArrayX2d slope = (now - old) / change;

@@ -168,9 +168,8 @@ void checkMethod(const Method& method) {
     throw InputError(fmt::format("method '{}': {}", method.name, what));
   };
   if (isSameName(method.name, "")) throw InputError("a method needs a name of letters or digits");
-  for (const Method& known : methodTable()) {
+  for (const Method& known : methodTable())
     if (isSameName(known.name, method.name)) refuse("a method of this name exists");
-  }
   if (method.order < 1) refuse("order must be at least 1");
   if (method.stages < 1) refuse("stages must be at least 1");
   if (!(method.bytes_per_particle >= 0.0)) refuse("bytes_per_particle must be at least 0");
@@ -230,12 +229,10 @@ std::string knownMethodNames() {
 }
 
 const Method& findMethod(std::string_view name) {
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     if (method.name == name) return method;
-  }
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     if (isSameName(method.name, name)) return method;
-  }
   std::string meant;
   for (const auto& other : kOtherNames) {
     if (!isSameName(other.first, name)) continue;
@@ -248,14 +245,11 @@ const Method& findMethod(std::string_view name) {
 std::unique_ptr<Integrator> makeIntegrator(const Method& method, const Chain& chain,
                                            const IntegratorOptions& options) {
   if (chain.size() < 1) throw InputError("the chain has no particles: it was moved from");
-  if (!method.hasFixedStep()) {
-    requirePositive("tolerance", options.tolerance, "m");
-  }
+  if (!method.hasFixedStep()) requirePositive("tolerance", options.tolerance, "m");
   requireAtLeastZero("threads", options.threads);
-  if (!method.make) {
+  if (!method.make)
     throw InputError(
         fmt::format("method '{}' has no factory: register it with registerMethod", method.name));
-  }
   std::unique_ptr<Integrator> integrator = method.make(method, chain, options);
   if (!integrator)
     throw InputError(fmt::format("the factory of method '{}' returned no integrator", method.name));
@@ -268,16 +262,14 @@ std::unique_ptr<Integrator> makeIntegrator(std::string_view method, const Chain&
 }
 
 void checkTableau(std::string_view method, const ButcherTableau& tableau) {
-  if (tableau.stages < 1 || tableau.stages > ButcherTableau::kMaxStages) {
+  if (tableau.stages < 1 || tableau.stages > ButcherTableau::kMaxStages)
     throw InputError(fmt::format("tableau of method '{}' has {} stages: must be 1 to {}", method,
                                  tableau.stages, ButcherTableau::kMaxStages));
-  }
   for (std::size_t i = 0; i < tableau.stages; ++i) {
     bool explicit_row = std::isfinite(tableau.b[i]);
-    for (std::size_t j = 0; j < tableau.stages; ++j) {
+    for (std::size_t j = 0; j < tableau.stages; ++j)
       explicit_row =
           explicit_row && (j < i ? std::isfinite(tableau.a[i][j]) : tableau.a[i][j] == 0.0);
-    }
     if (explicit_row) continue;
     throw InputError(
         fmt::format("stage {} of the tableau of method '{}': coefficients must be finite, and 0 on "

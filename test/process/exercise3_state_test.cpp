@@ -15,8 +15,7 @@ class Exercise3State : public Exercise3Test {
 
   /// Runs 6 of 12 frames and saves their state.
   void save(const std::string& method, const std::string& more = "") const {
-    const std::string options = " -o parts --frames 6 --save-state state.txt ";
-    ASSERT_EQ(runWith(method + options + more).errors, "");
+    ASSERT_EQ(runWith(method + " -o parts --frames 6 --save-state state.txt " + more).errors, "");
   }
   Result resume(const std::string& method, const std::string& more = "") const {
     return runWith(method + " state.txt -o parts --frames 12 --resume " + more);
@@ -111,8 +110,7 @@ TEST_F(Exercise3State, ASignalSavesTheLastFrame) {
   process.waitForFile(path("parts/frame_0002.txt"));
   process.sendSignal(SIGINT);
   EXPECT_EQ(process.wait().status, 128 + SIGINT);
-  const std::string last = list("parts").back();
-  const std::string frame = std::to_string(std::stoi(last.substr(6)));
+  const std::string frame = std::to_string(std::stoi(list("parts").back().substr(6)));
   EXPECT_THAT(read("state.txt"), testing::HasSubstr(" at frame " + frame + ","));
 }
 

@@ -123,8 +123,7 @@ TEST_P(FaultInjection, AtEveryCall) {
     }
     if (HasFailure()) break;
   }
-  const bool only_data = GetParam() == "short" || GetParam() == "again";
-  EXPECT_GT(count, only_data ? 5 : 50);
+  EXPECT_GT(count, GetParam() == "short" || GetParam() == "again" ? 5 : 50);
   if (GetParam() != "fail") return;
   for (const char* call : {"open", "openat", "write", "read", "renameat"})
     EXPECT_GT(failures[call], 0) << call;

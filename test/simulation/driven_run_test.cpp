@@ -96,7 +96,6 @@ TEST_P(DrivenErrorControlled, KeepsTheTolerance) {
     DrivenPair pair(scenario, scene);
     moveHands(pair, 150);
     EXPECT_LE(pair.error(), 10.0 * tolerance) << tolerance;
-    EXPECT_GT(pair.error(), 0.0);
     const EnergyEntry entry = pair.run.energyEntry();
     EXPECT_GT(std::abs(entry.supplied), 1.0);
     EXPECT_LE(std::abs(entry.relative_residual.value()), tolerance);
@@ -105,6 +104,18 @@ TEST_P(DrivenErrorControlled, KeepsTheTolerance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllMethods, DrivenErrorControlled, testing::ValuesIn(errorControlled()));
+
+TEST(DrivenRun, CountsTheWorkOfAKickByEulersMethods) {
+  for (const char* method : {"Euler", "Backward-Euler"}) {
+    const Scene scene = horizontalChain("kicked", 3, 1.0, {50.0, 1.0, 1.0}, 0.0);
+    DrivenPair pair(scenarioOf(method, scene), scene);
+    pair.drive({{}, {{2, {10.0, 0.0}}}});
+    pair.advance();
+    pair.drive({});
+    pair.advance();
+    EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 0.1) << method;
+  }
+}
 
 TEST(DrivenRun, FollowsLightParticlesWithAuto) {
   for (const double air_drag : {0.0, 0.02}) {
@@ -251,7 +262,6 @@ TEST(DrivenRun, AccountsForJumpsOfConstantsMethodsAndStates) {
   const double time = pair.run.time();
   pair.run.change(scenario, scenario.constants, {}, state);
   EXPECT_NEAR(pair.run.energyEntry().energy.kinetic, 0.5 * state.velocities().squaredNorm(), 1e-9);
-  EXPECT_NEAR(pair.run.time(), time, 1e-12);
   pair.run.advance();
   EXPECT_NEAR(pair.run.time(), time + kInterval, 1e-12);
   EXPECT_NE(pair.run.closingLine().find(" 2 steps, "), std::string::npos);

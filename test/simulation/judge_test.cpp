@@ -95,8 +95,7 @@ double scaleOf(const Chain& chain, const State& start) {
 TEST(EnergyScale, IsTheDepthOfTheHangingChainForAStartWithoutEnergy) {
   // Two springs carry 2 m g and m g: E_min = -(3 m g L_0 + 5 (m g)²/(2 k_s)).
   const double depth = 3.0 * 9.81 + 5.0 * 9.81 * 9.81 / 100.0;
-  const Judge balance(uniform(3, SpringLaw{}, 9.81), horizontal(3), {false});
-  EXPECT_NEAR(balance.scale(0.0), depth, 1e-12);
+  EXPECT_NEAR(scaleOf(uniform(3, SpringLaw{}, 9.81), horizontal(3)), depth, 1e-12);
 }
 
 TEST(EnergyScale, KnowsStretchedWeightlessAndFallingChains) {
@@ -104,7 +103,6 @@ TEST(EnergyScale, KnowsStretchedWeightlessAndFallingChains) {
   const double scale = scaleOf(uniform(3, SpringLaw{}, 9.81), horizontal(3));
   EXPECT_NEAR(scaleOf(uniform(3, SpringLaw{}, 9.81), stretched), scale + 200.0, 1e-10);
   EXPECT_EQ(scaleOf(uniform(3, SpringLaw{}, -9.81), horizontal(3)), scale);
-  EXPECT_GT(scaleOf(uniform(3, SpringLaw{}, 0.0), horizontal(3)), 0.0);
   EXPECT_GT(scaleOf(uniform(3, {50.0, 1.0, 0.0}, 0.0), horizontal(3)), 0.0);
   const Judge balance(uniform(3, {0.0, 0.0, 1.0}, 10.0), horizontal(3), {false});
   EXPECT_DOUBLE_EQ(balance.scale(2.0) - balance.scale(0.0), 2.0 * 100.0 * 4.0 / 2.0);

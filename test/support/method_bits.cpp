@@ -29,8 +29,7 @@ std::uint64_t hashOf(double number, std::uint64_t hash) {
 State zigzag(Eigen::Index size) {
   State state(size);
   for (Eigen::Index i = 1; i < size; ++i) {
-    const auto place = static_cast<double>(i);
-    state.x()[i] = 0.75 * place;
+    state.x()[i] = 0.75 * static_cast<double>(i);
     state.y()[i] = i % 2 == 0 ? 0.0 : 0.6;
     state.vx()[i] = 0.125 * static_cast<double>(i % 5);
     state.vy()[i] = -0.375 * static_cast<double>(i % 3);

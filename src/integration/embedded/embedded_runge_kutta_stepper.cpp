@@ -38,10 +38,9 @@ void EmbeddedRungeKuttaStepper::prepare(bool restarted) {
 
 double EmbeddedRungeKuttaStepper::attempt(double h) {
   const ButcherTableau& tableau = kPair.tableau;
-  for (std::size_t i = 1; i < tableau.stages; ++i) {
+  for (std::size_t i = 1; i < tableau.stages; ++i)
     kernels_.stageSlope(constants_.chain(), begin_.data(), stageSum(h, tableau.a[i], slopes_),
                         slopes_[i].data());
-  }
   setEnd(carry_, stageSum(h, tableau.b, slopes_));
   kernels_.stageSlope(constants_.chain(), end_.data(), kNoSlopes, slopes_[tableau.stages].data());
   statistics_.force_evaluations += static_cast<std::int64_t>(tableau.stages);

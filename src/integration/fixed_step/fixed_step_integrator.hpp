@@ -46,6 +46,13 @@ class FixedStepIntegrator : public Integrator {
     energy_flow_.add(kernels_, chain(), state, time, time * chain().spring.damping);
   }
 
+  /// Corrects the work of a step for which the power at one of its ends was taken. Of a kick of n steps,
+  /// a share of 1/n would be missing.
+  void trapezoidalRule(const StateBuffer& taken, const StateBuffer& other, double time_step) {
+    energy_flow_.addSupplied(taken, -0.5 * time_step);
+    energy_flow_.addSupplied(other, 0.5 * time_step);
+  }
+
   const KernelConstants constants_;
   const ChainKernels& kernels_;
   HeldMotion held_;

@@ -37,6 +37,7 @@ void BackwardEuler::restart() {
 void BackwardEuler::step(double time_step) {
   failed_ = failed_ || !solve(time_step);
   addPowers(current(), time_step);
+  trapezoidalRule(current(), begin_, time_step);
   if (failed_) {
     ++force_evaluations_;  // limits on work also end a run after a failure
     auto moving = current().values().bottomRows(current().size() - 1);

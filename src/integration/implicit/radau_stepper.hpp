@@ -70,10 +70,9 @@ class RadauStepper final : public ErrorEstimatingStepper {
     }
     void setRightHandSide(std::size_t i, double mass, const Increments& increments,
                           const Forces& forces) {
-      for (std::size_t c = 0; c < 2; ++c) {
+      for (std::size_t c = 0; c < 2; ++c)
         unknowns[c][i] = q * radau::dot(eigenvalue.left, forces[c]) -
                          mass * radau::dot(eigenvalue.left, increments[2 + c]);
-      }
     }
     void solve() { solver.solve(unknowns[0].data(), unknowns[1].data()); }
     /// Adds this system's contribution to the change of a particle's stages.

@@ -117,10 +117,9 @@ template <bool kInner = false>
   Block slope{here.vx, here.vy, force.x * inverse_mass,
               fused(force.y, inverse_mass, -chain.gravity)};
   const std::ptrdiff_t particles = chain.size - 1 - block * kLanes;
-  if (!kInner && particles < kLanes) {
+  if (!kInner && particles < kLanes)
     slope = {only(slope.x, particles), only(slope.y, particles), only(slope.vx, particles),
              only(slope.vy, particles)};
-  }
   return slope;
 }
 

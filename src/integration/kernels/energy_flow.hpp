@@ -50,11 +50,14 @@ class EnergyFlow {
   }
   double supplied() const { return supplied_; }  ///< J
 
+  void addSupplied(const StateBuffer& state, double time) {
+    if (!held_.empty()) supplied_ += time * suppliedPower(state);
+  }
   /// Adds the powers at a state times `time` s.
   /// \param weight `time` times k_d, kg
   void add(const ChainKernels& kernels, const KernelChain& chain, const StateBuffer& state,
            double time, double weight) {
-    if (!held_.empty()) supplied_ += time * suppliedPower(state);
+    addSupplied(state, time);
     if (dissipated_.data() == nullptr) return;
     if (air_drag_ != 0.0) air_ += time * air_drag_ * squaredVelocities(chain, state);
     if (chain.spring.damping == 0.0) return;

@@ -307,10 +307,9 @@ template <Index n, Index kBlocks>
     // In this order no store follows the new separations that the compiler could take for a change
     // of them, so a single block keeps them in registers.
     setAccelerations<n>(work, block, forces, right);
-    if (wanted) {
+    if (wanted)
       SpringSeries(work, block)
           .setSeparation(n + 2, separationCoefficient<n>(work, block, left, forces, right));
-    }
   };
   // Descending would save the last call, but long chains then took up to 1.5 times longer.
   for (Index block = 0; block < blocks; ++block) {

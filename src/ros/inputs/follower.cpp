@@ -156,7 +156,7 @@ void Follower::approach(Target& target, const PlaneVector<double>& here, double 
     left_ = 0.0;
   } else if (left_ == 0.0 && distance > kLost) {
     left_ = now;
-    if (now > expected_ || std::isinf(expected_))  // two inputs in turn would warn all the time
+    if (now > std::exchange(jumped_, now) + kSilence)  // two inputs in turn would fill the log
       warn_(name_ + fmt::format(": the particle comes to it from {:.3g} m away", distance));
     expected_ = now + 2.0 * distance / kApproachSpeed + 1.0;
   } else if (left_ != 0.0 && now > expected_) {

@@ -79,7 +79,7 @@ class Follower {
   std::optional<PlaneVector<double>> place_;  ///< m, of a particle that waits for its input
   bool warned_ = false;                       ///< that the input is refused, or silent
   double left_ = 0.0;  ///< s, since when the particle has been far from its holder; 0: it is not
-  double expected_ = 0.0;  ///< s, when it should have met it
+  double jumped_ = -1.0, expected_ = 0.0;  ///< s, when it got far, and should have come near again
 };
 
 /// All particles held by robots (`~held`).

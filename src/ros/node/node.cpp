@@ -20,7 +20,7 @@ namespace {
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
 constexpr double kShortWait = 0.002;        // s, for tf, or for recorders between parts of a step
-constexpr double kLongFrame = 1.0;          // s, whose states are never left out
+constexpr double kLongFrame = 1.0;          // s, which is computed state by state
 constexpr double kLongestGap = 0.1;         // s, between the states of a run that is late
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end
 constexpr double kLongestSending = 10.0;    // s, at the end, for subscribers that are slower
@@ -209,7 +209,8 @@ void Node::finishState() {
 void Node::show() {
   const ros::SteadyTime now = ros::SteadyTime::now();
   show_at_ = now + ros::WallDuration(kShowAgainInterval);
-  const bool is_left_out = pacer_.isLate(run_.time(), now) && (now - shown_).toSec() < kLongestGap;
+  const bool is_left_out =
+      !run_.isAtFrame() && pacer_.isLate(run_.time(), now) && (now - shown_).toSec() < kLongestGap;
   const bool is_due = (pacer_.isShown(run_.time()) && !is_left_out) || rests() || run_.isOver();
   const auto header = publisher_.publish(run_, {rests(), is_due, handles_.isDragging()});
   if (header) shown_ = now;
