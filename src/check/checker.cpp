@@ -161,12 +161,12 @@ class Checker {
     return compare(frames_, make, limit);
   }
 
-  /// Visible rounding errors as large as the departure would explain any. Those of float may be.
+  /// Rounding errors that are visible, and as large as the departure, would explain any departure.
   bool isExplanation(const StudentProgram& program, const Agreement& agreement) const {
-    const double visible = 1e-6 * frames_.frames[known_frames_].positions.abs().maxCoeff();
+    const double visible = (program.single_precision ? 1e-4 : 1e-6) *
+                           frames_.frames[known_frames_].positions.abs().maxCoeff();
     return agreement.complete && agreement.frames > known_frames_ && !search_limit_.isOver() &&
-           (program.single_precision ||
-            !(agreement.roundings[known_frames_] > std::max(0.1 * departure_->distance, visible)));
+           !(agreement.roundings[known_frames_] > std::max(0.1 * departure_->distance, visible));
   }
 
   bool explains(StudentProgram program) {
