@@ -74,7 +74,7 @@ class Judge {
   /// Returns the energy balance of a state; arguments as of `judge`.
   EnergyEntry balanceOf(double time, const State& state, double dissipated,
                         double supplied = 0.0) const;
-  double scale(double time, double supplied = 0.0) const;  ///< J, unless a drive acts
+  double scale(double time, double supplied = 0.0) const;  ///< J, without hands and forces
 
   const EnergyEntry& entry() const { return entry_; }  ///< of the last judged state
   const PositionError& positionError() const { return position_error_; }

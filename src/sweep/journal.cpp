@@ -37,7 +37,7 @@ Journal::Journal(std::string path, std::uint64_t hash, const std::string& table)
   const std::string begin = readTextFile(path_).substr(0, head_.size());
   if (begin.empty() && !table.empty() && std::filesystem::exists(table)) {
     ::unlink(path_.c_str());
-    throw InputError(table + ": exists: its shards have ended; remove it to run them anew");
+    throw InputError(table + ": exists; remove it to run its shards anew");
   }
   if (head_.compare(0, begin.size(), begin) != 0)
     throw InputError(fmt::format(

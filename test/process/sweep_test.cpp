@@ -360,7 +360,7 @@ TEST_F(Sweep, AnEarlierTableIsNotItsOwn) {
   folder_.write("study.yaml",
                 "base: {particles: chain.txt, duration: 4}\naxes: {time_step: [1e-9, 0.1]}\n");
   folder_.write("t.csv", "case,x\n0,1\n");
-  EXPECT_THAT(run(shard).errors, HasSubstr("t.csv: exists: its shards have ended"));
+  EXPECT_THAT(run(shard).errors, HasSubstr("t.csv: exists; remove it to run its shards anew"));
   Process process(sweep({"-o", "t.csv", "--threads", "1"}));
   process.waitForFile(folder_.path("t.csv.journal"));
   EXPECT_EQ(run(shard).errors, "");

@@ -90,7 +90,7 @@ class Node {
   bool ended_ = false;
   bool paused_ = false;
   std::int64_t steps_wanted_ = 0;
-  ros::SteadyTime shown_, show_at_;  ///< when a state was published, and is again without progress
+  ros::SteadyTime shown_, show_at_;  ///< when a state was published last, and the next is due
   Throttle refusals_;
   State last_frame_;  ///< for SaveState; empty before the run has started
   std::int64_t last_frame_number_ = 0;

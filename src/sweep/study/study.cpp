@@ -74,7 +74,7 @@ void setParticles(const Study& study, Case& made) {
   if (!study.changesParticles(made.settings)) return;
   if (made.settings.scenario.start == Start::kAtRest &&
       (study.displacement.is_given || study.velocity.is_given))
-    throw InputError("start: at_rest takes nothing from random displacement or velocity");
+    throw InputError("start: at_rest: leave out random displacement and velocity");
   State& state = made.particles.state;
   for (Eigen::Index i = 1; i < state.size(); ++i) {  // the mass of the fixed particle is not used
     const auto numbers_of = [&](std::uint32_t quantity) {
