@@ -194,7 +194,7 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
 Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
   entry_ = balanceOf(time, state, dissipated, supplied);
   largest_scale_ = scale(time, supplied);
-  const double spread = 2.0 * kPromise * options_.tolerance;  // m, of the length of a spring
+  const double spread = std::min(2.0 * kPromise * options_.tolerance, 1e150);  // m, squared below
   double allowance = static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness *
                      spread * spread / largest_scale_;
   double residual = entry_.relative_residual.value_or(0.0);

@@ -84,7 +84,7 @@ TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
 }
 
 TEST(Verdict, IsOkForTheFixedParticleAlone) {
-  Judge judge(uniform(1, SpringLaw{}, 9.81), State(1), {false});
+  Judge judge(uniform(1, SpringLaw{}, 9.81), State(1), {false, 0.0, 1.7e308});
   EXPECT_EQ(judge.judge(1.0, State(1), 0.0, nullptr).kind, VerdictKind::kNotChecked);
 }
 
