@@ -47,9 +47,8 @@ std::string mutate(std::string text, const std::vector<std::string>& corpus, Ran
 std::vector<std::string> readCorpus(const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> paths;
   for (const std::string& folder : folders) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
       paths.push_back(entry.path());
-    }
   }
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> corpus{""};
@@ -86,9 +85,8 @@ int main(int argc, char** argv) {
   Random random(seed);
   for (std::size_t run = 0; run < runs; ++run) {
     std::string text = corpus[below(corpus.size(), random)];
-    for (std::size_t change = 0; change <= below(8, random); ++change) {
+    for (std::size_t change = 0; change <= below(8, random); ++change)
       text = mutate(std::move(text), corpus, random);
-    }
     runOn(text);
   }
   std::filesystem::remove("crash-input");

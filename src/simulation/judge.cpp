@@ -23,12 +23,11 @@ constexpr double kLeastStretch = 1e-6;
 /// Names the particle that is not finite, else the one with the most kinetic energy.
 Verdict diverged(const EnergyEntry& entry, const Chain& chain, const State& state) {
   const double time = entry.time;
-  for (Eigen::Index i = 0; i < state.size(); ++i) {
-    if (state.values().row(i).allFinite()) continue;
-    return {VerdictKind::kDiverged, time, i + 1,
-            fmt::format("diverged at t = {:.6g} s: particle {} is no longer a finite number", time,
-                        i + 1)};
-  }
+  for (Eigen::Index i = 0; i < state.size(); ++i)
+    if (!state.values().row(i).allFinite())
+      return {VerdictKind::kDiverged, time, i + 1,
+              fmt::format("diverged at t = {:.6g} s: particle {} is no longer a finite number",
+                          time, i + 1)};
   const Eigen::Index moving = chain.size() - 1;
   const auto speeds_squared = state.velocities().bottomRows(moving).rowwise().squaredNorm();
   Eigen::Index most = 0;
@@ -145,7 +144,7 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
   if (options_.track_dissipation) entry.dissipated = dissipated;
   if (!chain_.isDissipative() && !changed_) entry.dissipated = 0.0;
   if (entry.dissipated) {
-    entry.residual = entry.gain + *entry.dissipated - (changed_ ? excused_ : 0.0);
+    entry.residual = entry.gain + *entry.dissipated;
     entry.relative_residual = *entry.residual / scale_now;
   }
   return entry;
@@ -153,16 +152,19 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
 
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference, double supplied) {
-  Verdict verdict = energyVerdict(time, state, dissipated, supplied);
   const bool is_measuring = reference != nullptr && reference->isMeasuring();
-  measure(state, is_measuring && verdict.kind != VerdictKind::kDiverged ? reference : nullptr);
   if (is_measuring) excused_ = 0.0;
+  Verdict verdict = energyVerdict(time, state, dissipated, supplied);
+  measure(state, is_measuring && verdict.kind != VerdictKind::kDiverged ? reference : nullptr);
   if (verdict.kind == VerdictKind::kDrift && is_measuring) {
     // In a stiff transient, the dissipated energy can be wrong although the state is right.
     const double truth = computeEnergy(chain_, *reference->state()).total();
-    const double error = std::abs(entry_.energy.total() - truth);
-    if (error <= kDriftThreshold * largest_scale_) excused_ = *entry_.residual;
-    if (excused_ != 0.0) verdict.kind = VerdictKind::kOk;
+    if (std::abs(entry_.energy.total() - truth) <= kDriftThreshold * largest_scale_) {
+      excused_ = *entry_.residual;
+      mean_time_ = time;
+      sums_.setZero();
+      verdict.kind = VerdictKind::kOk;
+    }
   }
   const bool has_news = is_measuring || worst_.kind == VerdictKind::kOk;  // an end is said once
   if (verdict.kind == VerdictKind::kOk && has_news) verdict = positionVerdict(reference);
@@ -203,6 +205,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance))
     return diverged(entry_, chain_, state);
   double gain = entry_.relative_gain;
+  if (residual != 0.0) residual *= 1.0 - excused_ / *entry_.residual;  // since it was excused
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.

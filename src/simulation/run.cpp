@@ -20,8 +20,7 @@ namespace {
 
 /// Work of a run whose energy balance is always computed; it takes less than the run.
 constexpr double kCheapWork = 0.05;  // s
-/// Number of particles from which on the kernels of explicit Runge-Kutta methods track the dissipated
-/// energy at a cost of less than 10 %.
+/// Particles from which on Runge-Kutta kernels track the dissipated energy at a cost of less than 10 %.
 constexpr Eigen::Index kLongChain = 100;
 /// Largest number of parts of a frame: more than any display needs, few enough to avoid overflow.
 constexpr double kMostParts = 1048576.0;

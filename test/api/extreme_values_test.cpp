@@ -86,8 +86,7 @@ bool assign(const Option& option, double number, std::int64_t count) {
 }
 
 TEST(ExtremeValues, OfEveryFieldOfAScenario) {
-  int fields = 0;
-  int results = 0;
+  int fields = 0, results = 0;
   for (const char* method : {"Euler", "Runge-Kutta-4", "Semi-Implicit-Euler", "Auto"}) {
     Scenario scenario = shortScenario(method);
     const Scenario usual = scenario;

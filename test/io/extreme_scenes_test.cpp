@@ -29,8 +29,7 @@ const Values kScenes{"0 0 1\n", "0 0 1\n1 0 1\n", "0 0 1\n1 0 1\n2 0 1e-300\n",
 TEST(ExtremeScenes, AreRefusedBeforeTheRun) {
   std::mt19937 random(20261);
   const auto pick = [&](const Values& values) { return values[random() % values.size()]; };
-  int refused = 0;
-  int accepted = 0;
+  int refused = 0, accepted = 0;
   for (int i = 0; i < 1000; ++i) {
     const Method& method = methodTable()[random() % methodTable().size()];
     std::vector<std::pair<std::string, std::string>> options{{"method", method.name},

@@ -82,8 +82,7 @@ TEST_F(Exercise3State, ErrorControlledRunsGoOnWithinTheTolerance) {
   ASSERT_EQ(resume("Auto").errors, "");
   std::istringstream whole(read("whole/frame_0011.txt"));
   std::istringstream parts(read("parts/frame_0011.txt"));
-  double a = 0.0;
-  double b = 0.0;
+  double a = 0.0, b = 0.0;
   while (whole >> a && parts >> b) EXPECT_NEAR(a, b, 1e-6);  // 2e-8
 }
 

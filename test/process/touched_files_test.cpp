@@ -105,8 +105,7 @@ class TouchedFiles : public testing::Test {
     EXPECT_GT(refused_, least);
   }
 
-  int accepted_ = 0;
-  int refused_ = 0;
+  int accepted_ = 0, refused_ = 0;
 };
 
 const Program kExercise3{{EXERCISE3, "Euler", "--particles", "in.txt", "--config", "run.yaml"},

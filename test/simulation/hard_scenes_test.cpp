@@ -51,8 +51,7 @@ TEST(HardScenes, FallingStraightThroughTheAnchorKeepsTheEnergy) {
   State state = scene.start;
   const auto integrator = makeIntegrator("Runge-Kutta-4", chain);
   const Judge balance(chain, state, {false});
-  double lowest = 0.0;
-  double worst = 0.0;
+  double lowest = 0.0, worst = 0.0;
   for (int frame = 1; frame <= 100; ++frame) {
     integrator->advance(state, 0.01, 10);
     lowest = std::min(lowest, state.y()[1]);

@@ -203,8 +203,7 @@ TEST(StabilityAdvice, LimitsTheWorkOfOwnErrorControlledMethods) {
 
 TEST(StabilityWarning, NeverComesBeforeAStableRun) {
   const auto bad = VerdictKind::kGainedEnergy;
-  int unstable = 0;
-  int warned = 0;
+  int unstable = 0, warned = 0;
   for (unsigned seed = 0; seed < 36; ++seed) {
     const Scene scene = randomScene(seed);
     SCOPED_TRACE(scene.name);

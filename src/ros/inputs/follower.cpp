@@ -144,6 +144,7 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
     target.position.*axis += age * (target.velocity.*axis + 0.5 * age * target.acceleration.*axis);
     target.velocity.*axis += age * target.acceleration.*axis;
   }
+  if (interval == 0.0) left_ = 0.0;  // paused: the particle is placed at its holder
   if (interval > 0.0) approach(target, here, now);
   return target;
 }
@@ -152,9 +153,8 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
 void Follower::approach(Target& target, const PlaneVector<double>& here, double now) {
   target.fastest = kApproachSpeed;
   const double distance = std::hypot(target.position.x - here.x, target.position.y - here.y);
-  if (distance < kMet) {
-    left_ = 0.0;
-  } else if (left_ == 0.0 && distance > kLost) {
+  if (distance < kMet) left_ = 0.0;
+  if (left_ == 0.0 && distance > kLost) {
     left_ = now;
     if (now > std::exchange(jumped_, now) + kSilence)  // two inputs in turn would fill the log
       warn_(name_ + fmt::format(": the particle comes to it from {:.3g} m away", distance));

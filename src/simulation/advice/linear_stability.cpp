@@ -31,8 +31,7 @@ double growthOf(const Method& method, Complex z) {
   const bool stabilized = method.name.rfind("Stabilized-", 0) == 0;
   double growth = kUnlimited;
   for (const StabilizedPolynomial& series : stabilized ? stabilizedPolynomials(order) : plain) {
-    Complex sum = 0.0;
-    Complex term = 1.0;
+    Complex sum = 0.0, term = 1.0;
     for (int i = 1; i <= series.terms; ++i) sum += series.weight(i) * (term *= z / (1.0 * i));
     growth = std::min(growth, spring_pendulum::growthOf(sum));
   }
@@ -65,8 +64,7 @@ double stepForMode(const Method& method, double frequency, double damping, doubl
     const double steps = std::clamp(duration * rate / step, 1.0, kMostSteps);
     return steps * growthPerStep(method, step * frequency / rate, step * damping / rate) <= allowed;
   };
-  double good = 1e-9;
-  double bad = 1e9;
+  double good = 1e-9, bad = 1e9;
   if (!passes(good)) return 0.0;
   if (passes(bad)) return kUnlimited;
   while (bad > 1.00001 * good) {

@@ -30,8 +30,7 @@ class UniformMotion : public DenseOutputStepper {
  private:
   static constexpr double kLength = 0.3;
   int left_;
-  double begin_ = 0.0;
-  double end_ = 0.0;
+  double begin_ = 0.0, end_ = 0.0;
   mutable StateBuffer state_{2};
   StepStatistics statistics_;
 };

@@ -10,9 +10,8 @@ namespace {
 
 TEST(Root, IsTheRoot) {
   for (int k = 1; k <= 32; ++k) {
-    for (const double x : {1e-300, 3e-17, 1e-3, 0.5, 0.75, 1.0, 2.0, 1e9, 1e300}) {
+    for (const double x : {1e-300, 3e-17, 1e-3, 0.5, 0.75, 1.0, 2.0, 1e9, 1e300})
       EXPECT_NEAR(root(x, k) / std::pow(x, 1.0 / k), 1.0, 2e-5) << x << " " << k;
-    }
     EXPECT_EQ(root(0.0, k), 0.0);
     EXPECT_EQ(root(1e-310, k), root(1e-300, k));
   }
@@ -21,8 +20,7 @@ TEST(Root, IsTheRoot) {
 TEST(StepSizeController, SettlesWhereTheErrorIsJustBelowTheAllowedOne) {
   for (const int k : {3, 5, 8}) {
     StepSizeController controller(k);
-    double h = 1.0;
-    double error = 0.0;
+    double h = 1.0, error = 0.0;
     for (int n = 0; n < 60; ++n) {
       error = std::pow(h / 0.01, k);
       h = controller.next(h, error);
