@@ -125,8 +125,7 @@ Energy Judge::energyOf(const State& state) const {
 }
 
 double Judge::scale(double time, double supplied) const {
-  const double fallen = fall_ * (time - fall_time_) * (time - fall_time_);
-  const double now = still_scale_ + fallen + std::abs(supplied);
+  const double t = time - fall_time_, now = still_scale_ + fall_ * t * t + std::abs(supplied);
   return std::max({largest_scale_, now, std::numeric_limits<double>::min()});
 }
 

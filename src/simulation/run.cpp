@@ -242,10 +242,6 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   makeIntegrator();
 }
 
-bool Run::isOver() const {
-  return stopped_ || frame_ >= plan_.frames - 1 || !isShown();
-}
-
 bool Run::isShown() const {
   return judge_->isShown(plan_.on_divergence == OnDivergence::kContinue);
 }

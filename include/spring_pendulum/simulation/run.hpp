@@ -78,7 +78,7 @@ class Run {
   void change(const Plan& plan, const Constants& constants, const Drive& drive, const State& state);
 
   /// Whether no frame follows.
-  bool isOver() const;
+  bool isOver() const { return stopped_ || frame_ >= plan_.frames - 1 || !isShown(); }
   /// Whether `RunOptions::stop` has stopped the run inside a frame. Only `reset` may follow.
   bool wasStopped() const { return stopped_; }
   /// Whether the current frame may be shown: yes unless the motion has diverged; after a divergence

@@ -44,8 +44,7 @@ double growthFromLimits(const Method& method, double swing, double decay) {
   const double a = 2.0 * decay / method.real_stability_limit;
   const double b = std::pow(2.0 * swing / method.imaginary_stability_limit, 2);
   const bool verlet = method.name == "Velocity-Verlet";
-  const double s = verlet ? 0.5 * a * a : 0.0;
-  const double m = verlet ? 0.25 * a * b : 0.0;
+  const double s = verlet ? 0.5 * a * a : 0.0, m = verlet ? 0.25 * a * b : 0.0;
   const double e = -0.5 * (a + b - s - m);
   const double discriminant = e * e - b + 2.0 * m;
   if (discriminant < 0.0) return 0.5 * std::log1p(s - m - a);

@@ -109,10 +109,11 @@ class Trials {
   /// \returns three digits; infinity for `most`, 0 if no run can be tried, NaN if no reference run can
   double largestStep(double first, double most, VerdictKind bad, double failed = kInfinity) {
     double found = 0.0, low = 0.0;  // verdicts are better; or at `low`, a run takes too long
+    const double top = roundedDown(most);
     double step = roundedDown(std::min({first, most, failed / kPrecision}));
     for (double ratio = kPrecision; low < step && step < failed;
          ratio = std::min(ratio * ratio, 2.0)) {
-      const auto tried = verdictWithStep(step, bad);
+      const auto tried = verdictWithStep(step >= top ? most : step, bad);
       if (!tried && std::isinf(failed)) break;
       const VerdictKind kind = tried.value_or(Verdict{}).kind;
       if (kind == VerdictKind::kNotChecked && measures(bad)) return std::nan("");
@@ -123,10 +124,10 @@ class Trials {
                      ? fmt::format(" until t = {:.4g} s, when the motion is sensitive", tried->time)
                      : "";
       }
-      if (found >= roundedDown(most)) return kInfinity;
-      if (failed <= kPrecision * low) {
+      if (found >= top || failed <= kPrecision * low) {
         // Nearly undamped chains have narrow intervals of unstable step sizes.
-        if (verdictWithStep(0.9 * low, bad).value_or(Verdict{}).kind < bad) break;
+        if (verdictWithStep(0.9 * low, bad).value_or(Verdict{}).kind < bad)
+          return found >= top ? kInfinity : found;
         failed = 0.9 * low;
         found = low = 0.0;
       }
@@ -157,9 +158,12 @@ StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
   const double duration = durationOf(plan);
   // Without damping, some methods gain energy with every step size: only trials tell how much.
   const bool has_limit = method.imaginary_stability_limit > 0.0 || chain.isDissipative();
+  constexpr auto kBad = VerdictKind::kGainedEnergy;
+  // In equilibrium, only many steps show that errors grow.
+  const bool fails = trials.verdictWithStep(plan.time_step, kBad).value_or(Verdict{}).kind >= kBad;
   const double found =
       trials.largestStep(has_limit ? springStepLimit(method, chain, duration) : duration, duration,
-                         VerdictKind::kGainedEnergy);
+                         kBad, fails ? plan.time_step : kInfinity);
   if (found > 0.0) return {found, false};
   const double limit = linearStepLimit(method, chain, duration);
   return {std::isfinite(limit) ? roundedDown(limit) : limit, true};
