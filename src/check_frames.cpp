@@ -67,9 +67,8 @@ int checkAll(const Scenario& scenario, bool method_is_given,
   const Scene particles = readScene(scenario);
   catchInterruptions();
   const bool is_table = folders.size() > 1;
-  std::size_t width = 0;
+  std::size_t width = 0, worst = 0;
   for (const std::string& folder : folders) width = std::max(width, folder.size());
-  std::size_t worst = 0;
   for (const std::string& folder : folders) {
     std::string text;
     std::size_t severity = 3;

@@ -106,8 +106,10 @@ class Checker {
     for (const Method* method : others_)
       if ((kindOf(*method) & kOfExercise) != 0) written.push_back(method);
     found = findMistakes(written, 5);
-    if (search_limit_.isOver() && found.empty())
-      frames_.notes.emplace_back("the search for mistakes stopped before all were tried");
+    if (found.empty() && (is_right_ || search_limit_.isOver()))
+      frames_.notes.emplace_back(
+          is_right_ ? "a constant that is off by less than 1e-5 of its value explains the frames"
+                    : "the search for mistakes stopped before all were tried");
     return found;
   }
 
@@ -117,7 +119,7 @@ class Checker {
     const std::vector<FrameNumbers>& frames = frames_.frames;
     const std::int64_t far = frames[std::min(known_frames_ + kEvidence, frames.size() - 1)].index;
     Programs best;
-    for (int level = 0; level < levels; ++level) {
+    for (int level = 0; level < (is_right_ ? 3 : levels); ++level) {
       for (const Method* method : methods) tryMistakes(StudentProgram(*method, scenario_), level);
       Programs found = std::exchange(found_, {});
       std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -149,7 +151,7 @@ class Checker {
   void tryChanges(const StudentProgram& base, std::size_t first, bool numbers) {
     for (const Constant& constant : fittedConstants())
       for (const double factor : {1.0, 0.1, 10.0, -1.0})
-        if (!numbers || search_limit_.isOver() || fit(base, constant, factor) ||
+        if (!numbers || is_right_ || search_limit_.isOver() || fit(base, constant, factor) ||
             !base.mistakes.empty())
           break;
     for (std::size_t i = first; i < table_.size() && !numbers && !search_limit_.isOver(); ++i)
@@ -201,7 +203,7 @@ class Checker {
 
   /// Fits a constant, starting from its value times `factor`, to more and more frames, and rounds it.
   bool fit(StudentProgram program, const Constant& constant, double factor = 1.0) {
-    constexpr double kSmallestMistake = 1e-5;  // relative; smaller ones are rounding errors
+    constexpr double kLeast = 1e-5;  // mistake, relative; smaller ones are rounding errors
     constexpr int kMostDigits = 15;
     StudentProgram asked(program.method, scenario_);
     double& value = constant.in(program);
@@ -211,8 +213,8 @@ class Checker {
     Agreement agreement = agreementWith(program, search_limit_);
     const auto round = [&](int most_digits) {
       const double fitted = value;
-      for (int digits = 1; digits <= most_digits; ++digits) {
-        value = parseNumber(roundedText(fitted, digits)).value_or(fitted);
+      for (int digits = 0; digits <= most_digits; ++digits) {
+        value = digits == 0 ? 0.0 : parseNumber(roundedText(fitted, digits)).value_or(fitted);
         Agreement rounded = agreementWith(program, search_limit_);
         if (rounded.complete) return rounded;
       }
@@ -229,8 +231,9 @@ class Checker {
     }
     if (!isExplanation(program, agreement)) return false;
     program.last_frame = round(kMostDigits).last_frame;
-    const double scale = right == 0.0 ? 1.0 : std::abs(right);
-    if (std::abs(value - right) <= kSmallestMistake * scale) return false;
+    const bool is_tiny = std::abs(value - right) <= kLeast * std::abs(right == 0.0 ? 1.0 : right);
+    is_right_ = is_right_ || (is_tiny && program.mistakes.empty());
+    if (is_tiny || program.time_step < 0.0) return false;  // backwards, undamped motion is the same
     std::string sentence(constant.sentence);
     sentence.replace(sentence.find("{}"), 2, roundedText(value, kMostDigits));
     program.mistakes.emplace_back(constant.name);
@@ -301,6 +304,7 @@ class Checker {
   std::int64_t last_frame_ = -1;      ///< the last one that could be compared
   std::size_t known_frames_ = 0;      ///< number of frames before the departure
   std::optional<Departure> departure_;
+  bool is_right_ = false;  ///< but for a difference too small to be named
   Programs found_;
   const std::vector<Mistake>& table_ = knownMistakes();
   Plan nearest_;  ///< with the method from which the frames depart

@@ -26,8 +26,7 @@ std::optional<double> valueOf(const std::string& word) {
 /// How numbers are printed. A format limits either the decimals ("%.6f", round(x, 6)) or the significant
 /// digits ("%g").
 struct Format {
-  int digits = 0;
-  int decimals = 0;
+  int digits = 0, decimals = 0;
 
   void note(std::string_view word) {
     constexpr std::int64_t kMostExponent = 400;  // of a number other than 0
@@ -85,16 +84,14 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 /// digits to show that all later frames have only floats.
 bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
   constexpr double kRounded = 0.51;  // units of the last digit
-  const auto equals_floats_of = [](const FrameNumbers& frame, const Eigen::ArrayX2d& numbers) {
-    return frame.equals(numbers.cast<float>().cast<double>(), kRounded);
-  };
   const FrameNumbers& first = all.frames.front();
-  if (first.index == all.start && !first.equals(start, kRounded) && equals_floats_of(first, start))
+  const bool has_start = first.index == all.start;
+  if (has_start && !first.equals(start, kRounded) && first.equalsFloatsOf(start, kRounded))
     return true;
   return all.digits > AllFrames::kDigitsOfFloat && all.frames.back().index > all.start &&
          (all.frames.back().positions != start).any() &&
-         std::all_of(all.frames.begin() + (first.index == all.start ? 1 : 0), all.frames.end(),
-                     [&](const auto& frame) { return equals_floats_of(frame, frame.positions); });
+         std::all_of(all.frames.begin() + (has_start ? 1 : 0), all.frames.end(),
+                     [](const auto& one) { return one.equalsFloatsOf(one.positions, kRounded); });
 }
 
 void noteMissingFrames(AllFrames& all, std::int64_t renumbered_by = 0) {
@@ -113,9 +110,12 @@ void noteMissingFrames(AllFrames& all, std::int64_t renumbered_by = 0) {
 }  // namespace
 
 bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
-  const std::int64_t shift = frames.front().index - start;
-  if (shift == 0 || !frames.front().equals(positions, 1.0)) return false;
+  const FrameNumbers& first = frames.front();
+  const std::int64_t shift = first.index - start;
+  const bool is_start = first.equals(positions, 1.0) || first.equalsFloatsOf(positions, 1.0);
+  if (shift == 0 || !is_start) return false;
   for (FrameNumbers& frame : frames) frame.index -= shift;
+  are_floats = areFloats(*this, positions);
   notes.front() =  // instead of the missing frames
       fmt::format("the frames are numbered from {}; {} would be right", start + shift, start);
   noteMissingFrames(*this, shift);
@@ -123,8 +123,6 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
 }
 
 AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles) {
-  const auto by_index = [](const auto& a, const auto& b) { return a.index < b.index; };
-  const auto first = std::min_element(texts.begin(), texts.end(), by_index);
   Format format;
   AllFrames all;
   all.start = particles.frame;
@@ -134,13 +132,11 @@ AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles
     Format with_frame = format;
     all.frames.push_back(read(text, particles.state.size(), with_frame));
     // The start may be a copy of the particle file, with more digits than the other frames.
-    const bool is_first = text.index == std::max(first->index, all.start);
-    const bool is_copy = is_first && (all.frames.back().positions == start).all();
+    const bool is_copy = all.frames.size() == 1 && (all.frames[0].positions == start).all();
     if (!is_copy || texts.size() == 1) format = with_frame;
   }
   if (all.frames.empty())
     throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
-  std::sort(all.frames.begin(), all.frames.end(), by_index);
   for (FrameNumbers& frame : all.frames)
     frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
   all.digits = format.digits;

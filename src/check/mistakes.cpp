@@ -30,11 +30,6 @@ void weights(P& p, double a, double b, double c = 0.0, double d = 0.0) {
   p.tableau.b = {a, b, c, d};
 }
 
-/// The weights of Runge-Kutta-4 as a student writes them: multiples of 1 / divisor.
-void fourth(P& p, double divisor, double a, double b, double c, double d) {
-  weights(p, a / divisor, b / divisor, c / divisor, d / divisor);
-}
-
 /// The direction that cos and sin give for the angle in degrees.
 Eigen::Array2d inDegrees(const Eigen::Array2d& d) {
   constexpr double kDegrees = 57.295779513082320877;
@@ -99,12 +94,12 @@ const std::vector<Mistake>& knownMistakes() {
       {"stage_slope", P::kMidpoint, "starts the step with the second slope from the middle instead of the begin of the step", [](P& p) { weights(p, 0.5, 1); }},
       {"weights", kTwo, "adds both slopes without halving the sum", [](P& p) { weights(p, 1, 1); }},
       {"weights", P::kMidpoint, "takes the mean of the first slope and the one in the middle", [](P& p) { weights(p, 0.5, 0.5); }},
-      {"weights", kFour, "weights the slopes 1, 1, 1, 1 (over 4) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 4, 1, 1, 1, 1); }},
-      {"weights", kFour, "weights the slopes 1, 1, 1, 1 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 6, 1, 1, 1, 1); }},
-      {"weights", kFour, "weights the slopes 1, 1, 2, 2 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { fourth(p, 6, 1, 1, 2, 2); }},
-      {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 8) instead of dividing by 6", [](P& p) { fourth(p, 8, 1, 2, 2, 1); }},
-      {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 3) instead of dividing by 6", [](P& p) { fourth(p, 3, 1, 2, 2, 1); }},
-      {"three_eighths", kFour, "uses the 3/8 rule, another method of fourth order", [](P& p) { stage(p, 2, 1.0 / 3); stage(p, 3, -1.0 / 3, 1); stage(p, 4, 1, -1, 1); fourth(p, 8, 1, 3, 3, 1); }},
+      {"weights", kFour, "weights the slopes 1, 1, 1, 1 (over 4) instead of 1, 2, 2, 1 (over 6)", [](P& p) { weights(p, 1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4); }},
+      {"weights", kFour, "weights the slopes 1, 1, 1, 1 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { weights(p, 1.0 / 6, 1.0 / 6, 1.0 / 6, 1.0 / 6); }},
+      {"weights", kFour, "weights the slopes 1, 1, 2, 2 (over 6) instead of 1, 2, 2, 1 (over 6)", [](P& p) { weights(p, 1.0 / 6, 1.0 / 6, 2.0 / 6, 2.0 / 6); }},
+      {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 8) instead of dividing by 6", [](P& p) { weights(p, 1.0 / 8, 2.0 / 8, 2.0 / 8, 1.0 / 8); }},
+      {"weights", kFour, "weights the slopes 1, 2, 2, 1 (over 3) instead of dividing by 6", [](P& p) { weights(p, 1.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 3); }},
+      {"three_eighths", kFour, "uses the 3/8 rule, another method of fourth order", [](P& p) { stage(p, 2, 1.0 / 3); stage(p, 3, -1.0 / 3, 1); stage(p, 4, 1, -1, 1); weights(p, 1.0 / 8, 3.0 / 8, 3.0 / 8, 1.0 / 8); }},
       {"stage_slope", kFour, "starts the third stage with the first slope instead of the second", [](P& p) { stage(p, 3, 0.5); }},
       {"stage_slope", kFour, "starts the fourth stage with the second slope instead of the third", [](P& p) { stage(p, 4, 0, 1); }},
       {"stage_slope", kFour, "starts the fourth stage with the first slope instead of the third", [](P& p) { stage(p, 4, 1); }},

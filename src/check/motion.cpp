@@ -146,8 +146,7 @@ class ProgramMotion : public Motion {
     const bool by_particle = order == Order::kParticlesInPlace;
     const auto size = static_cast<std::size_t>(state_.cols());
     const std::size_t stages = slopes_.size();
-    seen_ = state_;
-    next_ = state_;
+    seen_ = next_ = state_;
     if (order == Order::kForceAfterMove)
       seen_.topRows<2>() += program_.time_step * state_.bottomRows<2>();
     for (std::size_t n = 0; n < stages * size; ++n) {
@@ -193,10 +192,9 @@ class ProgramMotion : public Motion {
     for (int n = 0; n < kMostIterations; ++n) {
       const Eigen::VectorXd error = missing(v);
       Eigen::MatrixXd matrix(v.size(), v.size());
-      for (Eigen::Index k = 0; k < v.size(); ++k) {
-        const Eigen::VectorXd changed = v + kChange * Eigen::VectorXd::Unit(v.size(), k);
-        matrix.col(k) = (error - missing(changed)) / kChange;
-      }
+      for (Eigen::Index k = 0; k < v.size(); ++k)
+        matrix.col(k) =
+            (error - missing(v + kChange * Eigen::VectorXd::Unit(v.size(), k))) / kChange;
       const Eigen::VectorXd change = matrix.partialPivLu().solve(error);
       v += change;
       if (!(change.cwiseAbs().maxCoeff() > kConverged * (1.0 + v.cwiseAbs().maxCoeff()))) break;
@@ -216,12 +214,13 @@ class ProgramMotion : public Motion {
 /// `error` m. Printing changes no number by more than `scale`, the largest one.
 std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::ArrayX2d& motion,
                                      double scale, double error) {
-  constexpr double kMostly = 0.9;
+  constexpr double kMostly = 0.9, kClear = 0.2;
   const auto agrees = ((frame.positions - motion).abs() <= frame.units.min(scale) + error) ||
                       (!frame.positions.isFinite() && !motion.isFinite());
   for (Eigen::Index i = 0; i < motion.rows(); ++i) {
     if (agrees.row(i).all()) continue;
-    const Eigen::RowVector2d offset = (frame.positions.row(i) - motion.row(i)).matrix();
+    const Eigen::RowVector2d offset =  // in the coordinates that show it
+        agrees.row(i).select(0.0, frame.positions.row(i) - motion.row(i)).matrix();
     const double distance = std::hypot(offset.x(), offset.y());
     const std::string particle = fmt::format("particle {}, ", i + 1);
     if (!std::isfinite(distance))
@@ -229,9 +228,11 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
     const Eigen::RowVector2d spring =
         (motion.row(i) - motion.row(std::max<Eigen::Index>(i - 1, 0))).matrix();
     const double along = std::abs((offset / distance).dot(spring)) / spring.norm();
+    const bool is_clear = frame.units.row(i).maxCoeff() <= kClear * distance;  // not rounded away
     return Departure{frame.index, distance,
                      fmt::format("{}by {} m{}", particle, roundedText(distance, 2),
-                                 along > kMostly         ? " along its spring"
+                                 !is_clear               ? ""
+                                 : along > kMostly       ? " along its spring"
                                  : along < 1.0 - kMostly ? " across its spring"
                                                          : "")};
   }

@@ -27,9 +27,14 @@ struct FrameNumbers {
   Eigen::ArrayX2d positions;  ///< N×2, m; nan and inf as printed
   Eigen::ArrayX2d units;      ///< N×2, one unit of the last digit printed, m
 
-  /// \param share of a unit by which numbers may differ
+  /// \param share of a unit by which finite numbers may differ
   bool equals(const Eigen::ArrayX2d& numbers, double share) const {
-    return ((positions - numbers).abs() <= share * units).all();
+    return ((positions - numbers).abs() <= share * units ||
+            (!positions.isFinite() && !numbers.isFinite()))
+        .all();
+  }
+  bool equalsFloatsOf(const Eigen::ArrayX2d& numbers, double share) const {
+    return equals(numbers.cast<float>().cast<double>(), share);
   }
 };
 
@@ -46,6 +51,7 @@ struct AllFrames {
   bool renumber(const Eigen::ArrayX2d& positions);
 };
 
+/// \param texts by increasing index
 /// \throws FileError naming frame and line
 AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles);
 
@@ -77,8 +83,7 @@ struct StudentParticle {
   double drag;                            ///< N·s/m
   Eigen::Array2d gravity;                 ///< m/s²
   double divisor = mass;                  ///< kg
-  double left = 1.0;
-  double right = 1.0;
+  double left = 1.0, right = 1.0;
   double drag_power = 0.0;
   bool moves = index > 0;
 };
@@ -198,17 +203,15 @@ class Motion {
   bool is_disturbed_ = false;
 };
 
-/// The motion of the method of a plan. It starts at the frame of the particles.
+/// The motion of the method of a plan, or of a program. It starts at the frame of the particles.
 std::unique_ptr<Motion> motionOf(const Plan& plan, const Chain& chain, const Scene& particles);
-
-/// The motion of a program. Copies the program.
 std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& particles);
 
 /// Where frames depart from a motion.
 struct Departure {
   std::int64_t frame;
   double distance;   ///< m; not finite if a number is not, or too large
-  std::string text;  ///< "particle 2, by 6.9e-06 m along its spring"
+  std::string text;  ///< "particle 2, by 7.9e-06 m"
 };
 
 struct Agreement {

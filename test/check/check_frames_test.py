@@ -235,7 +235,9 @@ def garbage_is_not_equal(lab):
     scene, path = lab.scene('particle')
     _, other = lab.verdict(student.frames(scene, 'Runge-Kutta-2', count=120, h=0.001, steps=25), '6g', path,
                            'Runge-Kutta-2', 120, '--time-step', '0.001', '--steps-per-frame', '20')
-    return late == 5 and mistakes_in(alone) == ['no_damping'] and not mistakes_in(other)
+    # A level chain mirrored in y, with another sign of g, moves as without both.
+    _, tiny = lab.verdict(student.frames(scene, count=100, g=9.8100004), '8f', path, 'Runge-Kutta-4')
+    return late == 5 and mistakes_in(alone) == ['no_damping'] and not mistakes_in(other) and not mistakes_in(tiny)
 
 
 def other_courses_are_judged(lab):
@@ -243,6 +245,7 @@ def other_courses_are_judged(lab):
     scene, path = lab.scene('random_masses')
     heun, air, file = dict(tableau=student.HEUN), ('--air-drag', '0.2'), lab.folder / 'ralston.txt'
     implicit, ralston = dict(method='Backward-Euler'), dict(tableau=dict(start=[(), (2 / 3,)], weights=(1 / 4, 3 / 4)))
+    single = wrong('single_precision')
     file.write_text('# Ralston\n2/3\n1/4 3/4\n')
     cases = [  # program, format, first index, asked, status, what is named
         (dict(heun, air=0.2), '6f', 0, ('Heun', *air), 0, []), (dict(heun, air=0.2), '17g', 1, ('Heun', *air), 0, []),
@@ -257,11 +260,13 @@ def other_courses_are_judged(lab):
         (dict(implicit, wrong=['no_damping']), '6f', 0, ('Backward-Euler',), 4, ['no_damping']),
         (implicit, '6f', 0, ('Euler',), 4, 'Backward-Euler'), (dict(k_s=45), '6g', 0, ('Runge-Kutta-4',), 4, ['k_s']),
         (dict(L_0=0.9), '6g', 0, ('Runge-Kutta-4',), 4, ['L_0']), (dict(g=9), '7g', 0, ('Runge-Kutta-4',), 4, ['g']),
+        (single, '9g', 1, ('Runge-Kutta-4',), 4, ['single_precision']),  # below: up to 1e38, then nan
+        (dict(single, method='Euler', h=0.04), '6f', 0, ('Euler', '--time-step', '0.04'), 4, ['single_precision']),
         # Errors as small as those of float, in double: nothing that has been tried.
         (dict(g=9.81 * (1 + 1e-6)), '9g', 0, ('Runge-Kutta-4',), 4, []),
         (dict(g=9.81 * (1 + 1e-6)), '17g', 0, ('Runge-Kutta-4',), 4, []),
         # The fewest mistakes first: Runge-Kutta-4 with two mistakes reproduces these frames, too.
-        (dict(method='Runge-Kutta-2', wrong=['single_precision']), '8g', 0, (None,), 4, ['single_precision']),
+        (dict(single, method='Runge-Kutta-2'), '8g', 0, (None,), 4, ['single_precision']),
     ]
     good = True
     for program, form, first, (asked, *options), expected, names in cases:
