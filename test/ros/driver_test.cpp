@@ -193,6 +193,17 @@ TEST(Follower, SaysOnceThatInputsContradictEachOther) {
   }
 }
 
+TEST(Follower, SaysNothingOfAnApproachThatEndedInAPause) {
+  std::string said;
+  Follower follower("pose", 9.0, [&said](const std::string& text) { said = text; });
+  for (double t = 0.0; t < 9.0; t += 0.1) {
+    follower.take({{2.0 + t, 0.0}, {}, {}}, false, t, t);
+    follower.targetAt(t, {}, t < 1.0 ? 0.1 : 0.0);
+  }
+  follower.targetAt(9.0, {10.8, 0.0}, 0.1);
+  EXPECT_EQ(said, "pose: the particle comes to it from 2 m away");
+}
+
 // After any inputs, a steady one is followed within a second.
 TEST(Follower, FollowsASteadyInputAgain) {
   std::mt19937 random(4);

@@ -216,11 +216,3 @@ class Faults(unittest.TestCase):
                 robot.publish(pose(11.0 + 0.08 * k, 0.0))
                 time.sleep(0.03)
             self.assertNotIn('has not been met', node.output())
-
-    def test_subscribers_that_come_and_go(self):
-        with PendulumNode(particles=HORIZONTAL, frames=100000, real_time_factor=1.0) as node:
-            for _ in range(30):
-                listener = Listener('state', PendulumState)
-                listener.wait_for(1)
-                listener.close()
-            node.stop()

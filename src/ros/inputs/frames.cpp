@@ -13,6 +13,7 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kFirstWait = 0.5;  // s, for the first transforms
+constexpr double kRestart = 0.5;    // s, the least jump back of a clock that starts again
 constexpr std::uint32_t kLongestQueue = 1000;
 
 }  // namespace
@@ -36,10 +37,14 @@ void Frames::listen() {
 }
 
 void Frames::take(const tf2_msgs::TFMessage& message, bool is_static) {
-  const ros::Time now = ros::Time::now();
-  if (now < last_) forget();  // the clock has jumped back
-  last_ = now;
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    const double stamp = transform.header.stamp.toSec();
+    double& latest = latest_[transform.child_frame_id];
+    if (!is_static && stamp < latest - kRestart) {  // tf would take it for the past
+      transforms_.clear();
+      for (auto& [frame, time] : latest_) time = 0.0;
+    }
+    latest = stamp;
     try {
       transforms_.setTransform(transform, "tf", is_static);
     } catch (const std::exception& error) {  // of tf2, for example at the ends of ROS time

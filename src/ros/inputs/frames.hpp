@@ -6,6 +6,7 @@
 #include <ros/callback_queue.h>
 #include <ros/subscriber.h>
 
+#include <map>
 #include <string>
 #include <tf2/LinearMath/Transform.h>
 #include <tf2/buffer_core.h>
@@ -35,9 +36,6 @@ class Frames {
   /// leading '/' does not count. Waits for half a second the first time.
   /// \throws InputError if there is no transform
   StampedTransform from(const std::string& name);
-  /// Forgets moving frames. tf refuses new transforms that are older than 10 s, as when a bag is played
-  /// again.
-  void forget() { transforms_.clear(); }
 
  private:
   void take(const tf2_msgs::TFMessage& message, bool is_static);
@@ -46,7 +44,7 @@ class Frames {
   tf2::BufferCore transforms_;
   ros::CallbackQueue queue_;  ///< served by `from`
   ros::Subscriber moving_, fixed_;
-  ros::Time last_;  ///< when the last transforms came
+  std::map<std::string, double> latest_;  ///< s, stamps of moving frames by name
   Throttle warnings_;
 };
 

@@ -22,8 +22,6 @@ namespace spring_pendulum {
 namespace {
 
 constexpr double kOutOfPlane = 1e-3;       // m
-constexpr double kStaleFrame = 1.0;        // s, until an unchanged frame is forgotten
-constexpr double kForgetInterval = 10.0;   // s, as other holders lose their frames for a moment
 constexpr double kUnknownInterval = 1e-3;  // s
 
 /// Returns the force on the holder of a particle, N, as the sensor of a gripper would feel it: springs,
@@ -96,7 +94,6 @@ void Robots::reset() {
     robot.follower.restart();
     driver_.on(Hold{robot.particle, {}});
   }
-  forget_at_ = ros::SteadyTime::now().toSec() + kForgetInterval;  // followers are silent at first
 }
 
 void Robots::receive(Robot& robot, const std_msgs::Header& header,
@@ -113,14 +110,7 @@ void Robots::receive(Robot& robot, const std_msgs::Header& header,
 void Robots::lookUp(Robot& robot, double now) {
   try {
     const StampedTransform found = frames_.from(robot.frame);
-    if (found.stamp == robot.stamp && found.stamp != 0.0) {
-      // tf ignores the transforms of a clock that has started again until its buffer is empty.
-      if (robot.follower.isSilent(now - kStaleFrame) && now > forget_at_) {
-        frames_.forget();
-        forget_at_ = now + kForgetInterval;
-      }
-      return;
-    }
+    if (found.stamp == robot.stamp && found.stamp != 0.0) return;
     robot.stamp = found.stamp;
     take(robot, found, {}, std::nullopt, now);
   } catch (const InputError& error) {

@@ -124,7 +124,6 @@ class Robots {
   Driver& driver_;
   Frames& frames_;
   std::list<Robot> robots_;  ///< at addresses that stay
-  double forget_at_ = 0.0;   ///< s, from when on stale frames may be forgotten
 };
 
 }  // namespace spring_pendulum
