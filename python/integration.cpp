@@ -61,7 +61,7 @@ class PythonIntegrator {
     const auto used = use();
     integrator_->advance(state, time_step, steps < 0 ? steps : 0);  // checks the arguments
     if (!method_.hasFixedStep()) checkTolerance(tolerance_, chain_, state);
-    tolerance_ = INFINITY;  // only at the start, like a run
+    if (steps > 0) tolerance_ = INFINITY;  // only at the start, like a run
     Interruption interruption;
     {
       const Computation computation;

@@ -81,7 +81,7 @@ std::deque<Method> builtInMethods() {
       {"Backward-Euler", 1, 1, StepControl::kFixed, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer 1996, section "
        "IV.3",
-       "implicit, for teaching: stable with every step, but it loses energy; common in graphics",
+       "implicit, for teaching: no stability limit, but it loses energy; common in graphics",
        nullptr, makeFixedStep<BackwardEuler>, false, 280},
       {"Dormand-Prince-5", 5, 6, StepControl::kErrorControlled, 3.3065678926, 0.9971890107,
        "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, "

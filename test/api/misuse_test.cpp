@@ -30,13 +30,10 @@ State horizontal() {
   return state;
 }
 
-TEST(Misuse, NegativeSizes) {
+TEST(Misuse, NegativeSizesAndStatesOfAnotherSize) {
   EXPECT_THROW(AlignedNumbers(-1), std::length_error);
   EXPECT_THROW(State(-1), InputError);
   EXPECT_THROW(State{std::numeric_limits<std::ptrdiff_t>::min()}, InputError);
-}
-
-TEST(Misuse, StatesOfAnotherSize) {
   for (const std::ptrdiff_t size : kWrongSizes) {
     State slope;
     EXPECT_THROW(springForceOn(chain(), State(size), 0), InputError) << size;
@@ -46,7 +43,7 @@ TEST(Misuse, StatesOfAnotherSize) {
   }
 }
 
-TEST(Misuse, RunsFromStatesOfAnotherSize) {
+TEST(Misuse, RunsFromStatesOfAnotherSizeAndTimes) {
   ReferenceRun reference(chain(), horizontal());
   for (const std::ptrdiff_t size : kWrongSizes) {
     const State wrong(size);
@@ -57,23 +54,16 @@ TEST(Misuse, RunsFromStatesOfAnotherSize) {
     EXPECT_THROW(checkStability(chain(), wrong, Scenario{}), InputError) << size;
     EXPECT_THROW(largestStableStep(chain(), wrong, Scenario{}), InputError) << size;
   }
-}
-
-TEST(Misuse, TimesOfRuns) {
-  ReferenceRun reference(chain(), horizontal());
   EXPECT_THROW(reference.advance(kNan, 1), InputError);
   EXPECT_THROW(reference.advance(0.1, -1), InputError);
   for (const double time : {0.0, -1.0, kNan, kInfinity})
     EXPECT_THROW(linearStepLimit(findMethod("Euler"), chain(), time), InputError);
 }
 
-TEST(Misuse, SpringsThatDoNotExist) {
+TEST(Misuse, SpringsThatDoNotExistAndSlopeAndStateInOnePlace) {
   EXPECT_THROW(springForceOn(chain(), horizontal(), -1), InputError);
   EXPECT_THROW(springForceOn(chain(), horizontal(), kSize - 1), InputError);
   EXPECT_NO_THROW(springForceOn(chain(), horizontal(), kSize - 2));
-}
-
-TEST(Misuse, SlopeAndStateInOnePlace) {
   State state = horizontal();
   EXPECT_THROW(computeSlope(chain(), state, state), InputError);
 }

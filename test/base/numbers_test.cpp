@@ -100,8 +100,6 @@ TEST(Numbers, AreRoundedToAFewDigits) {
 TEST(Numbers, AreCountedInSingularAndPlural) {
   EXPECT_EQ(counted(0, "frame"), "0 frames");
   EXPECT_EQ(counted(1, "frame"), "1 frame");
-  EXPECT_EQ(counted(2, "frame"), "2 frames");
-  EXPECT_EQ(counted(1, "switch", "es"), "1 switch");
   EXPECT_EQ(counted(2, "switch", "es"), "2 switches");
 }
 

@@ -49,16 +49,6 @@ TEST(OwnMethods, AreMethodsOfTheCommandLine) {
   }
 }
 
-TEST(OwnMethods, GetStabilityAdvice) {
-  const test::Scene scene = referenceScene("two_masses_45deg");
-  for (const Method* method : ownMethods()) {
-    Scenario scenario;
-    parse({method->name.c_str(), "--time-step", "0.01"}, scenario);
-    EXPECT_THAT(checkStability(scene.chain, scene.start, scenario).text,
-                testing::HasSubstr(method->name));
-  }
-}
-
 // The coefficients decide, not the address: a copy of a fast tableau is fast.
 TEST(OwnMethods, WithTheCoefficientsOfAFastTableauHaveItsBits) {
   Method copy{"Midpoint-Copy", 2, 2, StepControl::kFixed, 2.0};

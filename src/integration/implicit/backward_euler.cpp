@@ -12,6 +12,7 @@ constexpr int kMostIterations = 50;
 constexpr double kSettled = 1e-9;
 /// Rounding error of a coordinate, relative to the largest.
 constexpr double kRounding = 1e-13;
+constexpr double kTiny = 1e-150;  ///< m/s; squares of such numbers are hardly normal
 
 }  // namespace
 
@@ -67,7 +68,7 @@ bool BackwardEuler::solve(double time_step) {
       finite += 0.0 * (x + y);
     }
     if (!std::isfinite(change + finite)) return false;
-    const double rounding = kRounding * positions.cwiseAbs().maxCoeff() / time_step;
+    const double rounding = kTiny + kRounding * positions.cwiseAbs().maxCoeff() / time_step;
     if (change > kSettled * velocities.cwiseAbs().maxCoeff() + rounding) continue;
     positions = begin_.values().leftCols<2>() + time_step * velocities;
     return true;

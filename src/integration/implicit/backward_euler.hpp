@@ -1,4 +1,4 @@
-// The implicit Euler method: simple, and stable with every step.
+// The implicit Euler method: simple, and without a stability limit.
 //
 //     p' = p + h v'      v' = v + h a(p', v')
 //
