@@ -49,16 +49,16 @@ TEST(BackwardEuler, SolvesTheEquationsOfALinearStep) {
 
 // With L_0 = 0 the potential is convex.
 TEST(BackwardEuler, OnlyLosesEnergy) {
-  for (const double rest_length : {0.0, 1.0}) {
+  for (const auto& [rest_length, gravity] : {std::pair{0.0, 9.81}, {1.0, 9.81}, {0.0, 0.0}}) {
     for (const double step : {1e-3, 0.1, 1.0, 10.0, 1e4}) {
       State state = test::horizontalChain("chain", 11, 1.0).start;
-      const Chain chain(Eigen::VectorXd::Ones(11), {50.0, 0.0, rest_length}, 9.81);
+      const Chain chain(Eigen::VectorXd::Ones(11), {50.0, 0.0, rest_length}, gravity);
       BackwardEuler integrator(chain, false);
       double before = computeEnergy(chain, state).total();
       for (int n = 0; n < 200; ++n) {
         integrator.advance(state, step, 1);
         const double energy = computeEnergy(chain, state).total();
-        ASSERT_LE(energy, before + 1e-9 * std::abs(before)) << step << " s, step " << n;
+        ASSERT_LE(energy, before + 1e-9 * std::abs(before) + 1e-300) << step << " s, step " << n;
         before = energy;
       }
     }
