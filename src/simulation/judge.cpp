@@ -155,14 +155,14 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
   if (is_measuring) excused_ = 0.0;
   Verdict verdict = energyVerdict(time, state, dissipated, supplied);
   measure(state, is_measuring && verdict.kind != VerdictKind::kDiverged ? reference : nullptr);
-  if (verdict.kind == VerdictKind::kDrift && is_measuring) {
+  if (is_measuring && std::abs(entry_.relative_residual.value_or(0.0)) > kDriftThreshold) {
     // In a stiff transient, the dissipated energy can be wrong although the state is right.
-    const double truth = computeEnergy(chain_, *reference->state()).total();
-    if (std::abs(entry_.energy.total() - truth) <= kDriftThreshold * largest_scale_) {
-      excused_ = *entry_.residual;
+    const double error = entry_.energy.total() - computeEnergy(chain_, *reference->state()).total();
+    if (std::abs(error) <= kDriftThreshold * largest_scale_) {
+      excused_ = *entry_.residual - error;
       mean_time_ = time;
       sums_.setZero();
-      verdict.kind = VerdictKind::kOk;
+      if (verdict.kind == VerdictKind::kDrift) verdict.kind = VerdictKind::kOk;
     }
   }
   const bool has_news = is_measuring || worst_.kind == VerdictKind::kOk;  // an end is said once
