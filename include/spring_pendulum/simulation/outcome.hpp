@@ -59,8 +59,8 @@ struct StabilityReport {
 ///   allows.
 double linearStepLimit(const Method& method, const Chain& chain, double duration);
 
-/// Returns the largest stable step size of a run, from a few trial runs. Independent of
-/// `Plan::time_step`, except that it determines the duration.
+/// Returns the largest stable step size of a run, from a few trial runs. `Plan::time_step` determines the
+/// duration, and if it is not stable, the result is smaller.
 /// \param stop asked during the trials; when it returns true, the result is not valid
 /// \throws InputError for a value of the plan out of its range, as the functions below
 StableStep largestStableStep(const Chain& chain, const State& start, const Plan& plan,

@@ -126,8 +126,7 @@ class Trials {
       }
       if (found >= top || failed <= kPrecision * low) {
         // Nearly undamped chains have narrow intervals of unstable step sizes.
-        if (verdictWithStep(0.9 * low, bad).value_or(Verdict{}).kind < bad)
-          return found >= top ? kInfinity : found;
+        if (verdictWithStep(0.9 * low, bad).value_or(Verdict{}).kind < bad) break;
         failed = 0.9 * low;
         found = low = 0.0;
       }
@@ -135,6 +134,7 @@ class Trials {
                          : std::isinf(failed) ? std::min(ratio * low, most)
                                               : std::sqrt(low * failed));
     }
+    if (found >= top) return kInfinity;
     return found;
   }
 
@@ -160,12 +160,14 @@ StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
   const bool has_limit = method.imaginary_stability_limit > 0.0 || chain.isDissipative();
   constexpr auto kBad = VerdictKind::kGainedEnergy;
   // In equilibrium, only many steps show that errors grow.
-  const bool fails = trials.verdictWithStep(plan.time_step, kBad).value_or(Verdict{}).kind >= kBad;
-  const double found =
-      trials.largestStep(has_limit ? springStepLimit(method, chain, duration) : duration, duration,
-                         kBad, fails ? plan.time_step : kInfinity);
+  const auto trial = trials.run(plan, kBad);
+  double failed = kInfinity;
+  if (trial && trial->verdict.kind >= kBad) failed = plan.time_step;
+  const double found = trials.largestStep(
+      has_limit ? springStepLimit(method, chain, duration) : duration, duration, kBad, failed);
   if (found > 0.0) return {found, false};
   const double limit = linearStepLimit(method, chain, duration);
+  if (limit >= failed) return {0.0, true};
   return {std::isfinite(limit) ? roundedDown(limit) : limit, true};
 }
 
