@@ -106,10 +106,11 @@ class Checker {
     for (const Method* method : others_)
       if ((kindOf(*method) & kOfExercise) != 0) written.push_back(method);
     found = findMistakes(written, 5);
-    if (found.empty() && (is_right_ || search_limit_.isOver()))
-      frames_.notes.emplace_back(
-          is_right_ ? "a constant that is off by less than 1e-5 of its value explains the frames"
-                    : "the search for mistakes stopped before all were tried");
+    if (found.empty() && !right_.empty())
+      frames_.notes.push_back("frames of " + right_ +
+                              " with a constant too near the right one to be named");
+    if (found.empty() && right_.empty() && search_limit_.isOver())
+      frames_.notes.emplace_back("the search for mistakes stopped before all were tried");
     return found;
   }
 
@@ -119,7 +120,7 @@ class Checker {
     const std::vector<FrameNumbers>& frames = frames_.frames;
     const std::int64_t far = frames[std::min(known_frames_ + kEvidence, frames.size() - 1)].index;
     Programs best;
-    for (int level = 0; level < (is_right_ ? 3 : levels); ++level) {
+    for (int level = 0; level < (right_.empty() ? levels : 3); ++level) {
       for (const Method* method : methods) tryMistakes(StudentProgram(*method, scenario_), level);
       Programs found = std::exchange(found_, {});
       std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -151,7 +152,7 @@ class Checker {
   void tryChanges(const StudentProgram& base, std::size_t first, bool numbers) {
     for (const Constant& constant : fittedConstants())
       for (const double factor : {1.0, 0.1, 10.0, -1.0})
-        if (!numbers || is_right_ || search_limit_.isOver() || fit(base, constant, factor) ||
+        if (!numbers || search_limit_.isOver() || fit(base, constant, factor) ||
             !base.mistakes.empty())
           break;
     for (std::size_t i = first; i < table_.size() && !numbers && !search_limit_.isOver(); ++i)
@@ -178,18 +179,23 @@ class Checker {
     return isExplanation(program, agreement);
   }
 
-  /// Fits a constant to a frame: the secant method for least squares.
-  void improve(StudentProgram& program, const Constant& constant, const FrameNumbers& frame) {
-    constexpr double kFirstChange = 1e-4;
+  /// Fits a constant to the frames up to `last`: the secant method for least squares.
+  void improve(StudentProgram& program, const Constant& constant, std::size_t last) {
     constexpr double kRounding = 1e-12;  // relative; weighs tiny numbers with many digits less
-    const auto differences = [&]() -> Eigen::ArrayX2d {
+    const Eigen::Index size = particles_.state.size();
+    const auto differences = [&] {
+      Eigen::ArrayX2d all(size * static_cast<Eigen::Index>(last + 1), 2);
       const auto motion = motionOf(program, particles_);
-      motion->advanceTo(frame.index, search_limit_);
-      return (motion->positions() - frame.positions) /
-             (frame.units + kRounding * frame.positions.abs().maxCoeff());
+      for (Eigen::Index row = 0; row < all.rows(); row += size) {
+        const FrameNumbers& frame = frames_.frames[static_cast<std::size_t>(row / size)];
+        motion->advanceTo(frame.index, search_limit_);
+        all.middleRows(row, size) = (motion->positions() - frame.positions) /
+                                    (frame.units + kRounding * frame.positions.abs().maxCoeff());
+      }
+      return all;
     };
     double& value = constant.in(program);
-    double change = value == 0.0 ? kFirstChange : kFirstChange * value;
+    double change = 1e-4 * (value == 0.0 ? 1.0 : value);
     Eigen::ArrayX2d old = differences();
     for (int i = 0; i < 12 && !search_limit_.isOver(); ++i) {
       value += change;
@@ -224,7 +230,7 @@ class Checker {
     while (!agreement.complete && !search_limit_.isOver()) {
       const std::size_t before = agreement.frames;
       const std::size_t next = std::min(frames_.frames.size() - 1, before + before / 2);
-      improve(program, constant, frames_.frames[next]);
+      improve(program, constant, next);
       agreement = agreementWith(program, search_limit_);
       if (!agreement.complete) agreement = round(6);  // a student writes few digits
       if (!agreement.complete && agreement.frames <= before) return false;
@@ -232,7 +238,7 @@ class Checker {
     if (!isExplanation(program, agreement)) return false;
     program.last_frame = round(kMostDigits).last_frame;
     const bool is_tiny = std::abs(value - right) <= kLeast * std::abs(right == 0.0 ? 1.0 : right);
-    is_right_ = is_right_ || (is_tiny && program.mistakes.empty());
+    if (is_tiny && program.mistakes.empty()) right_ = program.method.get().name;
     if (is_tiny || program.time_step < 0.0) return false;  // backwards, undamped motion is the same
     std::string sentence(constant.sentence);
     sentence.replace(sentence.find("{}"), 2, roundedText(value, kMostDigits));
@@ -304,7 +310,7 @@ class Checker {
   std::int64_t last_frame_ = -1;      ///< the last one that could be compared
   std::size_t known_frames_ = 0;      ///< number of frames before the departure
   std::optional<Departure> departure_;
-  bool is_right_ = false;  ///< but for a difference too small to be named
+  std::string right_;  ///< a method that is right but for a number too near to be named
   Programs found_;
   const std::vector<Mistake>& table_ = knownMistakes();
   Plan nearest_;  ///< with the method from which the frames depart
@@ -313,10 +319,11 @@ class Checker {
 }  // namespace
 
 FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
-                       const std::vector<FrameText>& frames, bool method_is_given,
+                       std::vector<FrameText> frames, bool method_is_given,
                        const std::function<bool()>& stop) {
   checkScenario(scenario);
-  return Checker(scenario, particles, readFrames(frames, particles), method_is_given, stop).check();
+  AllFrames numbers = readFrames(std::move(frames), particles);
+  return Checker(scenario, particles, std::move(numbers), method_is_given, stop).check();
 }
 
 }  // namespace spring_pendulum

@@ -29,7 +29,7 @@ struct FrameCheck {
 /// \param scenario  the constants of the model, steps, tolerance and number of frames that the program
 ///   should have
 /// \param particles the start
-/// \param frames    by increasing index, some may be missing
+/// \param frames    in any order, some may be missing
 /// \param method_is_given whether the frames must be those of `Scenario::method`. Otherwise they may be
 ///   those of any method but explicit Runge-Kutta methods of other courses.
 /// \param stop      asked every few milliseconds; when it returns true, the check ends
@@ -37,7 +37,7 @@ struct FrameCheck {
 /// \throws FileError naming frame and line if there are no frames, or one of them can't be read or
 ///   has another number of particles, and if `stop` ends the check before a verdict
 FrameCheck checkFrames(const Scenario& scenario, const Scene& particles,
-                       const std::vector<FrameText>& frames, bool method_is_given,
+                       std::vector<FrameText> frames, bool method_is_given,
                        const std::function<bool()>& stop = {});
 
 }  // namespace spring_pendulum

@@ -122,7 +122,9 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
   return true;
 }
 
-AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles) {
+AllFrames readFrames(std::vector<FrameText> texts, const Scene& particles) {
+  std::sort(texts.begin(), texts.end(),
+            [](const auto& a, const auto& b) { return a.index < b.index; });
   Format format;
   AllFrames all;
   all.start = particles.frame;

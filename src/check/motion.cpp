@@ -214,27 +214,18 @@ class ProgramMotion : public Motion {
 /// `error` m. Printing changes no number by more than `scale`, the largest one.
 std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::ArrayX2d& motion,
                                      double scale, double error) {
-  constexpr double kMostly = 0.9, kClear = 0.2;
   const auto agrees = ((frame.positions - motion).abs() <= frame.units.min(scale) + error) ||
                       (!frame.positions.isFinite() && !motion.isFinite());
   for (Eigen::Index i = 0; i < motion.rows(); ++i) {
     if (agrees.row(i).all()) continue;
-    const Eigen::RowVector2d offset =  // in the coordinates that show it
-        agrees.row(i).select(0.0, frame.positions.row(i) - motion.row(i)).matrix();
+    const Eigen::Array<double, 1, 2> all = frame.positions.row(i) - motion.row(i);
+    const auto is_shown = all.abs() > frame.units.row(i).min(scale) || all.isNaN();
+    const Eigen::RowVector2d offset = is_shown.select(all, 0.0);
     const double distance = std::hypot(offset.x(), offset.y());
     const std::string particle = fmt::format("particle {}, ", i + 1);
     if (!std::isfinite(distance))
       return Departure{frame.index, distance, particle + "where a number is nan, inf or too large"};
-    const Eigen::RowVector2d spring =
-        (motion.row(i) - motion.row(std::max<Eigen::Index>(i - 1, 0))).matrix();
-    const double along = std::abs((offset / distance).dot(spring)) / spring.norm();
-    const bool is_clear = frame.units.row(i).maxCoeff() <= kClear * distance;  // not rounded away
-    return Departure{frame.index, distance,
-                     fmt::format("{}by {} m{}", particle, roundedText(distance, 2),
-                                 !is_clear               ? ""
-                                 : along > kMostly       ? " along its spring"
-                                 : along < 1.0 - kMostly ? " across its spring"
-                                                         : "")};
+    return Departure{frame.index, distance, particle + "by " + roundedText(distance, 2) + " m"};
   }
   return std::nullopt;
 }

@@ -27,9 +27,10 @@ struct FrameNumbers {
   Eigen::ArrayX2d positions;  ///< N×2, m; nan and inf as printed
   Eigen::ArrayX2d units;      ///< N×2, one unit of the last digit printed, m
 
-  /// \param share of a unit by which finite numbers may differ
+  /// \param share of a unit by which finite numbers may differ, besides the rounding to double
   bool equals(const Eigen::ArrayX2d& numbers, double share) const {
-    return ((positions - numbers).abs() <= share * units ||
+    constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+    return ((positions - numbers).abs() <= share * units + kEpsilon * positions.abs() ||
             (!positions.isFinite() && !numbers.isFinite()))
         .all();
   }
@@ -51,9 +52,8 @@ struct AllFrames {
   bool renumber(const Eigen::ArrayX2d& positions);
 };
 
-/// \param texts by increasing index
 /// \throws FileError naming frame and line
-AllFrames readFrames(const std::vector<FrameText>& texts, const Scene& particles);
+AllFrames readFrames(std::vector<FrameText> texts, const Scene& particles);
 
 /// The force of a spring on a particle, as a program computes it:
 ///
