@@ -30,7 +30,6 @@ class Frames {
  public:
   /// \param frame_id frame of the chain
   explicit Frames(std::string frame_id) : frame_id_(std::move(frame_id)) {}
-
   void listen();
   /// Returns the latest transform from a frame; an empty name means the frame of the chain, and a
   /// leading '/' does not count. Waits for half a second the first time.
@@ -39,13 +38,16 @@ class Frames {
 
  private:
   void take(const tf2_msgs::TFMessage& message, bool is_static);
+  /// Forgets moving frames if the clock of this one has started again.
+  void note(const geometry_msgs::TransformStamped& transform);
 
   std::string frame_id_;
   tf2::BufferCore transforms_;
   ros::CallbackQueue queue_;  ///< served by `from`
   ros::Subscriber moving_, fixed_;
-  std::map<std::string, double> latest_;  ///< s, stamps of moving frames by name
-  Throttle warnings_;
+  std::map<std::string, std::pair<double, int>> latest_;  ///< stamps, s, and older ones since
+  std::map<std::string, geometry_msgs::TransformStamped> timeless_;  ///< with the stamp 0
+  Throttle warnings_, restarts_;
 };
 
 }  // namespace spring_pendulum

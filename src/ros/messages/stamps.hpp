@@ -26,11 +26,11 @@ class Stamps {
 /// still.
 class Throttle {
  public:
-  /// True at most every 5 s.
-  bool isDue() {
+  /// True at most every so many seconds.
+  bool isDue(double interval = 5.0) {
     const ros::SteadyTime now = ros::SteadyTime::now();
     if (now < next_) return false;
-    next_ = now + ros::WallDuration(5.0);
+    next_ = now + ros::WallDuration(interval);
     return true;
   }
 

@@ -87,8 +87,7 @@ class Node {
   std::vector<ros::ServiceServer> services_;
 
   Logged logged_;
-  bool ended_ = false;
-  bool paused_ = false;
+  bool ended_ = false, paused_ = false;
   std::int64_t steps_wanted_ = 0;
   ros::SteadyTime shown_, show_at_;  ///< when a state was published last, and the next is due
   Throttle refusals_;

@@ -35,8 +35,7 @@ class Publisher {
   static bool isSubscribed(const ros::Publisher& topic) { return topic.getNumSubscribers() > 0; }
 
   RunMessages messages_;
-  std::int64_t markers_built_ = 0;
-  std::int64_t states_built_ = 0;
+  std::int64_t markers_built_ = 0, states_built_ = 0;
   ros::SerializedMessage last_markers_, last_state_;  ///< shared with ROS until they are sent
   ros::Publisher markers_;
   ros::Publisher state_;
