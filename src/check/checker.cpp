@@ -182,12 +182,14 @@ class Checker {
   /// Fits a constant to the frames up to `last`: the secant method for least squares.
   void improve(StudentProgram& program, const Constant& constant, std::size_t last) {
     constexpr double kRounding = 1e-12;  // relative; weighs tiny numbers with many digits less
+    constexpr std::size_t kMostNumbers = 4'000'000;  // of earlier frames
     const Eigen::Index size = particles_.state.size();
+    const std::size_t first = last - std::min(last, kMostNumbers / static_cast<std::size_t>(size));
     const auto differences = [&] {
-      Eigen::ArrayX2d all(size * static_cast<Eigen::Index>(last + 1), 2);
+      Eigen::ArrayX2d all(size * static_cast<Eigen::Index>(last - first + 1), 2);
       const auto motion = motionOf(program, particles_);
       for (Eigen::Index row = 0; row < all.rows(); row += size) {
-        const FrameNumbers& frame = frames_.frames[static_cast<std::size_t>(row / size)];
+        const FrameNumbers& frame = frames_.frames[first + static_cast<std::size_t>(row / size)];
         motion->advanceTo(frame.index, search_limit_);
         all.middleRows(row, size) = (motion->positions() - frame.positions) /
                                     (frame.units + kRounding * frame.positions.abs().maxCoeff());
