@@ -65,7 +65,7 @@ class Hands(LiveTest):
     def test_the_camera_stays_while_a_hand_pulls(self):
         self.listen('markers', MarkerArray, keep=1)
         cameras = self.listen('/tf_static', TFMessage)
-        with self.start():
+        with self.start(gravity=0.0):  # stays in the picture
             cameras.wait_for(1)
             self.drag(11, 5.0, 8.0)  # out of the picture
             self.assertEqual(len(cameras.messages), 1)

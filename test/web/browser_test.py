@@ -425,7 +425,7 @@ class LabTest(unittest.TestCase):
             for kind in ('dragEnter', 'dragOver', 'drop'):
                 self.browser.execute_cdp_cmd('Input.dispatchDragEvent', {
                     'type': kind, 'x': 300, 'y': 300,
-                    'data': {'items': [], 'files': [str(path) for path in sorted(Path(folder).iterdir())],
+                    'data': {'items': [], 'files': [str(path) for path in sorted(Path(folder).iterdir(), reverse=True)],
                              'dragOperationsMask': 1}})
             self.wait('return document.getElementById("check-note").textContent.includes("equal to Runge-Kutta-4")')
 

@@ -63,7 +63,7 @@ std::vector<Option> displayOptions(NodeOptions& o) {
        "", "tf frame of all messages; the chain moves in its x-z plane"},
       {"display_rate", Number{&o.display_rate, Range::atLeast(0)}, "Hz",
        "states published per second on average, also between frames, at most one per fixed "
-       "integration step; the frame files do not change; 0: frames only"},
+       "integration step; the frame files do not change; 0, or with `sleep`: frames only"},
       {"track_dissipation", Flag{&o.track_dissipation}, "",
        "always integrate the dissipated energy; false: only where it is cheap, as in Exercise3"},
       {"color",

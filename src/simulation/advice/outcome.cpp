@@ -159,16 +159,14 @@ StableStep stableStep(Trials& trials, const Chain& chain, const Plan& plan) {
   // Without damping, some methods gain energy with every step size: only trials tell how much.
   const bool has_limit = method.imaginary_stability_limit > 0.0 || chain.isDissipative();
   constexpr auto kBad = VerdictKind::kGainedEnergy;
+  const double first = has_limit ? springStepLimit(method, chain, duration) : duration;
+  StableStep stable{trials.largestStep(first, duration, kBad), false};
+  if (stable.step == 0.0) stable = {roundedDown(linearStepLimit(method, chain, duration)), true};
+  if (stable.step < plan.time_step) return stable;
   // In equilibrium, only many steps show that errors grow.
   const auto trial = trials.run(plan, kBad);
-  double failed = kInfinity;
-  if (trial && trial->verdict.kind >= kBad) failed = plan.time_step;
-  const double found = trials.largestStep(
-      has_limit ? springStepLimit(method, chain, duration) : duration, duration, kBad, failed);
-  if (found > 0.0) return {found, false};
-  const double limit = linearStepLimit(method, chain, duration);
-  if (limit >= failed) return {0.0, true};
-  return {std::isfinite(limit) ? roundedDown(limit) : limit, true};
+  if (!trial || trial->verdict.kind < kBad) return stable;
+  return {trials.largestStep(first, duration, kBad, plan.time_step), false};
 }
 
 std::string stepText(double step, const std::string& remark) {
