@@ -182,7 +182,7 @@ class Checker {
   /// Fits a constant to the frames up to `last`: the secant method for least squares.
   void improve(StudentProgram& program, const Constant& constant, std::size_t last) {
     constexpr double kRounding = 1e-12;  // relative; weighs tiny numbers with many digits less
-    constexpr std::size_t kMostNumbers = 4'000'000;  // of earlier frames
+    constexpr std::size_t kMostNumbers = 4'000'000;  // bounds the memory
     const Eigen::Index size = particles_.state.size();
     const std::size_t first = last - std::min(last, kMostNumbers / static_cast<std::size_t>(size));
     const auto differences = [&] {

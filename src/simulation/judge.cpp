@@ -204,7 +204,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance))
     return diverged(entry_, chain_, state);
   double gain = entry_.relative_gain;
-  if (residual != 0.0) residual *= 1.0 - excused_ / *entry_.residual;  // since it was excused
+  if (residual != 0.0) residual *= 1.0 - excused_ / *entry_.residual;  // without the excused part
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.

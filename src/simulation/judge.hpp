@@ -104,7 +104,7 @@ class Judge {
   double largest_scale_ = 0.0;           ///< at which the chain has moved, J
   double mean_time_;                     ///< since when the mean is judged, s
   Eigen::Array3d sums_{0, 0, 0};  ///< since then: relative gain, relative residual, one each frame
-  double excused_ = 0.0;          ///< error of the dissipated energy, J
+  double excused_ = 0.0;          ///< error of the dissipated energy where the state was right, J
   double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.
   double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance
