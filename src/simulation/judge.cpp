@@ -152,19 +152,13 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
 const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference, double supplied) {
   const bool is_measuring = reference != nullptr && reference->isMeasuring();
-  if (is_measuring) excused_ = 0.0;
-  Verdict verdict = energyVerdict(time, state, dissipated, supplied);
-  measure(state, is_measuring && verdict.kind != VerdictKind::kDiverged ? reference : nullptr);
-  if (is_measuring && std::abs(entry_.relative_residual.value_or(0.0)) > kDriftThreshold) {
-    // In a stiff transient, the dissipated energy can be wrong although the state is right.
-    const double error = entry_.energy.total() - computeEnergy(chain_, *reference->state()).total();
-    if (std::abs(error) <= kDriftThreshold * largest_scale_) {
-      excused_ = *entry_.residual - error;
-      mean_time_ = time;
-      sums_.setZero();
-      if (verdict.kind == VerdictKind::kDrift) verdict.kind = VerdictKind::kOk;
-    }
+  entry_ = balanceOf(time, state, dissipated, supplied);
+  if (is_measuring && entry_.residual) {
+    const double right = computeEnergy(chain_, *reference->state()).total();
+    dissipated_error_ = *entry_.residual - (entry_.energy.total() - right);
   }
+  Verdict verdict = energyVerdict(time, state, supplied);
+  measure(state, is_measuring && verdict.kind != VerdictKind::kDiverged ? reference : nullptr);
   const bool has_news = is_measuring || worst_.kind == VerdictKind::kOk;  // an end is said once
   if (verdict.kind == VerdictKind::kOk && has_news) verdict = positionVerdict(reference);
   latest_ = std::move(verdict);
@@ -192,8 +186,7 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
   error.largest_time = entry_.time;
 }
 
-Verdict Judge::energyVerdict(double time, const State& state, double dissipated, double supplied) {
-  entry_ = balanceOf(time, state, dissipated, supplied);
+Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   largest_scale_ = scale(time, supplied);
   const double spread = std::min(2.0 * kPromise * options_.tolerance, 1e150);  // m, squared below
   double allowance = static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness *
@@ -204,13 +197,16 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance))
     return diverged(entry_, chain_, state);
   double gain = entry_.relative_gain;
-  if (residual != 0.0) residual *= 1.0 - excused_ / *entry_.residual;  // without the excused part
+  // In a stiff transient, the dissipated energy can be wrong although the state is right.
+  double error = residual;
+  if (residual != 0.0) error *= 1.0 - dissipated_error_ / *entry_.residual;
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
-    sums_ += Eigen::Array3d(gain, residual, 1.0);
-    gain = sums_[0] / sums_[2];
-    residual = sums_[1] / sums_[2];
+    sums_ += Eigen::Array4d(gain, residual, error, 1.0);
+    gain = sums_[0] / sums_[3];
+    residual = sums_[1] / sums_[3];
+    error = sums_[2] / sums_[3];
     allowance += options_.symplectic_step / (time - mean_time_);
   }
   if (gain > kGainThreshold + allowance)
@@ -221,7 +217,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double dissipated,
                 entry_.gain, time, 100.0 * entry_.relative_gain,
                 changed_ ? "the energy supplied to the chain is counted"
                          : "no force drives the chain")};
-  if (!(std::abs(residual) <= kDriftThreshold + allowance))
+  if (!(std::min(std::abs(residual), std::abs(error)) <= kDriftThreshold + allowance))
     return {
         VerdictKind::kDrift, time, 0,
         fmt::format("drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of the "

@@ -90,7 +90,7 @@ class Judge {
   Energy energyOf(const State& state) const;
   void measureChain(const State& state, double energy, double time);
   void measure(const State& state, const ReferenceRun* reference);
-  Verdict energyVerdict(double time, const State& state, double dissipated, double supplied);
+  Verdict energyVerdict(double time, const State& state, double supplied);
   Verdict positionVerdict(const ReferenceRun* reference) const;
 
   Chain chain_;
@@ -103,9 +103,9 @@ class Judge {
   double pulled_depth_ = 0.0;            ///< by which forces lower the energy at rest, J
   double largest_scale_ = 0.0;           ///< at which the chain has moved, J
   double mean_time_;                     ///< since when the mean is judged, s
-  Eigen::Array3d sums_{0, 0, 0};  ///< since then: relative gain, relative residual, one each frame
-  double excused_ = 0.0;          ///< error of the dissipated energy where the state was right, J
-  double worst_residual_ = 0.0;   ///< largest relative residual of the energy balance
+  Eigen::Array4d sums_{0, 0, 0, 0};  ///< since then: relative gain, residual, error, one each frame
+  double dissipated_error_ = 0.0;    ///< J, when it was measured last
+  double worst_residual_ = 0.0;      ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.
   double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance
   double sensitive_time_ = 0.0;  ///< where none can promise it
