@@ -27,6 +27,8 @@ constexpr double kPrecision = 1.02;
 constexpr double kTrialWork = 0.1;
 /// Work allowed for all trials with their reference runs, in trials.
 constexpr double kMostTrials = 30.0;
+/// Frames of a trial with another step; more would take too long.
+constexpr double kMostFrames = 20000.0;
 /// Nominal time in s of judging a frame, per particle, and of an evaluation in code without a fast
 /// kernel, beyond what the integrator counts. Measured: 25 ns, and 320 to 470 ns for 6 particles.
 constexpr double kFrameTime = 2.5e-8;
@@ -60,6 +62,9 @@ class Trials {
     const bool has_kernel = method.tableau != nullptr && chain.isPlain() &&
                             findAdvanceKernel(fastestChainKernels(), *method.tableau) != nullptr;
     evaluation_time_ = method.hasFixedStep() && !has_kernel ? kPlainTime : 0.0;
+    Plan own = plan;
+    own.reference = ReferenceUse::kNever;
+    checks_energy_ = Run(scene_, own).energyEntry().dissipated.has_value();
   }
 
   /// Runs a variant of the plan until the verdict is `enough` or worse. Measures the position error if it
@@ -80,7 +85,7 @@ class Trials {
     };
     // The negated comparison also ends a method whose work is not a number.
     const auto ends = [&] { return !(work() < kTrialWork) || (stop_ && stop_()); };
-    run.emplace(scene_, plan, RunOptions{false, 0.0, ends});
+    run.emplace(scene_, plan, RunOptions{checks_energy_, 0.0, ends});
     while (run->advance() && run->verdict().kind < enough) continue;
     total_work_ += work() + run->referenceWork();
     if (run->wasStopped()) return {};
@@ -93,7 +98,7 @@ class Trials {
   std::optional<Verdict> verdictWithStep(double step, VerdictKind enough) {
     const double duration = durationOf(plan_);
     if (duration / step > 1e9) return {};  // would take too long
-    const double interval = std::clamp(plan_.timeOfFrame(1), duration / 2000.0, duration);
+    const double interval = std::clamp(plan_.timeOfFrame(1), duration / kMostFrames, duration);
     Plan plan = plan_;
     plan.sleep = 0.0;
     plan.time_step = step;
@@ -149,6 +154,7 @@ class Trials {
   std::function<bool()> stop_;
   double evaluation_time_;   ///< in addition to what the integrator counts, s
   double total_work_ = 0.0;  ///< s
+  bool checks_energy_;       ///< as the run does, whatever the step
   std::string until_;
 };
 
