@@ -7,12 +7,12 @@ import {get, methodOf, on, optionsOf, settings} from './state.js';
 
 const note = get('check-note');
 const MOST_BYTES = 1e8;
-const NAME = /^(frame[^\d]*(\d+)\.(?:txt|dat|csv))$/i;
+const NAME = /^frame_(\d+)\.txt$/;
 let library = null;
 
 const frameOf = (path) => {
   const found = NAME.exec(path);
-  return found && {name: found[1], index: Number(found[2])};
+  return found && {name: path, index: Number(found[1])};
 };
 
 function say(...lines) {
@@ -22,7 +22,8 @@ function say(...lines) {
 const tooMuch = (bytes) => `${(bytes / 1e6).toFixed(0)} MB of frames are too much for this page: use check_frames`;
 
 async function readFiles(files) {
-  const named = files.map((file) => ({file, frame: frameOf(file.name)})).filter(({frame}) => frame);
+  const named = files.filter((file) => file.webkitRelativePath.split('/').length < 3)  // of the folder itself
+    .map((file) => ({file, frame: frameOf(file.name)})).filter(({frame}) => frame);
   const bytes = named.reduce((sum, {file}) => sum + file.size, 0);
   if (bytes > MOST_BYTES) throw new Error(tooMuch(bytes));
   return Promise.all(named.map(async ({file, frame}) => ({...frame, text: await file.text()})));
@@ -67,7 +68,7 @@ export async function take(files) {
 
 async function check(frames) {
   const run = settings.runs[0];
-  const {reference: _, frames: __, ...options} = optionsOf(run);
+  const {reference: _, ...options} = optionsOf(run);
   const began = performance.now();
   get('check-cancel').hidden = false;
   say(`Comparing ${frames.length} frames …`);

@@ -194,7 +194,7 @@ class Checker {
         all.middleRows(row, size) = (motion->positions() - frame.positions) /
                                     (frame.units + kRounding * frame.positions.abs().maxCoeff());
       }
-      return all;
+      return Eigen::ArrayX2d((all.abs() < 1e150).select(all, 0.0));  // after overflow, all fit
     };
     double& value = constant.in(program);
     double change = 1e-4 * (value == 0.0 ? 1.0 : value);
@@ -257,7 +257,7 @@ class Checker {
                                   ? "all " + counted(count, "frame")
                                   : fmt::format("frames up to {}", last_frame_);
     return fmt::format("{}: {} in the {} printed", fmt::join(methods_, " or "), which,
-                       counted(frames_.digits, "digit"));
+                       counted(std::min(frames_.digits, frames_.are_floats ? 7 : 17), "digit"));
   }
 
   FrameCheck equal() const {

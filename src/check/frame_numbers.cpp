@@ -80,16 +80,15 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
   return {frame.index, Eigen::Map<const Rows>(numbers.data(), rows, 2), {}};
 }
 
-/// Whether a program in float wrote the frames: they begin with the start rounded to float, or have enough
-/// digits to show that all later frames have only floats.
+/// Whether the numbers are floats: all later frames have only floats or, with few digits, the first one is
+/// the start rounded to float.
 bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
   constexpr double kRounded = 0.51;  // units of the last digit
   const FrameNumbers& first = all.frames.front();
   const bool has_start = first.index == all.start;
-  if (has_start && !first.equals(start, kRounded) && first.equalsFloatsOf(start, kRounded))
-    return true;
-  return all.digits > AllFrames::kDigitsOfFloat && all.frames.back().index > all.start &&
-         (all.frames.back().positions != start).any() &&
+  if (all.digits <= AllFrames::kDigitsOfFloat)
+    return has_start && !first.equals(start, kRounded) && first.equalsFloatsOf(start, kRounded);
+  return (all.frames.back().positions != start).any() &&
          std::all_of(all.frames.begin() + (has_start ? 1 : 0), all.frames.end(),
                      [](const auto& one) { return one.equalsFloatsOf(one.positions, kRounded); });
 }
@@ -138,11 +137,14 @@ AllFrames readFrames(std::vector<FrameText> texts, const Scene& particles) {
     if (!is_copy || texts.size() == 1) format = with_frame;
   }
   if (all.frames.empty())
-    throw FileError("no frames; they are named frame_0000.txt, frame_0001.txt, ...");
+    throw FileError(fmt::format("no frames: neither {} nor later ones", frameName(all.start)));
   for (FrameNumbers& frame : all.frames)
     frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
   all.digits = format.digits;
   all.are_floats = areFloats(all, start);
+  for (FrameNumbers& frame :
+       all.frames)  // a double program may round its numbers when it prints them
+    if (all.are_floats) frame.units = frame.units.max(0x1p-23 * frame.positions.abs());
   noteMissingFrames(all);
   return all;
 }

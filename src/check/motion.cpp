@@ -53,6 +53,7 @@ class ProgramMotion : public Motion {
     if (program.single_precision) {
       state_ = state_.cast<float>().cast<double>().eval();
       precision_ = std::numeric_limits<float>::epsilon();
+      largest = 1e18;
     }
     const AlignedNumbers& masses = particles.masses;
     const Eigen::Index last = masses.size() - 1;
@@ -222,10 +223,9 @@ std::optional<Departure> departureOf(const FrameNumbers& frame, const Eigen::Arr
     const auto is_shown = all.abs() > frame.units.row(i).min(scale) || all.isNaN();
     const Eigen::RowVector2d offset = is_shown.select(all, 0.0);
     const double distance = std::hypot(offset.x(), offset.y());
-    const std::string particle = fmt::format("particle {}, ", i + 1);
-    if (!std::isfinite(distance))
-      return Departure{frame.index, distance, particle + "where a number is nan, inf or too large"};
-    return Departure{frame.index, distance, particle + "by " + roundedText(distance, 2) + " m"};
+    const std::string how = std::isfinite(distance) ? "by " + roundedText(distance, 2) + " m"
+                                                    : "where a number is nan, inf or too large";
+    return Departure{frame.index, distance, fmt::format("particle {}, {}", i + 1, how)};
   }
   return std::nullopt;
 }
@@ -246,10 +246,8 @@ void Motion::disturb(std::mt19937& random, bool off_line) {
     // Nothing if all are equal, like x in a vertical chain: their differences are exact.
     if (!off_line && numbers.minCoeff() == numbers.maxCoeff()) continue;
     const double error = size * (off_line ? state_.abs().maxCoeff() : numbers.abs().maxCoeff());
-    for (Eigen::Index i = 1; i < numbers.size(); ++i) {
-      const double share = static_cast<double>(random()) / std::mt19937::max();
-      numbers[i] += (2.0 * share - 1.0) * error;
-    }
+    for (Eigen::Index i = 1; i < numbers.size(); ++i)
+      numbers[i] += (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0) * error;
   }
   is_disturbed_ = true;
 }
@@ -264,20 +262,22 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
 
 Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
                   WorkLimit& limit, bool off_line) {
-  constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the scale
+  constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the extent
   std::mt19937 random(1);               // the same on every machine
   const auto motion = make();
   // One alone may hardly move in the direction in which errors grow.
   const std::array companions{make(), make()};
   for (const auto& companion : companions) companion->disturb(random, off_line);
   Agreement agreement;
-  double rounding = 0.0, scale = 0.0;  // m: errors, and the largest coordinate
+  double rounding = 0.0, scale = 0.0, extent = 0.0;  // m: errors, largest coordinate and offset
   std::int64_t index = frames.start;
   for (auto frame = frames.frames.begin(); frame != frames.frames.end(); ++index) {
     if (limit.isOver() || !motion->advanceTo(index, limit)) break;
     limit.done += 1e-7 * static_cast<double>(frame->positions.size());  // s, to compare the numbers
     const Eigen::ArrayX2d positions = motion->positions();
+    const Eigen::ArrayX2d offsets = (positions.rowwise() - positions.row(0)).abs();
     scale = std::max(scale, positions.isFinite().select(positions.abs(), 0.0).maxCoeff());
+    extent = std::max(extent, offsets.isFinite().select(offsets, 0.0).maxCoeff());
     for (const auto& companion : companions) {
       if (!companion->advanceTo(index, limit)) break;
       const Eigen::ArrayX2d spread = (positions - companion->positions()).abs();
@@ -285,12 +285,11 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
       if (!spread.allFinite()) rounding = std::numeric_limits<double>::infinity();
       if (motion->tolerance() == 0.0) companion->disturb(random, off_line);
     }
-    if (limit.isOver() || !(rounding <= kComparable * scale)) break;
+    if (limit.isOver() || !(rounding <= kComparable * extent) || scale > motion->largest) break;
     if (index < frame->index) continue;  // missing
     agreement.departure = departureOf(*frame, positions, scale, rounding + motion->tolerance());
     // Programs that use angles leave a straight line: cos(π/2) is no 0.
-    if (agreement.departure && !off_line &&
-        (positions.rowwise() - positions.row(0)).abs().colwise().maxCoeff().minCoeff() == 0.0)
+    if (agreement.departure && !off_line && offsets.colwise().maxCoeff().minCoeff() == 0.0)
       return compare(frames, make, limit, true);
     if (agreement.departure) return agreement;
     ++agreement.frames;

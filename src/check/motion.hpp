@@ -29,8 +29,7 @@ struct FrameNumbers {
 
   /// \param share of a unit by which finite numbers may differ, besides the rounding to double
   bool equals(const Eigen::ArrayX2d& numbers, double share) const {
-    constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-    return ((positions - numbers).abs() <= share * units + kEpsilon * positions.abs() ||
+    return ((positions - numbers).abs() <= share * units + 0x1p-52 * positions.abs() ||
             (!positions.isFinite() && !numbers.isFinite()))
         .all();
   }
@@ -59,12 +58,11 @@ AllFrames readFrames(std::vector<FrameText> texts, const Scene& particles);
 ///
 ///     stiffness (length - rest_length) direction + damping damped
 struct StudentSpring {
-  Eigen::Array2d separation;         ///< from the particle to its neighbour, m
-  Eigen::Array2d relative_velocity;  ///< of the neighbour, m/s
-  Eigen::Array2d velocity;           ///< of the particle, m/s
-  bool to_previous;                  ///< whether the neighbour is the previous particle
-  double start_length, rest_length;  ///< m
-  double length;                     ///< m
+  Eigen::Array2d separation;                 ///< from the particle to its neighbour, m
+  Eigen::Array2d relative_velocity;          ///< of the neighbour, m/s
+  Eigen::Array2d velocity;                   ///< of the particle, m/s
+  bool to_previous;                          ///< whether the neighbour is the previous particle
+  double start_length, rest_length, length;  ///< m
   Eigen::Array2d direction = {0.0, 0.0};
   Eigen::Array2d damped = {0.0, 0.0};  ///< m/s
 
@@ -177,6 +175,7 @@ struct WorkLimit {
 
 class Motion {
  public:
+  double largest = 1e150;  ///< m; the square of a larger number may be infinite in a program
   virtual ~Motion() = default;
   Motion(const Motion&) = delete;
   Motion& operator=(const Motion&) = delete;
@@ -223,7 +222,7 @@ struct Agreement {
 };
 
 /// Compares until the first frame that differs, or until rounding errors have grown to a thousandth
-/// of the size of the motion, after which nothing can be compared, or until the limit is reached.
+/// of the extent of the chain, after which nothing can be compared, or until the limit is reached.
 /// \param make  makes the motion, also for its companions
 Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
                   WorkLimit& limit, bool off_line = false);

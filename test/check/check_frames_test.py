@@ -228,16 +228,26 @@ def garbage_is_not_equal(lab):
                     name == 'huge numbers' and ', by 1.4e+308 m' not in verdict):
                 print('garbage:', name, damping, status, verdict)
                 return False
-    # Without damping: frames that are too late for some methods, and a single one.
+    # Without damping: frames that are too late for some methods, far from the origin, and a single one.
     late, _ = lab.verdict(good[290:], '6g', path, None, 300, '--damping', '0', first=290)
+    np.savetxt(lab.folder / 'far.txt', scene + [20000, 0, 0], fmt='%.17g')
+    far, _ = lab.verdict(np.add(good, [20000, 0]), '17g', lab.folder / 'far.txt', 'Runge-Kutta-4', 300, '--damping', '0')
     _, alone = lab.verdict(good[30:31], '17g', path, 'Runge-Kutta-4', 31, first=30)
+    rounded, _ = lab.verdict(np.float32(good[:60]).astype(float), '17g', path, 'Runge-Kutta-4', 60, '--damping', '0')
     # Springs of 1 m: whether a length in integers is 0 or 1 m is a matter of rounding, which explains nothing.
     scene, path = lab.scene('particle')
     _, other = lab.verdict(student.frames(scene, 'Runge-Kutta-2', count=120, h=0.001, steps=25), '6g', path,
                            'Runge-Kutta-2', 120, '--time-step', '0.001', '--steps-per-frame', '20')
     # A level chain mirrored in y, with another sign of g, moves as without both.
     _, tiny = lab.verdict(student.frames(scene, count=100, g=9.8100004), '8f', path, 'Runge-Kutta-4')
-    return late == 5 and mistakes_in(alone) == ['no_damping'] and not mistakes_in(other) and not mistakes_in(tiny)
+    # Both programs end with nan, where numbers are too large.
+    _, wrong_g = lab.verdict(student.frames(scene, 'Euler', count=200, h=0.05, k_d=0.0, g=9.80933008), '6g', path,
+                             'Euler', None, '--time-step', '0.05', '--damping', '0')
+    scene, path = lab.scene('horizontal_11')
+    _, single = lab.verdict(student.frames(scene, 'Euler', ['single_precision'], 160, h=0.02), '9g', path, 'Euler', None,
+                            '--time-step', '0.02')
+    named = [mistakes_in(report) for report in (alone, other, tiny, wrong_g, single)]
+    return (late, far, rounded) == (5, 5, 0) and named == [['no_damping'], [], [], ['g'], ['single_precision']]
 
 
 def other_courses_are_judged(lab):
