@@ -96,11 +96,6 @@ class BagRecorder {
   std::int64_t count_ = 0;
 };
 
-/// Returns the prefix of topics: "/euler/" for "euler" or "/euler/", "/" for empty text.
-std::string topicPrefix(const std::string& name_space) {
-  return std::regex_replace("/" + name_space + "/", std::regex("//+"), "/");
-}
-
 /// Records until the end of the run or a signal, also the status of a run that diverged.
 void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files) {
   for (bool goes_on = true; goes_on;) {
@@ -146,7 +141,9 @@ std::string recordBag(Run& run, const Scenario& scenario, Replay* replay,
                       const NodeOptions& options, const BagOptions& to,
                       const std::function<void()>& started) {
   auto bag = std::make_unique<rosbag::Bag>();
-  BagRecorder recorder(*bag, run, options, topicPrefix(to.name_space));
+  // "/euler/" for "euler" or "/euler/", "/" for empty text.
+  BagRecorder recorder(*bag, run, options,
+                       std::regex_replace("/" + to.name_space + "/", std::regex("//+"), "/"));
   // What can refuse the options is done: these remove files of earlier runs.
   TouchedFiles touched = touchedFiles(scenario, to.config);
   touched.inputs.push_back(to.inputs);

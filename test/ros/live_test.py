@@ -172,18 +172,26 @@ class Robots(LiveTest):
             self.assertLess(math.hypot(tip.x - 10.0, tip.z), 1e-9)
 
     def test_transforms_that_start_again_earlier_are_followed(self):
-        self.start = 3600.0
-
-        def move(x, earlier):
-            stamp = rospy.Time.now() - rospy.Duration(earlier)
-            self.topics[0].publish(TFMessage([transform('gripper', x, 0.0, stamp)]))
+        def is_there(x):
             rospy.sleep(0.02)
             return abs(self.last().positions[10].x - x) < 1e-3
+
+        def move(x, earlier, delay=0.0):
+            now = rospy.Time.now()
+            stamp, late = (now - rospy.Duration(earlier + s) for s in (0.0, delay))
+            # A table that does not move, a late base, and a frame of two sources that nobody needs.
+            self.topics[0].publish(TFMessage([
+                transform('table', stamp=rospy.Time()), transform('base', stamp=late, parent='table'),
+                transform('gripper', x, 0.0, stamp, 'base'), *(transform('other', stamp=t) for t in (now, late))]))
+            return is_there(x)
         with self.node(held='last=gripper') as node:
             self.state.wait_for(5)
             for x, earlier in ((9.0, 0.4), (8.5, 3.4), (8.0, 3600.0)):
                 wait_until(lambda: move(x, earlier), 'the particle meets its holder')
             self.assertNotIn('has stopped', node.output())
+            wait_until(lambda: move(7.8, 3600.0, 1.2), 'the particle meets its holder')
+            connected('/tf_static', TFMessage).publish(TFMessage([transform('gripper', 7.5, 0.0, rospy.Time())]))
+            wait_until(lambda: is_there(7.5), 'the particle meets its holder')
 
     def test_at_rest_while_paused_is_for_where_the_holder_is_now(self):
         with self.node(held='last'):

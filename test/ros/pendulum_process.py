@@ -220,10 +220,10 @@ def pose(x, z, stamp=None, frame='world', y=0.0):
     return message
 
 
-def transform(child, x=0.0, z=0.0, stamp=None):
-    """Where a tf frame is in the frame `world`."""
+def transform(child, x=0.0, z=0.0, stamp=None, parent='world'):
+    """Where a tf frame is in its parent."""
     message = TransformStamped(child_frame_id=child)
-    message.header.frame_id, message.header.stamp = 'world', rospy.Time.now() if stamp is None else stamp
+    message.header.frame_id, message.header.stamp = parent, rospy.Time.now() if stamp is None else stamp
     message.transform.translation.x, message.transform.translation.z = x, z
     message.transform.rotation.w = 1.0
     return message

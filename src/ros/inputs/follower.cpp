@@ -6,7 +6,6 @@
 #include <limits>
 
 namespace spring_pendulum {
-namespace {
 
 constexpr double kSilence = 0.5;        // s
 constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its holder
@@ -19,8 +18,6 @@ constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder i
 constexpr double kSteepest = 5.0;       // m/s², largest acceleration of a slow holder
 constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
-
-}  // namespace
 
 bool Follower::refuse(const std::string& why, double now) {
   refused_at_ = now;

@@ -7,6 +7,8 @@
 #include <ros/subscriber.h>
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <tf2/LinearMath/Transform.h>
 #include <tf2/buffer_core.h>
@@ -37,16 +39,25 @@ class Frames {
   StampedTransform from(const std::string& name);
 
  private:
+  /// From a frame to its parent.
+  struct Edge {
+    std::string parent;
+    double latest = 0.0;  ///< stamp, s
+    int old_ones = 0;     ///< how many have come since that are older
+    bool is_used = false;
+    std::optional<geometry_msgs::TransformStamped> fixed;
+  };
+
   void take(const tf2_msgs::TFMessage& message, bool is_static);
-  /// Forgets moving frames if the clock of this one has started again.
-  void note(const geometry_msgs::TransformStamped& transform);
+  /// Forgets moving frames if the clock of one that is used has started again.
+  /// \returns whether the frame does not move
+  bool note(const geometry_msgs::TransformStamped& transform, bool is_static);
 
   std::string frame_id_;
-  tf2::BufferCore transforms_;
+  std::unique_ptr<tf2::BufferCore> transforms_ = std::make_unique<tf2::BufferCore>();
   ros::CallbackQueue queue_;  ///< served by `from`
   ros::Subscriber moving_, fixed_;
-  std::map<std::string, std::pair<double, int>> latest_;  ///< stamps, s, and older ones since
-  std::map<std::string, geometry_msgs::TransformStamped> timeless_;  ///< with the stamp 0
+  std::map<std::string, Edge> edges_;  ///< by child
   Throttle warnings_, restarts_;
 };
 

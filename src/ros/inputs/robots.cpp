@@ -51,8 +51,7 @@ std::vector<HolderFrame> parseHeld(const std::string& text, std::ptrdiff_t parti
     if (number < 1 || number > particles)
       throw InputError(fmt::format("held: {} is not a particle of the chain: use 1 to {}, or last",
                                    inQuotes(name), particles));
-    const std::string frame = name == word ? "" : word.substr(name.size() + 1);
-    if (!held.emplace(number - 1, frame).second)
+    if (!held.emplace(number - 1, name == word ? "" : word.substr(name.size() + 1)).second)
       throw InputError(fmt::format("held: particle {} is given twice", number));
   }
   return {held.begin(), held.end()};
@@ -67,26 +66,22 @@ Robots::Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options
     const std::string name = fmt::format("held_{}", particle + 1);
     const std::string of_frame = frame.empty() ? "" : fmt::format(" (frame {})", frame);
     const Follower follower(name + of_frame, longest, warn);
-    connect(node, robots_.emplace_back(Robot{particle, name, frame, follower}));
+    Robot& robot = robots_.emplace_back(Robot{particle, name, frame, follower});
+    robot.wrench = node.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", 100);
+    if (!frame.empty()) continue;
+    robot.odometry = node.subscribe<nav_msgs::Odometry>(
+        name + "/odom", 10, [this, &robot](const nav_msgs::Odometry::ConstPtr& message) {
+          const auto& [pose, twist] = std::tie(message->pose.pose, message->twist.twist.linear);
+          receive(robot, message->header, pose.position,
+                  rotation(pose.orientation) * tf2::Vector3(twist.x, twist.y, twist.z));
+        });
+    robot.pose = node.subscribe<geometry_msgs::PoseStamped>(
+        name + "/pose", 10, [this, &robot](const geometry_msgs::PoseStamped::ConstPtr& message) {
+          receive(robot, message->header, message->pose.position, std::nullopt);
+        });
   }
   if (!robots_.empty()) frames_.listen();
   reset();
-}
-
-void Robots::connect(ros::NodeHandle& node, Robot& robot) {
-  robot.wrench = node.advertise<geometry_msgs::WrenchStamped>(robot.name + "/wrench", 100);
-  if (!robot.frame.empty()) return;
-  robot.odometry = node.subscribe<nav_msgs::Odometry>(
-      robot.name + "/odom", 10, [this, &robot](const nav_msgs::Odometry::ConstPtr& message) {
-        const auto& [pose, twist] = std::tie(message->pose.pose, message->twist.twist.linear);
-        receive(robot, message->header, pose.position,
-                rotation(pose.orientation) * tf2::Vector3(twist.x, twist.y, twist.z));
-      });
-  robot.pose = node.subscribe<geometry_msgs::PoseStamped>(
-      robot.name + "/pose", 10,
-      [this, &robot](const geometry_msgs::PoseStamped::ConstPtr& message) {
-        receive(robot, message->header, message->pose.position, std::nullopt);
-      });
 }
 
 void Robots::reset() {
@@ -107,18 +102,6 @@ void Robots::receive(Robot& robot, const std_msgs::Header& header,
   }
 }
 
-void Robots::lookUp(Robot& robot, double now) {
-  try {
-    const StampedTransform found = frames_.from(robot.frame);
-    if (found.stamp == robot.stamp && found.stamp != 0.0) return;
-    robot.stamp = found.stamp;
-    take(robot, found, {}, std::nullopt, now);
-  } catch (const InputError& error) {
-    if (robot.follower.isSilent(now) && robot.warnings.isDue())
-      ROS_WARN_STREAM(robot.name << ": " << error.what());
-  }
-}
-
 void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_msgs::Point& point,
                   const std::optional<tf2::Vector3>& velocity, double now) {
   const tf2::Vector3 at = frame.transform * tf2::Vector3(point.x, point.y, point.z);
@@ -133,8 +116,19 @@ void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_ms
 }
 
 void Robots::lookUp() {
-  for (Robot& robot : robots_)
-    if (!robot.frame.empty()) lookUp(robot, ros::SteadyTime::now().toSec());
+  const double now = ros::SteadyTime::now().toSec();
+  for (Robot& robot : robots_) {
+    if (robot.frame.empty()) continue;
+    try {
+      const StampedTransform found = frames_.from(robot.frame);
+      if (found.stamp == robot.stamp && found.stamp != 0.0) continue;
+      robot.stamp = found.stamp;
+      take(robot, found, {}, std::nullopt, now);
+    } catch (const InputError& error) {
+      if (robot.follower.isSilent(now) && robot.warnings.isDue())
+        ROS_WARN_STREAM(robot.name << ": " << error.what());
+    }
+  }
 }
 
 void Robots::follow(double real_time_factor, double next_time) {

@@ -113,12 +113,10 @@ class Robots {
     ros::Publisher wrench{};
   };
 
-  void connect(ros::NodeHandle& node, Robot& robot);
   static void take(Robot& robot, const StampedTransform& frame, const geometry_msgs::Point& point,
                    const std::optional<tf2::Vector3>& velocity, double now);
   void receive(Robot& robot, const std_msgs::Header& header, const geometry_msgs::Point& point,
                const std::optional<tf2::Vector3>& velocity);
-  void lookUp(Robot& robot, double now);
 
   const Run& run_;
   Driver& driver_;

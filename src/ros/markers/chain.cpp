@@ -37,22 +37,20 @@ void drawSprings(const Picture& picture, Marker& springs) {
   const Run& run = picture.run;
   setScale(springs, picture.width() * (1.0 + kWider * picture.chainsInFront()));
   springs.pose.position.y = (1.0 + picture.chainsInFront()) * picture.depth();
-  if (picture.isDrawable()) {
-    springs.points.clear();
-    springs.colors.clear();
-    const double full = fullColorStrain(run.chain());
-    for (std::size_t n = 1; n < picture.drawn.size(); ++n) {
-      const Eigen::Index from = picture.drawn[n - 1], to = picture.drawn[n];
-      const double length = springLengths(run.state(), from, to) / static_cast<double>(to - from);
-      const auto color =
-          !picture.options.color.empty() ? colorOf(picture.options.color)
-          : isBad(run.verdict().kind)
-              ? colorOf(kDoubtColor)
-              : strainColor(strainOf(length, run.chain().spring().rest_length) / full);
-      for (const Eigen::Index end : {from, to}) {
-        springs.points.push_back(pointOf(run.state(), end));
-        springs.colors.push_back(color);
-      }
+  if (!picture.isDrawable()) return;
+  springs.points.clear();
+  springs.colors.clear();
+  const double full = fullColorStrain(run.chain());
+  for (std::size_t n = 1; n < picture.drawn.size(); ++n) {
+    const Eigen::Index from = picture.drawn[n - 1], to = picture.drawn[n];
+    const double length = springLengths(run.state(), from, to) / static_cast<double>(to - from);
+    const auto color = !picture.options.color.empty() ? colorOf(picture.options.color)
+                       : isBad(run.verdict().kind)
+                           ? colorOf(kDoubtColor)
+                           : strainColor(strainOf(length, run.chain().spring().rest_length) / full);
+    for (const Eigen::Index end : {from, to}) {
+      springs.points.push_back(pointOf(run.state(), end));
+      springs.colors.push_back(color);
     }
   }
 }
@@ -61,19 +59,18 @@ void drawParticles(const Picture& picture, Marker& particles) {
   const Chain& chain = picture.run.chain();
   setScale(particles, picture.diameter());
   particles.pose.position.y = picture.chainsInFront() * picture.depth();
-  if (picture.isDrawable()) {
-    particles.points.clear();
-    particles.colors.clear();
-    const auto moving = chain.masses().tail(chain.size() - 1).array();
-    const double lightest = moving.minCoeff(), heaviest = moving.maxCoeff();
-    for (const Eigen::Index i : picture.drawn) {
-      particles.points.push_back(pointOf(picture.run.state(), i));
-      const double mass = i > 0 ? chain.masses()[i] : lightest;
-      particles.colors.push_back(i > 0 && chain.isHeld(i) ? colorOf(kHeldColor)
-                                 : !picture.options.color.empty()
-                                     ? mix(colorOf(picture.options.color), colorOf(0xffffff), 0.5)
-                                     : massColor(mass, lightest, heaviest));
-    }
+  if (!picture.isDrawable()) return;
+  particles.points.clear();
+  particles.colors.clear();
+  const auto moving = chain.masses().tail(chain.size() - 1).array();
+  const double lightest = moving.minCoeff(), heaviest = moving.maxCoeff();
+  for (const Eigen::Index i : picture.drawn) {
+    particles.points.push_back(pointOf(picture.run.state(), i));
+    const double mass = i > 0 ? chain.masses()[i] : lightest;
+    particles.colors.push_back(i > 0 && chain.isHeld(i) ? colorOf(kHeldColor)
+                               : !picture.options.color.empty()
+                                   ? mix(colorOf(picture.options.color), colorOf(0xffffff), 0.5)
+                                   : massColor(mass, lightest, heaviest));
   }
 }
 

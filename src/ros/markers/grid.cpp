@@ -3,15 +3,12 @@
 #include <cmath>
 
 namespace spring_pendulum {
-namespace {
 
 // In sizes of the picture:
 constexpr double kDepth = 0.02;  ///< behind the plane of the motion
 constexpr double kWidth = 0.0015;
 constexpr double kReach = 1.5;        ///< beyond the scene to the left and right, for wide windows
 constexpr double kMostLines = 100.0;  ///< in each direction; measured: 86
-
-}  // namespace
 
 void drawGrid(const Picture& picture, Marker& grid) {
   const double size = picture.view.size(), distance = picture.view.gridDistance();
@@ -26,12 +23,11 @@ void drawGrid(const Picture& picture, Marker& grid) {
   for (const int axis : {0, 1}) {
     // Counted in integers: far from the origin, x + distance rounds to x.
     const double lines = (end[axis] - begin[axis]) / distance;
-    for (int line = 0; line <= (lines < kMostLines ? static_cast<int>(lines) : 0); ++line) {
+    for (int line = 0; line <= (lines < kMostLines ? static_cast<int>(lines) : 0); ++line)
       for (Eigen::Vector2d point : {begin, end}) {
         point[axis] = begin[axis] + line * distance;
         grid.points.push_back(pointAt(point.x(), kDepth * size, point.y()));
       }
-    }
   }
 }
 

@@ -26,11 +26,10 @@ std_msgs::ColorRGBA colorOf(const std::string& text) {
 std_msgs::ColorRGBA mix(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to,
                         double share) {
   const auto part = static_cast<float>(std::clamp(share, 0.0, 1.0));
-  std_msgs::ColorRGBA color;
-  color.r = from.r + part * (to.r - from.r);
-  color.g = from.g + part * (to.g - from.g);
-  color.b = from.b + part * (to.b - from.b);
-  color.a = 1.0F;
+  std_msgs::ColorRGBA color = colorOf(0);
+  for (const auto channel :
+       {&std_msgs::ColorRGBA::r, &std_msgs::ColorRGBA::g, &std_msgs::ColorRGBA::b})
+    color.*channel = from.*channel + part * (to.*channel - from.*channel);
   return color;
 }
 

@@ -7,8 +7,6 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kRowHeight = 0.8;  ///< of the text if several chains are shown
-
 /// Joins the texts that are not empty with commas.
 std::string joined(std::initializer_list<std::string> texts) {
   std::string all;
@@ -54,7 +52,7 @@ void drawText(const Picture& picture, Marker& text) {
   const SceneView& view = picture.view;
   const std::int64_t row = picture.options.text_row;
   text.text = label(picture);
-  setScale(text, view.textHeight() * (row > 0 ? kRowHeight : 1.0));
+  setScale(text, view.textHeight() * (row > 0 ? 0.8 : 1.0));  // of several chains
   if (!picture.options.color.empty()) text.color = colorOf(picture.options.color);
   const double line = row > 0 ? static_cast<double>(row) - 0.5 : 0.5 * SceneView::kTextLines;
   const double z = view.box.max().y() + line * view.lineDistance();

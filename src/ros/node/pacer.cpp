@@ -3,11 +3,8 @@
 #include <algorithm>
 
 namespace spring_pendulum {
-namespace {
 
 constexpr double kLateness = 0.1;  // s, largest delay that the run makes up for
-
-}  // namespace
 
 void Pacer::start(double simulated_time, ros::SteadyTime now) {
   start_simulated_ = simulated_time;
