@@ -50,28 +50,26 @@ Handles::Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& optio
       driver_(driver),
       frames_(frames),
       take_(std::move(take)),
-      frame_id_(options.frame_id),
       farthest_(10.0 * std::max(chainLength(run.chain(), run.start()), 1.0)),
       server_(node.resolveName("handles")),
       particles_(evenlyChosen(run.chain().size(), kMostHandles)),
-      updates_(node.advertise<visualization_msgs::InteractiveMarkerUpdate>("handles/update", 100)) {
+      updates_(node.advertise<visualization_msgs::InteractiveMarkerUpdate>(
+          node.resolveName("handles") + "/update", 100)) {
   const double length = std::max(chainLength(run.chain(), run.start()), 0.1);
   const auto count = static_cast<double>(particles_.size());
-  for (const std::ptrdiff_t particle : particles_)
-    insert(particle, std::min(kSize * length, kShareOfSpring * length / count));
+  const double size = std::min(kSize * length, kShareOfSpring * length / count);
+  for (const std::ptrdiff_t particle : particles_) {
+    visualization_msgs::InteractiveMarker marker;
+    marker.header.frame_id = options.frame_id;
+    marker.name = nameOf(particle);
+    marker.scale = static_cast<float>(size);
+    marker.pose = poseOf(particle);
+    marker.controls.push_back(movingControl());
+    auto& scale = marker.controls.back().markers.back().scale;
+    scale.x = scale.y = scale.z = size;
+    server_.insert(marker, [this, particle](const Feedback& f) { onFeedback(particle, f); });
+  }
   server_.applyChanges();
-}
-
-void Handles::insert(std::ptrdiff_t particle, double size) {
-  visualization_msgs::InteractiveMarker marker;
-  marker.header.frame_id = frame_id_;
-  marker.name = nameOf(particle);
-  marker.scale = static_cast<float>(size);
-  marker.pose = poseOf(particle);
-  marker.controls.push_back(movingControl());
-  auto& scale = marker.controls.back().markers.back().scale;
-  scale.x = scale.y = scale.z = size;
-  server_.insert(marker, [this, particle](const Feedback& f) { onFeedback(particle, f); });
 }
 
 void Handles::ask(const Request& request) {

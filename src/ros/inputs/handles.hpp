@@ -40,7 +40,6 @@ class Handles {
     bool was_held;          ///< whether the particle was held before
   };
 
-  void insert(std::ptrdiff_t particle, double size);
   geometry_msgs::Pose poseOf(std::ptrdiff_t particle) const;
   /// Asks the node, and logs a refusal.
   void ask(const Request& request);
@@ -53,7 +52,6 @@ class Handles {
   const Driver& driver_;
   Frames& frames_;
   RequestHandler take_;
-  std::string frame_id_;
   double farthest_;  ///< m, largest believable distance of the mouse from the particle
   interactive_markers::InteractiveMarkerServer server_;
   std::vector<std::ptrdiff_t> particles_;

@@ -15,7 +15,6 @@
 #include <utility>
 
 namespace spring_pendulum {
-namespace {
 
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
@@ -29,8 +28,6 @@ constexpr double kPollInterval = 0.01;      // s between two checks for subscrib
 /// A subscriber that comes later than this number of inputs, or bytes of them, misses some.
 constexpr std::uint32_t kMostInputs = 20000;
 constexpr std::size_t kMostBytes = 32'000'000;
-
-}  // namespace
 
 Node::Node(Scenario scenario, NodeOptions options, Run& run, RunFiles& files)
     : options_(std::move(options)),
@@ -84,19 +81,20 @@ int Node::spin() {
 
 void Node::waitForSubscribers() {
   const std::int64_t wanted = options_.wait_for_subscribers;
-  if (publisher_.subscribers() >= wanted) return;
+  const auto present = [this] { return publisher_.subscribers(options_.wait_for_nodes); };
+  if (present() >= wanted) return;
   const std::string text = "waiting for " + counted(wanted, "subscriber");
   ROS_INFO_STREAM(text << " of markers, state and status (wait_for_subscribers)");
   publisher_.publishWaiting(text);
-  const double timeout = options_.wait_timeout > 0.0 ? options_.wait_timeout : kLongestWait;
-  const ros::SteadyTime end =
-      ros::SteadyTime::now() + ros::WallDuration(std::min(timeout, kLongestWait));
-  while (interruption() == 0 && publisher_.subscribers() < wanted) {
+  const double timeout =
+      std::min(options_.wait_timeout > 0.0 ? options_.wait_timeout : kLongestWait, kLongestWait);
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(timeout);
+  while (interruption() == 0 && present() < wanted) {
     callBack(kPollInterval);
     if (ros::SteadyTime::now() < end) continue;
     ROS_WARN_STREAM(
         fmt::format("only {} of {} subscribers after {:.6g} s (wait_timeout): starting anyway",
-                    publisher_.subscribers(), wanted, timeout));
+                    present(), wanted, timeout));
     return;
   }
 }

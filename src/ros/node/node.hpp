@@ -20,7 +20,6 @@ class Node {
  public:
   /// \param run, files must outlive the node
   Node(Scenario scenario, NodeOptions options, Run& run, RunFiles& files);
-  Node(const Node&) = delete;
 
   /// Runs until the end of the run, or a signal. \returns the exit status
   int spin();

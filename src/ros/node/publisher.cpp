@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ros/publication.h>
 #include <ros/topic_manager.h>
 #include <rosgraph_msgs/Clock.h>
 
@@ -44,13 +45,22 @@ Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& o
   if (options.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
 }
 
-std::int64_t Publisher::subscribers() const {
-  return markers_.getNumSubscribers() + state_.getNumSubscribers() + status_.getNumSubscribers();
+std::int64_t Publisher::subscribers(const std::string& nodes) const {
+  XmlRpc::XmlRpcValue links;  // for each subscriber: a number, its node, ...
+  links.setSize(0);
+  for (const ros::Publisher& topic : {markers_, state_, status_})
+    ros::TopicManager::instance()->lookupPublication(topic.getTopic())->getInfo(links);
+  std::int64_t count = 0;
+  for (int i = 0; i < links.size(); ++i) {
+    const std::string node = links[i][1], name = node.substr(node.rfind('/') + 1);
+    if (nodes.empty() || (" " + nodes + " ").find(" " + name + " ") < nodes.size()) ++count;
+  }
+  return count;
 }
 
 std::optional<std_msgs::Header> Publisher::publish(const Run& run, Showing showing) {
-  showing.wants_markers = isSubscribed(markers_);
-  showing.wants_state = isSubscribed(state_);
+  showing.wants_markers = markers_.getNumSubscribers() > 0;
+  showing.wants_state = state_.getNumSubscribers() > 0;
   const std::optional<StateMessages> messages = messages_.build(run, showing);
   if (!messages) return std::nullopt;
   if (clock_ != nullptr) {
@@ -80,7 +90,7 @@ void Publisher::publishWaiting(const std::string& text) {
 }
 
 void Publisher::clear() {
-  if (!isSubscribed(markers_)) return;
+  if (markers_.getNumSubscribers() == 0) return;
   visualization_msgs::MarkerArray nothing;
   nothing.markers.resize(1);
   nothing.markers.front().header = messages_.header(0.0);

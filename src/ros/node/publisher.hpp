@@ -16,7 +16,8 @@ class Publisher {
   Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options);
 
   /// Number of subscribers of markers, state and status.
-  std::int64_t subscribers() const;
+  /// \param nodes names without namespaces of the only nodes that count; empty: all
+  std::int64_t subscribers(const std::string& nodes) const;
   /// Publishes the messages about the current state.
   /// \returns their header; nothing if the state is not due
   std::optional<std_msgs::Header> publish(const Run& run, Showing showing);
@@ -32,16 +33,10 @@ class Publisher {
   std::string numbers() const;
 
  private:
-  static bool isSubscribed(const ros::Publisher& topic) { return topic.getNumSubscribers() > 0; }
-
   RunMessages messages_;
   std::int64_t markers_built_ = 0, states_built_ = 0;
   ros::SerializedMessage last_markers_, last_state_;  ///< shared with ROS until they are sent
-  ros::Publisher markers_;
-  ros::Publisher state_;
-  ros::Publisher status_;
-  ros::Publisher clock_;
-  ros::Publisher tf_static_;
+  ros::Publisher markers_, state_, status_, clock_, tf_static_;
 };
 
 }  // namespace spring_pendulum

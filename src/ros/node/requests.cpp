@@ -143,7 +143,7 @@ std::string Node::on(const SaveState& request) {
 std::string Node::on(const LoadState& request) {
   Scenario scenario = scenario_;
   static_cast<Plan&>(scenario) = run_.plan();
-  scenario.particles = request.file.empty() ? kDefaultStateFile : request.file;
+  scenario.particles = fullPath(request.file.empty() ? kDefaultStateFile : request.file);
   const Scene loaded = readStateFile(scenario);
   if (loaded.masses.size() != run_.chain().size() || loaded.masses.view() != run_.chain().masses())
     throw InputError(
@@ -151,7 +151,7 @@ std::string Node::on(const LoadState& request) {
   if (!scenario.method.get().hasFixedStep())
     checkTolerance(scenario.tolerance, run_.chain(), loaded.state);
   goTo(&loaded);
-  return fmt::format("to frame {} of {}", loaded.frame, fullPath(scenario.particles));
+  return fmt::format("to frame {} of {}", loaded.frame, scenario.particles);
 }
 
 }  // namespace spring_pendulum

@@ -87,6 +87,9 @@ std::vector<Option> playOptions(NodeOptions& o) {
       {"at_end", Choice(&o.at_end, {"hold", "exit"}), "", "what to do after the last frame"},
       {"wait_for_subscribers", Count{&o.wait_for_subscribers, Range::atLeast(0)}, "",
        "start when markers, state and status have this many subscribers in all"},
+      {"wait_for_nodes",
+       Text{&o.wait_for_nodes, "NAMES", "names separated by blanks, or empty", anyText}, "",
+       "count subscribers with these names only, without namespaces; empty: all"},
       {"wait_timeout", Number{&o.wait_timeout, Range::atLeast(0)}, "s",
        "start without them after this time; 0: wait forever"},
       {"publish_clock", Flag{&o.publish_clock}, "",
@@ -109,19 +112,13 @@ OptionSet nodeOptions(NodeConfiguration& configuration) {
 }
 
 std::string parameterText(XmlRpcValue& value, const std::string& place) {
-  switch (value.getType()) {
-    case XmlRpcValue::TypeBoolean:
-      return static_cast<bool>(value) ? "true" : "false";
-    case XmlRpcValue::TypeInt:
-      return fmt::format("{}", static_cast<int>(value));
-    case XmlRpcValue::TypeDouble:
-      return numberText(static_cast<double>(value));
-    case XmlRpcValue::TypeString:
-      return static_cast<std::string>(value);
-    default:
-      throw InputError(
-          fmt::format("{}: must be a single value, got a list, a map or binary data", place));
-  }
+  const XmlRpcValue::Type type = value.getType();
+  if (type == XmlRpcValue::TypeBoolean) return static_cast<bool>(value) ? "true" : "false";
+  if (type == XmlRpcValue::TypeInt) return fmt::format("{}", static_cast<int>(value));
+  if (type == XmlRpcValue::TypeDouble) return numberText(static_cast<double>(value));
+  if (type == XmlRpcValue::TypeString) return static_cast<std::string>(value);
+  throw InputError(
+      fmt::format("{}: must be a single value, got a list, a map or binary data", place));
 }
 
 NodeConfiguration readPrivateParameters() {

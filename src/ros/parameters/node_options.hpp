@@ -21,6 +21,7 @@ struct NodeOptions {
   double display_rate = 30.0;     ///< Hz, states shown per second; 0: frames only
   AtEnd at_end = AtEnd::kHold;
   std::int64_t wait_for_subscribers = 0;
+  std::string wait_for_nodes;  ///< names of the only subscribers that count; empty: all count
   double wait_timeout = 30.0;  ///< s; 0: unlimited
   bool publish_clock = false;
   bool track_dissipation = true;       ///< integrate the dissipated power as well
