@@ -124,13 +124,12 @@ TEST(ExtremeValues, OfEveryFieldOfAMethod) {
     tryFunctions(scenario);
   };
   for (const char* name : {"Euler", "Velocity-Verlet", "Auto"}) {
-    for (const double value : kNumbers) {
+    for (const double value : kNumbers)
       for (const auto& set : fields) {
         Method method = findMethod(name);
         set(method, value);
         use(method);
       }
-    }
     for (const int value :
          {0, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
       for (const auto& set : whole_fields) {

@@ -107,14 +107,13 @@ TEST(Misuse, ArgumentsOfAdvance) {
 // The starting state may hold anything: the result is not finite, but no run ends in a crash or
 // without end.
 TEST(Misuse, StatesThatAreNotFinite) {
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     for (const double value : {kNan, kInfinity, 1e308}) {
       State state = horizontal();
       state.x()[2] = value;
       makeIntegrator(method, chain())->advance(state, 0.01, 3);
       EXPECT_FALSE(state.values().allFinite() && value != 1e308) << method.name << " " << value;
     }
-  }
 }
 
 template <typename Action>

@@ -123,14 +123,13 @@ TEST(OrderOnHangingChain, IsThatOfEachMethod) {
   EXPECT_NEAR(orderOnHangingChain(small, "Euler", 1e-4), 1.0, 0.05);  // 1.007, 0.993, 1.995
   EXPECT_NEAR(orderOnHangingChain(small, "Backward-Euler", 1e-4), 1.0, 0.05);
   EXPECT_NEAR(orderOnHangingChain(small, "Runge-Kutta-2", 1e-3), 2.0, 0.05);
-  for (const double damping : {0.0, 1.0}) {
+  for (const double damping : {0.0, 1.0})
     for (const Eigen::Index masses : {10, 1000}) {
       const double stiffness = masses == 10 ? 1000.0 : 1e4;  // no spring turns over
       const Chain chain = chainOf(masses + 1, 1.0, {stiffness, damping, 1.0});
       const double step = masses == 10 ? 4e-3 : 1e-3;  // measured: 4.03, 3.98, 4.01, 4.01
       EXPECT_NEAR(orderOnHangingChain(chain, "Runge-Kutta-4", step), 4.0, 0.05) << masses;
     }
-  }
 }
 
 /// Angular frequencies of small sideways swings and their shapes: a weight W_i below spring i, of length

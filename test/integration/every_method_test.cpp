@@ -35,7 +35,7 @@ State::Matrix advanced(Integrator& integrator, const Method& method, State state
 TEST(EveryMethod, RestartAndAnotherCallGiveTheSameBits) {
   const std::vector<test::Scene> scenes = quickScenes();
   EXPECT_GT(scenes.size(), 30);
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     for (const test::Scene& scene : scenes) {
       const auto integrator = makeIntegrator(method, scene.chain, {1e-4, false, 1});
       const State::Matrix first = advanced(*integrator, method, scene.start);
@@ -46,7 +46,6 @@ TEST(EveryMethod, RestartAndAnotherCallGiveTheSameBits) {
       integrator->advance(second, interval, method.hasFixedStep() ? 47 : 7);
       EXPECT_EQ(first, second.values()) << method.name << ", " << scene.name;
     }
-  }
 }
 
 TEST(EveryMethod, KeepsTheFirstParticleAtRest) {

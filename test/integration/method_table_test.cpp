@@ -124,7 +124,7 @@ TEST(SmallestTolerance, IsReached) {
 // Impossible tolerances cost time, but runs end.
 TEST(SmallestTolerance, BelowItEveryMethodEnds) {
   const Chain chain(Eigen::VectorXd::Ones(2), SpringLaw{}, 9.81);
-  for (const Method& method : methodTable()) {
+  for (const Method& method : methodTable())
     for (const double tolerance : {1e-18, 1e-300}) {
       State state(2);
       state.x()[1] = 1.0;
@@ -132,7 +132,6 @@ TEST(SmallestTolerance, BelowItEveryMethodEnds) {
       integrator->advance(state, 1e-7, 10);
       EXPECT_LT(integrator->forceEvaluations(), 1000000) << method.name << " at " << tolerance;
     }
-  }
 }
 
 /// Two particles, a metre apart.

@@ -103,10 +103,8 @@ TEST(Order, IsLostWithOneAlteredCoefficient) {
 TEST(Order, HoldsAgainstTheClosedFormOfOneSpring) {
   const Scene scene = referenceScene("single_vertical");
   const double equilibrium = -(1.0 + 9.81 / 50.0);
-  const double amplitude = -1.3 - equilibrium;
-  const double decay = 0.5;
-  const double frequency = std::sqrt(50.0 - decay * decay);
-  const double t = 2.0;
+  const double amplitude = -1.3 - equilibrium, decay = 0.5;
+  const double frequency = std::sqrt(50.0 - decay * decay), t = 2.0;
   const double exact =
       equilibrium + amplitude * std::exp(-decay * t) *
                         (std::cos(frequency * t) + decay / frequency * std::sin(frequency * t));

@@ -63,20 +63,17 @@ void expectTheTolerance(const SymmetricCase& c) {
 }
 
 TEST(SymmetricScenes, KeepTheTolerance) {
-  for (const Shape shape : {Shape::kLevel, Shape::kVertical, Shape::kMirrored}) {
-    for (const Eigen::Index size : {2, 3, 4, 7}) {
+  for (const Shape shape : {Shape::kLevel, Shape::kVertical, Shape::kMirrored})
+    for (const Eigen::Index size : {2, 3, 4, 7})
       for (const bool held : {false, true}) {
         if (held && size == 2) continue;
-        for (const double mass : {1.0, 0.01}) {
+        for (const double mass : {1.0, 0.01})
           for (const double spacing : {0.7, 1.0, 1.3}) {
             expectTheTolerance({shape, size, held, mass, 1.0, spacing, 9.81});
             expectTheTolerance({shape, size, held, mass, 0.0, spacing, 9.81});
             expectTheTolerance({shape, size, held, mass, 1.0, spacing, 0.0});
           }
-        }
       }
-    }
-  }
 }
 
 }  // namespace

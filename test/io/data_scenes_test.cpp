@@ -70,13 +70,12 @@ TEST(DataScenes, EulerGainsEnergyOnEachOfThem) {
 }
 
 TEST(DataScenes, TheOtherMethodsOfTheExerciseNeverGainEnergy) {
-  for (const EulerGain& row : kEulerGains) {
+  for (const EulerGain& row : kEulerGains)
     for (const char* method : {"Runge-Kutta-2", "Runge-Kutta-4"}) {
       const std::vector<double> gains = energyGains(row.scene, method);
       EXPECT_LE(largest(gains), 0.0) << row.scene << " " << method;
       EXPECT_LT(gains.back(), 0.0) << row.scene << " " << method;
     }
-  }
 }
 
 TEST(DataScenes, EulerExplodesOnTheElevenParticlesOnlyAfterTwentySeconds) {

@@ -46,7 +46,7 @@ TEST(Force, IsMinusTheGradientOfThePotentialWithoutDamping) {
     const Chain chain(scene.masses, scene.spring, scene.gravity);
     const Eigen::MatrixXd accelerations = accelerationsOf(chain, scene.state);
     const double h = 1e-5;
-    for (Eigen::Index i = 1; i < chain.size(); ++i) {
+    for (Eigen::Index i = 1; i < chain.size(); ++i)
       for (Eigen::Index axis = 0; axis < 2; ++axis) {
         double potential[2] = {};
         for (const int side : {0, 1}) {
@@ -59,7 +59,6 @@ TEST(Force, IsMinusTheGradientOfThePotentialWithoutDamping) {
         // Measured: 8e-8 N at the most, of forces of up to 80 N.
         EXPECT_NEAR(chain.masses()[i] * accelerations(i, axis), -gradient, 1e-6);
       }
-    }
   }
 }
 

@@ -14,7 +14,7 @@ TEST(InverseSquareRoot, IsRightToOneAndAHalfUnitsInTheLastPlaceOverAllMagnitudes
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> mantissa(1.0, 2.0);
   double worst = 0.0;
-  for (int exponent = -1022; exponent <= 1023; ++exponent) {
+  for (int exponent = -1022; exponent <= 1023; ++exponent)
     for (int k = 0; k < 50; ++k) {
       const double square = std::ldexp(mantissa(random), exponent);
       const double found = inverseSquareRoot(square);
@@ -22,7 +22,6 @@ TEST(InverseSquareRoot, IsRightToOneAndAHalfUnitsInTheLastPlaceOverAllMagnitudes
       const double unit = std::nextafter(found, HUGE_VAL) - found;
       worst = std::max(worst, static_cast<double>(std::abs(found - exact)) / unit);
     }
-  }
   EXPECT_LT(worst, 1.5);  // measured: 1.46
   EXPECT_GT(worst, 0.5);  // two roundings: not always the nearest double
 }

@@ -158,12 +158,11 @@ TEST(ThreadFaults, ChangeNoFile) {
   };
   for (const auto& program : programs) {
     const Files expected = filesWithout(0, "", program);
-    for (const char* const kind : {"fail", "broken"}) {
+    for (const char* const kind : {"fail", "broken"})
       for (int thread = 1; thread <= 4; ++thread) {
         SCOPED_TRACE(program.front() + " " + kind + " " + std::to_string(thread));
         EXPECT_TRUE(filesWithout(thread, kind, program) == expected);
       }
-    }
   }
 }
 

@@ -122,14 +122,13 @@ TEST_F(TouchedFiles, OfExercise3AreNoInputs) {
 }
 
 TEST_F(TouchedFiles, OfExercise3HaveOneUse) {
-  for (const std::string& first : kExercise3.outputs) {
+  for (const std::string& first : kExercise3.outputs)
     for (const std::string& second : kExercise3.outputs) {
       if (second <= first) continue;
       for (const std::string& value : kValues)
         for (const std::string& other : kValues)
           check(kExercise3, "in.txt", "e.png", {{first, value}, {second, other}});
     }
-  }
   expectBoth(50);
 }
 

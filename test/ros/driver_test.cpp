@@ -289,7 +289,7 @@ TEST(Follower, IsWithItsHolderOnACircle) {
 }
 
 TEST(Follower, ComesSlowlyAfterAStepOfItsHolder) {
-  for (const double rate : {5.0, 10.0, 30.0, 100.0, 500.0}) {
+  for (const double rate : {5.0, 10.0, 30.0, 100.0, 500.0})
     for (const double step : {-2.8, -1.5, -0.3}) {
       const auto place = [=](double t) {  // the very first input is elsewhere
         return Target{{t == 0.0 ? 3.0 : t < 2.0 ? 5.0 : 5.0 + step, 0.0}, {}, {}};
@@ -310,7 +310,6 @@ TEST(Follower, ComesSlowlyAfterAStepOfItsHolder) {
         EXPECT_LT(std::abs(run.state().vx()[5]), 3.2) << run.time();
       });
     }
-  }
 }
 
 TEST(Follower, ComesBackSlowlyAfterASilence) {

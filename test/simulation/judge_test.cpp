@@ -42,7 +42,7 @@ TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
   const Chain chain(Eigen::VectorXd::Ones(5), SpringLaw{}, 9.81);
   const State start = horizontal(5);
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double bad : {std::nan(""), infinity, -infinity}) {
+  for (const double bad : {std::nan(""), infinity, -infinity})
     for (const Eigen::Index column : {0, 1, 2, 3}) {
       State state = start;
       state.values()(3, column) = bad;
@@ -51,7 +51,6 @@ TEST(Verdict, NamesTheFirstParticleThatIsNotFinite) {
       EXPECT_EQ(judge.worst().particle, 4);
       EXPECT_THAT(judge.worst().text, HasSubstr("0.5 s: particle 4 is no longer a finite number"));
     }
-  }
 }
 
 TEST(Verdict, FindsANumberThatIsNotFiniteWithoutSpringsAndGravity) {

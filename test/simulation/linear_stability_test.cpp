@@ -36,7 +36,7 @@ double growthOfIntegrator(const Method& method, double swing, double decay) {
 }
 
 TEST(GrowthPerStep, IsThatOfTheIntegrator) {
-  for (const double swing : {0.01, 0.3, 1.1, 1.9, 2.1, 2.8, 2.9, 5.0}) {
+  for (const double swing : {0.01, 0.3, 1.1, 1.9, 2.1, 2.8, 2.9, 5.0})
     for (const double decay : {0.0, 0.01, 0.5, 1.0, 1.9, 2.5, 3.0}) {
       forEachFixedStepMethod([&](const Method& method) {
         EXPECT_NEAR(growthPerStep(method, swing, decay), growthOfIntegrator(method, swing, decay),
@@ -44,7 +44,6 @@ TEST(GrowthPerStep, IsThatOfTheIntegrator) {
             << swing << " " << decay;
       });
     }
-  }
 }
 
 // The limits of the method table say the same as its tableaus, to the digits they are given with.

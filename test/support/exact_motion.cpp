@@ -55,12 +55,11 @@ std::optional<ExactMotion> exactMotion(const Scene& scene, double interval, int 
                                        double budget) {
   Scene near = scene;
   std::mt19937 random(1);
-  for (Eigen::Index i = 1; i < near.start.size(); ++i) {
+  for (Eigen::Index i = 1; i < near.start.size(); ++i)
     for (const int column : {0, 1}) {
       const double uniform = static_cast<double>(random()) / 2147483648.0 - 1.0;
       near.start.values()(i, column) += kPerturbation * uniform;
     }
-  }
   using Motion = ExtrapolatedMotion<long double, 10>;
   auto exact =
       follow(Motion(scene), Motion(near), interval, outputs, 0.5 * kWorkPerSecond * budget);

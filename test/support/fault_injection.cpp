@@ -205,16 +205,14 @@ int fflush(FILE* file) {
 // A failing close still closes the descriptor, as on Linux, but data may be lost.
 int fclose(FILE* file) {
   const bool failed = fails("fclose", pathOf(fileno(file)));
-  const int cause = errno;
-  const int result = NEXT(fclose)(file);
+  const int cause = errno, result = NEXT(fclose)(file);
   if (failed) errno = cause;
   return failed ? EOF : result;
 }
 
 int close(int file) {
   const bool failed = fails("close", pathOf(file));
-  const int cause = errno;
-  const int result = NEXT(close)(file);
+  const int cause = errno, result = NEXT(close)(file);
   if (failed) errno = cause;
   return failed ? -1 : result;
 }

@@ -25,8 +25,7 @@ TEST(PortableFunctions, AreAccurate) {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> exponents(-690.0, 690.0);
   for (int i = 0; i < 10000; ++i) {
-    const double x = exponents(generator);
-    const double power = std::exp(x);
+    const double x = exponents(generator), power = std::exp(x);
     EXPECT_NEAR(portableExp(x), power, 3e-13 * power) << x;
     EXPECT_NEAR(portableLog(power), x, 1e-15 * std::fmax(1.0, std::abs(x))) << x;
   }

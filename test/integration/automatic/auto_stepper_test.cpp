@@ -141,7 +141,7 @@ TEST(Auto, ReportsNoMoreTimeThanThatOfTheRun) {
 }
 
 TEST(Auto, KeepsItsToleranceWhereOnlyImplicitMethodsArePractical) {
-  for (const char* method : {"Auto", "Radau-9"}) {
+  for (const char* method : {"Auto", "Radau-9"})
     for (const double tolerance : {1e-3, 1e-5}) {
       test::Scene scene = test::referenceScene("feather_50");
       makeIntegrator(method, scene.chain, {tolerance, false, 1})->advance(scene.start, 1.0, 1);
@@ -149,19 +149,17 @@ TEST(Auto, KeepsItsToleranceWhereOnlyImplicitMethodsArePractical) {
                 10.0 * tolerance)  // 0.14 and 0.74 tolerances
           << method << " at " << tolerance;
     }
-  }
 }
 
 // Explicit methods overflow there: the shortest step exceeds their stability limit. Order 12 did so
 // from 3e12/s on, order 8 from 1e13/s on.
 TEST(Auto, TakesTheImplicitMethodAloneForExtremeDampingRates) {
-  for (const double rate : {9e11, 1.1e12, 3e12, 1e13, 1e14, 1e18, 1e100}) {
+  for (const double rate : {9e11, 1.1e12, 3e12, 1e13, 1e14, 1e18, 1e100})
     for (const double tolerance : {1e-2, 1e-6}) {
       const Chain plain(Eigen::Vector4d(1.0, 1e-6, 1e-6, 1e-6), {50.0, 1.0, 1.0}, 9.81);
       const test::Scene scene{"", test::inAir(plain, 1e-6 * rate), test::straightLine(4, 1.0, 0.0)};
       EXPECT_EQ(methodAfter(scene, tolerance, 1.0), "Radau-9") << rate << " " << tolerance;
     }
-  }
   // Dampers of springs make a vibration fast, too: it raced with methods that overflow.
   const Chain damped(Eigen::Vector4d(1.0, 1e-6, 1e-6, 1e-6), {50.0, 1e7, 1.0}, 9.81);
   EXPECT_EQ(methodAfter({"", damped, test::straightLine(4, 1.0, 0.0)}, 1e-6, 0.1), "Radau-9");

@@ -100,7 +100,7 @@ void expectSameBits(const Method& method, const Kind& kind, const State& start, 
   const Chain chain = chainOf(start.size(), kind);
   PlainRungeKutta plain(chain, *method.tableau, track_dissipation);
   const State expected = stateAfter(plain, start, steps, steps);
-  for (const ChainKernels* kernels : supportedChainKernels()) {
+  for (const ChainKernels* kernels : supportedChainKernels())
     for (const auto& [threads, block_size] : ways.threads_and_block_sizes) {
       ExplicitRungeKutta engine(chain, *method.tableau, {1e-6, track_dissipation, threads},
                                 {block_size, 1e-9, kernels});
@@ -115,18 +115,16 @@ void expectSameBits(const Method& method, const Kind& kind, const State& start, 
             << ", blocks of " << block_size;
       }
     }
-  }
 }
 
 TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeHoweverItIsRun) {
   const Ways ways{{{1, 4096}, {1, 16}, {2, 16}, {3, 64}}, {kSteps, 5}};
-  for (const Method* method : methods()) {
+  for (const Method* method : methods())
     for (const Kind& kind : kKinds) {
       for (const Eigen::Index size : kShortChains)
         for (const bool track_dissipation : {false, true})
           expectSameBits(*method, kind, bentChain(size), kSteps, ways, track_dissipation);
     }
-  }
 }
 
 TEST(ExplicitRungeKutta, HasTheBitsOfThePlainCodeForEveryNumberOfBlocks) {
@@ -157,12 +155,11 @@ TEST(ExplicitRungeKutta, GivesTheRecordedBits) {
                                                       {"Runge-Kutta-4", 0x6239e3f06723fabeU}};
   for (const auto& [name, recorded] : expected) {
     std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const Kind& kind : kKinds) {
+    for (const Kind& kind : kKinds)
       for (const Eigen::Index size : kShortChains) {
         const auto engine = makeIntegrator(name, chainOf(size, kind));
         hash = hashOf(stateAfter(*engine, bentChain(size), kSteps, kSteps), hash);
       }
-    }
     const auto engine = makeIntegrator(name, chainOf(kLongChain, kKinds[0]));
     hash = hashOf(stateAfter(*engine, bentChain(kLongChain), kStepsOfLongChain, 2), hash);
     EXPECT_EQ(hash, recorded) << name << ": 0x" << std::hex << hash;

@@ -49,7 +49,7 @@ TEST(BackwardEuler, SolvesTheEquationsOfALinearStep) {
 
 // With L_0 = 0 the potential is convex.
 TEST(BackwardEuler, OnlyLosesEnergy) {
-  for (const auto& [rest_length, gravity] : {std::pair{0.0, 9.81}, {1.0, 9.81}, {0.0, 0.0}}) {
+  for (const auto& [rest_length, gravity] : {std::pair{0.0, 9.81}, {1.0, 9.81}, {0.0, 0.0}})
     for (const double step : {1e-3, 0.1, 1.0, 10.0, 1e4}) {
       State state = test::horizontalChain("chain", 11, 1.0).start;
       const Chain chain(Eigen::VectorXd::Ones(11), {50.0, 0.0, rest_length}, gravity);
@@ -62,7 +62,6 @@ TEST(BackwardEuler, OnlyLosesEnergy) {
         before = energy;
       }
     }
-  }
 }
 
 TEST(BackwardEuler, SaysWhereNewtonsMethodDoesNotConverge) {

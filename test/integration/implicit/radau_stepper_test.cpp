@@ -49,7 +49,7 @@ TEST(RadauCoefficients, FulfilTheOrderConditions) {
 TEST(RadauCoefficients, EigenvectorsDiagonaliseTheMatrix) {
   Eigen::MatrixXcd rebuilt = Eigen::MatrixXcd::Zero(kStages, kStages);
   const auto standard = [](Complex a) { return std::complex<double>(a.re, a.im); };
-  for (std::size_t i = 0; i < kStages; ++i) {
+  for (std::size_t i = 0; i < kStages; ++i)
     for (std::size_t j = 0; j < kStages; ++j) {
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
       rebuilt(row, column) = radau::kReal.right[i] * radau::kReal.left[j] / radau::kReal.value;
@@ -58,7 +58,6 @@ TEST(RadauCoefficients, EigenvectorsDiagonaliseTheMatrix) {
             (standard(pair.right[i]) * standard(pair.left[j]) / standard(pair.value)).real();
       EXPECT_NEAR(rebuilt(row, column).real(), radau::kMatrix[i][j], 1e-15);
     }
-  }
 }
 
 // Of the pendulum of 1 kg at 1 s: the error in m, and the mean step in s.

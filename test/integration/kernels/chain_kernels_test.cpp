@@ -57,7 +57,7 @@ State::Matrix plainSlope(const Chain& chain, const State& state) {
 }
 
 TEST(ChainKernels, StageSlopeHasTheBitsOfThePlainCode) {
-  for (const ChainKernels* kernels : supportedChainKernels()) {
+  for (const ChainKernels* kernels : supportedChainKernels())
     for (const Eigen::Index size : kSizes) {
       for (const SpringLaw& spring :
            {SpringLaw{}, SpringLaw{200.0, 0.0, 0.3}, SpringLaw{7, 2, 0}}) {
@@ -81,11 +81,10 @@ TEST(ChainKernels, StageSlopeHasTheBitsOfThePlainCode) {
         }
       }
     }
-  }
 }
 
 TEST(ChainKernels, SumsHaveTheBitsOfThePlainCode) {
-  for (const ChainKernels* kernels : supportedChainKernels()) {
+  for (const ChainKernels* kernels : supportedChainKernels())
     for (const Eigen::Index size : kSizes) {
       StateBuffer z(size), k(size), out(size);
       z.values() = randomState(size, 1).values();
@@ -97,11 +96,10 @@ TEST(ChainKernels, SumsHaveTheBitsOfThePlainCode) {
       kernels->addWeighted(4 * z.pitch(), 0.3, k.data(), z.data());
       EXPECT_TRUE(sameBits(z.values(), expected)) << kernels->name << ", " << size;
     }
-  }
 }
 
 TEST(ChainKernels, DissipationHasTheBitsOfThePlainCode) {
-  for (const ChainKernels* kernels : supportedChainKernels()) {
+  for (const ChainKernels* kernels : supportedChainKernels())
     for (const Eigen::Index size : kSizes) {
       const Chain chain = randomChain(size, SpringLaw{}, true, 9.81);
       const State state = randomState(size, 1);
@@ -117,7 +115,6 @@ TEST(ChainKernels, DissipationHasTheBitsOfThePlainCode) {
         EXPECT_EQ(dissipated[i], std::fma(0.3, rate * rate, 0.1)) << kernels->name << ", " << size;
       }
     }
-  }
 }
 
 TEST(ChainKernels, NamedInstructionSetLeavesOutFasterOnes) {
@@ -131,7 +128,7 @@ TEST(ChainKernels, NamedInstructionSetLeavesOutFasterOnes) {
 }
 
 TEST(ChainKernels, CompensatedSumKeepsWhatRoundingTakes) {
-  for (const ChainKernels* kernels : supportedChainKernels()) {
+  for (const ChainKernels* kernels : supportedChainKernels())
     for (const Eigen::Index size : kSizes) {
       StateBuffer z(size), change(size), k(size), out(size), lost(size);
       z.values() = randomState(size, 1).values();
@@ -147,12 +144,11 @@ TEST(ChainKernels, CompensatedSumKeepsWhatRoundingTakes) {
       EXPECT_TRUE(sameBits(lost.values(), rest)) << kernels->name << ", " << size;
       EXPECT_GT(rest.cwiseAbs().maxCoeff(), 1e-19) << size;
     }
-  }
 }
 
 TEST(ChainKernels, LargestChangeFindsEveryPlaceAndRemembersWhatIsNotFinite) {
   const double inf = std::numeric_limits<double>::infinity();
-  for (const ChainKernels* kernels : supportedChainKernels()) {
+  for (const ChainKernels* kernels : supportedChainKernels())
     for (Eigen::Index place = 0; place < 4 * 11; ++place) {
       if (place % 11 == 0) continue;  // the fixed particle
       StateBuffer k(11);
@@ -170,7 +166,6 @@ TEST(ChainKernels, LargestChangeFindsEveryPlaceAndRemembersWhatIsNotFinite) {
       set(std::nan(""));
       EXPECT_FALSE(std::isfinite(result())) << kernels->name;
     }
-  }
 }
 
 }  // namespace

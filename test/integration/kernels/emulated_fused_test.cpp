@@ -42,8 +42,8 @@ TEST(EmulatedFused, RoundsOnceForOrdinaryNumbers) {
 
 // Sums that lie a tiny bit beside the middle of two numbers.
 TEST(EmulatedFused, RoundsOnceNextToTies) {
-  for (int shift = 50; shift < 56; ++shift) {
-    for (const double tiny : {0.0, 0x1p-104, -0x1p-104, 0x1p-60, -0x1p-60}) {
+  for (int shift = 50; shift < 56; ++shift)
+    for (const double tiny : {0.0, 0x1p-104, -0x1p-104, 0x1p-60, -0x1p-60})
       for (const double sign : {1.0, -1.0}) {
         const double half = std::ldexp(1.0, -shift);
         expectFused(1.0 + half, 1.0 + tiny, sign);
@@ -51,8 +51,6 @@ TEST(EmulatedFused, RoundsOnceNextToTies) {
         expectFused(sign * (half + tiny), 1.0 + 0x1p-52, 1.0);
         expectFused(sign * half, 1.0 + tiny, 3.0 + 0x1p-51);
       }
-    }
-  }
 }
 
 TEST(EmulatedFused, HandlesZerosInfinitiesAndTheLimitsOfTheRange) {

@@ -44,7 +44,7 @@ const Method& rowOf(int order) {
 }
 
 TEST(StabilizedPolynomials, AreStableAsFarAsTheTableSaysAndNotMuchFurther) {
-  for (const int order : {4, 8}) {
+  for (const int order : {4, 8})
     for (const StabilizedPolynomial& p : stabilizedPolynomials(order)) {
       const double limit = p.real_stability_limit;
       for (double x = 0.01; x < limit; x += 0.01)
@@ -53,7 +53,6 @@ TEST(StabilizedPolynomials, AreStableAsFarAsTheTableSaysAndNotMuchFurther) {
       for (double y = 0.05; y < rowOf(order).imaginary_stability_limit; y += 0.05)
         ASSERT_LT(growth(p, {0.0, y}), 1.0 + 1e-14) << p.terms << " " << y;
     }
-  }
 }
 
 // The estimate is of order p - 1, the same for all of an order, and no fast mode of amplitude 1
@@ -140,8 +139,8 @@ TEST(StabilizedTaylorStepper, DenseOutputHasTheOrderOfTheMethod) {
 // A chain that stands upright, but for the last digits, falls through itself. Close to a collision all
 // steps are shortest steps; asked for the accuracy of a vibration, they would not grow again.
 TEST(StabilizedTaylorStepper, GetsPastACollision) {
-  for (const int order : {4, 8}) {
-    for (const double sideways : {1e-14, 1e-12, 1e-10}) {
+  for (const int order : {4, 8})
+    for (const double sideways : {1e-14, 1e-12, 1e-10})
       for (const double tolerance : {1e-9, 1e-12}) {
         const Chain chain(Eigen::VectorXd::Ones(5), SpringLaw{38.9, 1.0, 1.0}, 9.81);
         State state = test::straightLine(5, 0.0, 1.0);
@@ -154,8 +153,6 @@ TEST(StabilizedTaylorStepper, GetsPastACollision) {
         EXPECT_NEAR(before - after, integrator->dissipatedEnergy(), 1e-7)
             << order << " " << sideways << " " << tolerance;
       }
-    }
-  }
 }
 
 }  // namespace
