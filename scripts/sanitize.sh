@@ -36,5 +36,5 @@ fi
 if [ $without_ros = OFF ]; then
   # They call every service; ros.services takes three minutes more here.
   TSAN_OPTIONS="suppressions=$project/test/ros/thread_sanitizer_suppressions.txt" \
-    ctest --output-on-failure -R '^ros\.(ends|sim_time)$'
+    ctest --output-on-failure -j "$(nproc)" -R '^ros\.(ends|sim_time)$'
 fi
