@@ -154,7 +154,7 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
   const bool is_measuring = reference != nullptr && reference->isMeasuring();
   entry_ = balanceOf(time, state, dissipated, supplied);
   if (is_measuring && entry_.residual) {
-    const double right = computeEnergy(chain_, *reference->state()).total();
+    const double right = energyOf(*reference->state()).total();
     dissipated_error_ = *entry_.residual - (entry_.energy.total() - right);
   }
   Verdict verdict = energyVerdict(time, state, supplied);
@@ -215,8 +215,8 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
                 "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy "
                 "scale, although {}",
                 entry_.gain, time, 100.0 * entry_.relative_gain,
-                changed_ ? "the energy supplied to the chain is counted"
-                         : "no force drives the chain")};
+                changed_ || chain_.isDriven() ? "the energy supplied to the chain is counted"
+                                              : "no force drives the chain")};
   if (!(std::min(std::abs(residual), std::abs(error)) <= kDriftThreshold + allowance))
     return {
         VerdictKind::kDrift, time, 0,
