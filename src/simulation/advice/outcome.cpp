@@ -27,8 +27,6 @@ constexpr double kPrecision = 1.02;
 constexpr double kTrialWork = 0.1;
 /// Work allowed for all trials with their reference runs, in trials.
 constexpr double kMostTrials = 30.0;
-/// Frames of a trial with another step; more would take too long.
-constexpr double kMostFrames = 20000.0;
 /// Nominal time in s of judging a frame, per particle, and of an evaluation in code without a fast
 /// kernel, beyond what the integrator counts. Measured: 25 ns, and 320 to 470 ns for 6 particles.
 constexpr double kFrameTime = 2.5e-8;
@@ -98,7 +96,9 @@ class Trials {
   std::optional<Verdict> verdictWithStep(double step, VerdictKind enough) {
     const double duration = durationOf(plan_);
     if (duration / step > 1e9) return {};  // would take too long
-    const double interval = std::clamp(plan_.timeOfFrame(1), duration / kMostFrames, duration);
+    const double frame_work = kFrameTime * static_cast<double>(scene_.state.size() + 10);  // s
+    const double frames = std::clamp(0.25 * kTrialWork / frame_work, 2000.0, 20000.0);
+    const double interval = std::clamp(plan_.timeOfFrame(1), duration / frames, duration);
     Plan plan = plan_;
     plan.sleep = 0.0;
     plan.time_step = step;
