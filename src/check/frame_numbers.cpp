@@ -80,17 +80,19 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
   return {frame.index, Eigen::Map<const Rows>(numbers.data(), rows, 2), {}};
 }
 
-/// Whether the numbers are floats: all later frames have only floats or, with few digits, the first one is
-/// the start rounded to float.
-bool areFloats(const AllFrames& all, const Eigen::ArrayX2d& start) {
+/// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
+void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   constexpr double kRounded = 0.51;  // units of the last digit
+  const auto are = [](const FrameNumbers& f) { return f.equalsFloatsOf(f.positions, kRounded); };
   const FrameNumbers& first = all.frames.front();
-  const bool has_start = first.index == all.start;
-  if (all.digits <= AllFrames::kDigitsOfFloat)
-    return has_start && !first.equals(start, kRounded) && first.equalsFloatsOf(start, kRounded);
-  return (all.frames.back().positions != start).any() &&
-         std::all_of(all.frames.begin() + (has_start ? 1 : 0), all.frames.end(),
-                     [](const auto& one) { return one.equalsFloatsOf(one.positions, kRounded); });
+  const int has_start = first.index == all.start ? 1 : 0;
+  all.are_floats = all.digits > AllFrames::kDigitsOfFloat
+                       ? (all.frames.back().positions != start).any() &&
+                             std::all_of(all.frames.begin() + has_start, all.frames.end(), are)
+                       : has_start == 1 && !first.equals(start, kRounded) &&
+                             first.equalsFloatsOf(start, kRounded);
+  for (FrameNumbers& frame : all.frames)  // a double program may round what it prints
+    if (all.are_floats) frame.units = frame.units.max(0x1p-23 * frame.positions.abs());
 }
 
 void noteMissingFrames(AllFrames& all, std::int64_t renumbered_by = 0) {
@@ -114,7 +116,7 @@ bool AllFrames::renumber(const Eigen::ArrayX2d& positions) {
   const bool is_start = first.equals(positions, 1.0) || first.equalsFloatsOf(positions, 1.0);
   if (shift == 0 || !is_start) return false;
   for (FrameNumbers& frame : frames) frame.index -= shift;
-  are_floats = areFloats(*this, positions);
+  noteFloats(*this, positions);
   notes.front() =  // instead of the missing frames
       fmt::format("the frames are numbered from {}; {} would be right", start + shift, start);
   noteMissingFrames(*this, shift);
@@ -141,10 +143,7 @@ AllFrames readFrames(std::vector<FrameText> texts, const Scene& particles) {
   for (FrameNumbers& frame : all.frames)
     frame.units = frame.positions.unaryExpr([&](double value) { return format.unitOf(value); });
   all.digits = format.digits;
-  all.are_floats = areFloats(all, start);
-  for (FrameNumbers& frame :
-       all.frames)  // a double program may round its numbers when it prints them
-    if (all.are_floats) frame.units = frame.units.max(0x1p-23 * frame.positions.abs());
+  noteFloats(all, start);
   noteMissingFrames(all);
   return all;
 }

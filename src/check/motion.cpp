@@ -262,8 +262,7 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
 
 Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
                   WorkLimit& limit, bool off_line) {
-  constexpr double kComparable = 1e-3;  // more rounding errors end a comparison; of the extent
-  std::mt19937 random(1);               // the same on every machine
+  std::mt19937 random(1);  // the same on every machine
   const auto motion = make();
   // One alone may hardly move in the direction in which errors grow.
   const std::array companions{make(), make()};
@@ -285,7 +284,8 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
       if (!spread.allFinite()) rounding = std::numeric_limits<double>::infinity();
       if (motion->tolerance() == 0.0) companion->disturb(random, off_line);
     }
-    if (limit.isOver() || !(rounding <= kComparable * extent) || scale > motion->largest) break;
+    const double most = std::min(1e-3 * scale, 0.03 * extent);  // beyond, nothing can be said
+    if (limit.isOver() || !(rounding <= most) || scale > motion->largest) break;
     if (index < frame->index) continue;  // missing
     agreement.departure = departureOf(*frame, positions, scale, rounding + motion->tolerance());
     // Programs that use angles leave a straight line: cos(π/2) is no 0.

@@ -222,7 +222,7 @@ struct Agreement {
 };
 
 /// Compares until the first frame that differs, or until rounding errors have grown to a thousandth
-/// of the extent of the chain, after which nothing can be compared, or until the limit is reached.
+/// of the size of the motion, after which nothing can be compared, or until the limit is reached.
 /// \param make  makes the motion, also for its companions
 Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
                   WorkLimit& limit, bool off_line = false);

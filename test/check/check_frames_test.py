@@ -233,7 +233,11 @@ def garbage_is_not_equal(lab):
     np.savetxt(lab.folder / 'far.txt', scene + [20000, 0, 0], fmt='%.17g')
     far, _ = lab.verdict(np.add(good, [20000, 0]), '17g', lab.folder / 'far.txt', 'Runge-Kutta-4', 300, '--damping', '0')
     _, alone = lab.verdict(good[30:31], '17g', path, 'Runge-Kutta-4', 31, first=30)
-    rounded, _ = lab.verdict(np.float32(good[:60]).astype(float), '17g', path, 'Runge-Kutta-4', 60, '--damping', '0')
+    # Programs in double that round to float what they print, one with a mistake.
+    rounded, _ = lab.verdict([good[0], *np.float32(good[1:60]).astype(float)], '17g', path, 'Runge-Kutta-4', 60,
+                             '--damping', '0', first=1)
+    _, mistaken = lab.verdict(np.float32(student.frames(scene, count=60, g=9.8)).astype(float), '17g', path,
+                              'Runge-Kutta-4')
     # Springs of 1 m: whether a length in integers is 0 or 1 m is a matter of rounding, which explains nothing.
     scene, path = lab.scene('particle')
     _, other = lab.verdict(student.frames(scene, 'Runge-Kutta-2', count=120, h=0.001, steps=25), '6g', path,
@@ -246,8 +250,9 @@ def garbage_is_not_equal(lab):
     scene, path = lab.scene('horizontal_11')
     _, single = lab.verdict(student.frames(scene, 'Euler', ['single_precision'], 160, h=0.02), '9g', path, 'Euler', None,
                             '--time-step', '0.02')
-    named = [mistakes_in(report) for report in (alone, other, tiny, wrong_g, single)]
-    return (late, far, rounded) == (5, 5, 0) and named == [['no_damping'], [], [], ['g'], ['single_precision']]
+    named = [mistakes_in(report) for report in (alone, other, tiny, mistaken, wrong_g, single)]
+    return (late, far, rounded) == (5, 5, 0) and named == [
+        ['no_damping'], [], [], ['gravity_9.8'], ['g'], ['single_precision']]
 
 
 def other_courses_are_judged(lab):
