@@ -192,6 +192,10 @@ class Robots(LiveTest):
             wait_until(lambda: move(7.8, 3600.0, 1.2), 'the particle meets its holder')
             connected('/tf_static', TFMessage).publish(TFMessage([transform('gripper', 7.5, 0.0, rospy.Time())]))
             wait_until(lambda: is_there(7.5), 'the particle meets its holder')
+            stops = node.output().count('has stopped')  # tf refuses these:
+            self.topics[0].publish(TFMessage([transform('gripper', math.nan), transform('gripper', parent='gripper')]))
+            rospy.sleep(0.8)
+            self.assertEqual(node.output().count('has stopped'), stops)
 
     def test_at_rest_while_paused_is_for_where_the_holder_is_now(self):
         with self.node(held='last'):

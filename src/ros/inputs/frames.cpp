@@ -45,8 +45,8 @@ void Frames::listen() {
 void Frames::take(const tf2_msgs::TFMessage& message, bool is_static) {
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     try {
-      const bool stays = note(transform, is_static);
-      transforms_->setTransform(transform, "tf", stays);
+      // tf2 says why it refuses one.
+      if (tf2::BufferCore().setTransform(transform, "tf", is_static)) note(transform, is_static);
     } catch (const std::exception& error) {  // of tf2, for example at the ends of ROS time
       if (!warnings_.isDue()) continue;
       ROS_WARN_STREAM("tf: frame " << inQuotes(transform.child_frame_id) << ": " << error.what());
@@ -54,41 +54,43 @@ void Frames::take(const tf2_msgs::TFMessage& message, bool is_static) {
   }
 }
 
-bool Frames::note(const geometry_msgs::TransformStamped& transform, bool is_static) {
+void Frames::note(const geometry_msgs::TransformStamped& transform, bool is_static) {
   const double stamp = transform.header.stamp.toSec();
-  Edge& edge = edges_[withoutSlash(transform.child_frame_id)];
-  const bool stays = is_static || (stamp == 0.0 && edge.latest == 0.0);
-  const bool changes = stays ? edge.latest > 0.0 : edge.fixed.has_value();
-  edge.parent = withoutSlash(transform.header.frame_id);
-  edge.fixed = stays ? std::optional(transform) : std::nullopt;
-  edge.old_ones = !stays && stamp < edge.latest - kRestart ? edge.old_ones + 1 : 0;
-  edge.latest = stays ? 0.0 : std::max(edge.latest, stamp);
-  const bool restarts = edge.old_ones > 1 && edge.is_used && restarts_.isDue(kForgetting);
-  if (!changes && !restarts) return stays;
-  // tf2 would take new ones for the past, and keeps a frame fixed or moving.
-  transforms_ = std::make_unique<tf2::BufferCore>();
-  for (auto& [child, other] : edges_) {
-    if (restarts) other.latest = std::min(other.latest, stamp);
-    if (other.fixed) transforms_->setTransform(*other.fixed, "tf", true);
+  const auto& [place, is_new] = edges_.try_emplace(withoutSlash(transform.child_frame_id));
+  Edge& edge = place->second;
+  const bool was_fixed = std::exchange(edge.is_fixed, is_static || stamp == 0.0);
+  edge.last = transform;
+  edge.old_ones = !edge.is_fixed && stamp < edge.latest - kRestart ? edge.old_ones + 1 : 0;
+  edge.latest = edge.is_fixed ? 0.0 : std::max(edge.latest, stamp);
+  if (edge.old_ones > 1 || (!is_new && was_fixed != edge.is_fixed)) edge.is_outdated = true;
+  transforms_->setTransform(transform, "tf", edge.is_fixed);
+}
+
+void Frames::renew(const std::string& frame) {
+  double now = -1.0;  // s, by the clock that has started again
+  for (const std::string& child : {frame, frame_id_}) {
+    std::size_t left = edges_.size();  // tf2 refuses trees with loops below
+    for (auto one = edges_.find(child); one != edges_.end() && left-- > 0;
+         one = edges_.find(withoutSlash(one->second.last.header.frame_id)))
+      if (one->second.is_outdated) now = std::max(now, one->second.last.header.stamp.toSec());
   }
-  return stays;
+  if (now < 0.0 || !renewals_.isDue(kForgetting)) return;
+  transforms_ = std::make_unique<tf2::BufferCore>();
+  for (const auto& [child, edge] : std::exchange(edges_, {}))
+    if (edge.is_fixed || edge.last.header.stamp.toSec() <= now + kRestart)
+      note(edge.last, edge.is_fixed);
 }
 
 StampedTransform Frames::from(const std::string& name) {
   const std::string frame = withoutSlash(name);
   if (frame.empty() || frame == frame_id_) return {};
-  for (const std::string& child : {frame, frame_id_}) {
-    std::size_t left = edges_.size();  // tf trees with loops are refused below
-    for (auto one = edges_.find(child); one != edges_.end() && left-- > 0;
-         one = edges_.find(one->second.parent))
-      one->second.is_used = true;
-  }
   // The first time, wait on the wall clock: ROS time may stand still.
   const ros::WallDuration longest(moving_.getTopic().empty() ? kFirstWait : 0.0);
   const ros::SteadyTime end = ros::SteadyTime::now() + longest;
   listen();
-  for (ros::WallDuration wait(0.0);; wait = ros::WallDuration(0.01)) {
-    queue_.callAvailable(wait);
+  for (double wait = 0.0;; wait = 0.01) {
+    receive(wait);
+    renew(frame);
     try {
       const auto found = transforms_->lookupTransform(frame_id_, frame, ros::Time(0));
       const geometry_msgs::Vector3& shift = found.transform.translation;

@@ -8,7 +8,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <tf2/LinearMath/Transform.h>
 #include <tf2/buffer_core.h>
@@ -37,28 +36,29 @@ class Frames {
   /// leading '/' does not count. Waits for half a second the first time.
   /// \throws InputError if there is no transform
   StampedTransform from(const std::string& name);
+  /// Takes what has come in, or waits this number of seconds for it. Must be called often.
+  void receive(double wait = 0.0) { queue_.callAvailable(ros::WallDuration(wait)); }
 
  private:
   /// From a frame to its parent.
   struct Edge {
-    std::string parent;
-    double latest = 0.0;  ///< stamp, s
-    int old_ones = 0;     ///< how many have come since that are older
-    bool is_used = false;
-    std::optional<geometry_msgs::TransformStamped> fixed;
+    geometry_msgs::TransformStamped last;
+    double latest = 0.0;                         ///< stamp, s; 0: none
+    int old_ones = 0;                            ///< how many have come since that are older
+    bool is_fixed = false, is_outdated = false;  ///< outdated: tf2 would not take the last one
   };
 
   void take(const tf2_msgs::TFMessage& message, bool is_static);
-  /// Forgets moving frames if the clock of one that is used has started again.
-  /// \returns whether the frame does not move
-  bool note(const geometry_msgs::TransformStamped& transform, bool is_static);
+  void note(const geometry_msgs::TransformStamped& transform, bool is_static);
+  /// Lets tf2 forget what it knows if a frame on the way has another clock now, or moves now.
+  void renew(const std::string& frame);
 
   std::string frame_id_;
   std::unique_ptr<tf2::BufferCore> transforms_ = std::make_unique<tf2::BufferCore>();
   ros::CallbackQueue queue_;  ///< served by `from`
   ros::Subscriber moving_, fixed_;
   std::map<std::string, Edge> edges_;  ///< by child
-  Throttle warnings_, restarts_;
+  Throttle warnings_, renewals_;
 };
 
 }  // namespace spring_pendulum

@@ -56,8 +56,8 @@ Handles::Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& optio
       updates_(node.advertise<visualization_msgs::InteractiveMarkerUpdate>(
           node.resolveName("handles") + "/update", 100)) {
   const double length = std::max(chainLength(run.chain(), run.start()), 0.1);
-  const auto count = static_cast<double>(particles_.size());
-  const double size = std::min(kSize * length, kShareOfSpring * length / count);
+  const double size =
+      length * std::min(kSize, kShareOfSpring / static_cast<double>(particles_.size()));
   for (const std::ptrdiff_t particle : particles_) {
     visualization_msgs::InteractiveMarker marker;
     marker.header.frame_id = options.frame_id;

@@ -12,7 +12,6 @@
 #include <interactive_markers/interactive_marker_server.h>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace spring_pendulum {

@@ -124,6 +124,7 @@ bool Node::isDue() const {
 
 void Node::serve() {
   callBack(steps_wanted_ > 0 && driver_.isActing() ? kShortWait : 0.0);
+  frames_.receive();
   robots_.lookUp();
   if (isDue()) return;
   const ros::SteadyTime next = run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(nextTime());

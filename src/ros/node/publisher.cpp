@@ -51,7 +51,8 @@ std::int64_t Publisher::subscribers(const std::string& nodes) const {
   for (const ros::Publisher& topic : {markers_, state_, status_})
     ros::TopicManager::instance()->lookupPublication(topic.getTopic())->getInfo(links);
   std::int64_t count = 0;
-  for (int i = 0; i < links.size(); ++i) {
+  const int size = links.size();
+  for (int i = 0; i < size; ++i) {
     const std::string node = links[i][1], name = node.substr(node.rfind('/') + 1);
     if (nodes.empty() || (" " + nodes + " ").find(" " + name + " ") < nodes.size()) ++count;
   }

@@ -15,8 +15,7 @@ class Publisher {
  public:
   Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options);
 
-  /// Number of subscribers of markers, state and status.
-  /// \param nodes names without namespaces of the only nodes that count; empty: all
+  /// Number of subscribers of markers, state and status in nodes with these names; empty: in all.
   std::int64_t subscribers(const std::string& nodes) const;
   /// Publishes the messages about the current state.
   /// \returns their header; nothing if the state is not due
