@@ -63,7 +63,7 @@ void Frames::note(const geometry_msgs::TransformStamped& transform, bool is_stat
   edge.old_ones = !edge.is_fixed && stamp < edge.latest - kRestart ? edge.old_ones + 1 : 0;
   edge.latest = edge.is_fixed ? 0.0 : std::max(edge.latest, stamp);
   if (edge.old_ones > 1 || (!is_new && was_fixed != edge.is_fixed)) edge.is_outdated = true;
-  transforms_->setTransform(transform, "tf", edge.is_fixed);
+  if (edge.old_ones < 2) transforms_->setTransform(transform, "tf", edge.is_fixed);
 }
 
 void Frames::renew(const std::string& frame) {
