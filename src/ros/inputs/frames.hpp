@@ -55,7 +55,7 @@ class Frames {
 
   std::string frame_id_;
   std::unique_ptr<tf2::BufferCore> transforms_ = std::make_unique<tf2::BufferCore>();
-  ros::CallbackQueue queue_;  ///< served by `from`
+  ros::CallbackQueue queue_;  ///< served by `receive`
   ros::Subscriber moving_, fixed_;
   std::map<std::string, Edge> edges_;  ///< by child
   Throttle warnings_, renewals_;
