@@ -139,7 +139,7 @@ class Checker {
   void tryMistakes(StudentProgram right, int level) {
     StudentProgram in_float = right.with(table_.back());
     if (level == 0 && frames_.are_floats && explains(in_float)) return;
-    if (level < 2) tryChanges(right, 0, level == 1);
+    if (level < 2) tryChanges(right, 0, level == 1);  // perhaps it prints floats only
     if (frames_.are_floats) right = in_float;
     if (level < 2 && frames_.are_floats) tryChanges(right, 0, level == 1);
     in_float.sentences.back() += ", or its errors are as small as those of float";
@@ -195,7 +195,7 @@ class Checker {
         all.middleRows(row, size) = (motion->positions() - frame.positions) /
                                     (frame.units + kRounding * frame.positions.abs().maxCoeff());
       }
-      return Eigen::ArrayX2d((all.abs() < 1e150).select(all, 0.0));  // after overflow, all fit
+      return Eigen::ArrayX2d((all.abs() < 1e150).select(all, 0.0));  // without nan
     };
     double& value = constant.in(program);
     double change = 1e-4 * (value == 0.0 ? 1.0 : value);

@@ -83,12 +83,12 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 /// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   constexpr double kRounded = 0.51;  // units of the last digit
-  const auto are = [](const FrameNumbers& f) { return f.equalsFloatsOf(f.positions, kRounded); };
+  const auto floats = [](const FrameNumbers& f) { return f.equalsFloatsOf(f.positions, kRounded); };
   const FrameNumbers& first = all.frames.front();
   const int has_start = first.index == all.start ? 1 : 0;
   all.are_floats = all.digits > AllFrames::kDigitsOfFloat
                        ? (all.frames.back().positions != start).any() &&
-                             std::all_of(all.frames.begin() + has_start, all.frames.end(), are)
+                             std::all_of(all.frames.begin() + has_start, all.frames.end(), floats)
                        : has_start == 1 && !first.equals(start, kRounded) &&
                              first.equalsFloatsOf(start, kRounded);
   for (FrameNumbers& frame : all.frames)  // a double program may round what it prints

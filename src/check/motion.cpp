@@ -53,7 +53,6 @@ class ProgramMotion : public Motion {
     if (program.single_precision) {
       state_ = state_.cast<float>().cast<double>().eval();
       precision_ = std::numeric_limits<float>::epsilon();
-      largest = 1e18;
     }
     const AlignedNumbers& masses = particles.masses;
     const Eigen::Index last = masses.size() - 1;
@@ -285,7 +284,7 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
       if (motion->tolerance() == 0.0) companion->disturb(random, off_line);
     }
     const double most = std::min(1e-3 * scale, 0.03 * extent);  // beyond, nothing can be said
-    if (limit.isOver() || !(rounding <= most) || scale > motion->largest) break;
+    if (limit.isOver() || !(rounding <= most) || scale > motion->largest()) break;
     if (index < frame->index) continue;  // missing
     agreement.departure = departureOf(*frame, positions, scale, rounding + motion->tolerance());
     // Programs that use angles leave a straight line: cos(π/2) is no 0.

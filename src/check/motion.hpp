@@ -175,7 +175,6 @@ struct WorkLimit {
 
 class Motion {
  public:
-  double largest = 1e150;  ///< m; the square of a larger number may be infinite in a program
   virtual ~Motion() = default;
   Motion(const Motion&) = delete;
   Motion& operator=(const Motion&) = delete;
@@ -191,6 +190,8 @@ class Motion {
   /// Error in m that two right results may have besides rounding. If it is not 0, `disturb` must be
   /// called at the start only.
   double tolerance() const { return plan_.method.get().hasFixedStep() ? 0.0 : plan_.tolerance; }
+  /// Coordinate in m beyond which squares may be infinite in the program.
+  double largest() const { return precision_ > 1e-8 ? 1e18 : 1e150; }
 
  protected:
   Motion(const Plan& plan, const Scene& particles);

@@ -153,7 +153,7 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
                             const ReferenceRun* reference, double supplied) {
   const bool is_measuring = reference != nullptr && reference->isMeasuring();
   entry_ = balanceOf(time, state, dissipated, supplied);
-  if (is_measuring && entry_.residual) {
+  if (is_measuring && entry_.residual && chain_.isDissipative()) {
     const double right = energyOf(*reference->state()).total();
     dissipated_error_ = *entry_.residual - (entry_.energy.total() - right);
   }

@@ -209,3 +209,8 @@ class Launch(unittest.TestCase):
             run_program('record_bag', 'Euler', '--particles', SCENE, '--frames', 5, '--bag', folder + '/one.bag')
             output = launch('replay.launch', 'bag:=one.bag', 'rviz:=false', 'loop:=false', 'rate:=10', cwd=folder)
         self.assertIn('process has finished cleanly', output)
+
+    def test_record_sh_without_topics_shows_its_use(self):
+        done = subprocess.run([project('scripts/record.sh'), 'one.bag'], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('Usage: record.sh BAG TOPIC ...', done.stderr)

@@ -137,10 +137,7 @@ TEST(Run, AWrongDissipatedEnergyIsNoDriftAfterTheReferenceEither) {
 // In most frames, the energy error is above 1 % of the scale, but it crosses 0 again and again.
 TEST(Run, TheEnergyOfASymplecticMethodIsWrongIfItsMeanIs) {
   State start(2);
-  start.x()[1] = 0.172;
-  start.y()[1] = -0.323;
-  start.vx()[1] = 0.569;
-  start.vy()[1] = -0.2;
+  start.values().row(1) << 0.172, -0.323, 0.569, -0.2;
   Scenario scenario = scenarioOf("Semi-Implicit-Euler");
   scenario.time_step = 0.0209;
   scenario.steps_per_frame = 1;

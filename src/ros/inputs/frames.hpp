@@ -45,12 +45,12 @@ class Frames {
     geometry_msgs::TransformStamped last;
     double latest = 0.0;                         ///< stamp, s; 0: none
     int old_ones = 0;                            ///< how many have come since that are older
-    bool is_fixed = false, is_outdated = false;  ///< outdated: tf2 would not take the last one
+    bool is_fixed = false, is_outdated = false;  ///< outdated: tf2 would refuse the last one
   };
 
   void take(const tf2_msgs::TFMessage& message, bool is_static);
   void note(const geometry_msgs::TransformStamped& transform, bool is_static);
-  /// Lets tf2 forget what it knows if a frame on the way has another clock now, or moves now.
+  /// Gives a new tf2 the last transforms if one on the way from a frame is outdated.
   void renew(const std::string& frame);
 
   std::string frame_id_;
