@@ -73,12 +73,11 @@ class Checker {
       is_undecided = is_undecided || (!agreement.departure && agreement.frames == 0);
       left -= work.done;
       if (work.isStopped()) return;
-      if (agreement.complete) {
+      if (agreement.complete && agreement.last_frame >= last_frame_) {
         if (agreement.last_frame > last_frame_) methods_.clear();
-        last_frame_ = std::max(last_frame_, agreement.last_frame);
+        last_frame_ = agreement.last_frame;
         const std::string within = fmt::format(" within {} m", numberText(plan.tolerance));
-        if (agreement.last_frame == last_frame_)
-          methods_.push_back(method->name + (method->hasFixedStep() ? "" : within));
+        methods_.push_back(method->name + (method->hasFixedStep() ? "" : within));
       }
       // The departure from the nearest of the wanted methods that students write, or from the only one.
       const bool is_nearer = !departure_ || agreement.frames > known_frames_ ||

@@ -83,14 +83,20 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 /// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   constexpr double kRounded = 0.51;  // units of the last digit
-  const auto floats = [](const FrameNumbers& f) { return f.equalsFloatsOf(f.positions, kRounded); };
+  const bool has_many = all.digits > AllFrames::kDigitsOfFloat;
+  const auto is_shortest =
+      [](double x) {  // text of a float, as Java, numpy and std::format print it
+        return !std::isfinite(x) || parseNumber(fmt::format("{}", static_cast<float>(x))) == x;
+      };
+  const auto floats = [&](const FrameNumbers& frame) {
+    return frame.index == all.start || frame.positions.unaryExpr(is_shortest).all() ||
+           (has_many && frame.equalsFloatsOf(frame.positions, kRounded));
+  };
   const FrameNumbers& first = all.frames.front();
-  const int has_start = first.index == all.start ? 1 : 0;
-  all.are_floats = all.digits > AllFrames::kDigitsOfFloat
-                       ? (all.frames.back().positions != start).any() &&
-                             std::all_of(all.frames.begin() + has_start, all.frames.end(), floats)
-                       : has_start == 1 && !first.equals(start, kRounded) &&
-                             first.equalsFloatsOf(start, kRounded);
+  all.are_floats = !has_many && first.index == all.start && !first.equals(start, kRounded) &&
+                   first.equalsFloatsOf(start, kRounded);
+  if (all.digits >= AllFrames::kDigitsOfFloat && (all.frames.back().positions != start).any())
+    all.are_floats |= std::all_of(all.frames.begin(), all.frames.end(), floats);
   for (FrameNumbers& frame : all.frames)  // a double program may round what it prints
     if (all.are_floats) frame.units = frame.units.max(0x1p-23 * frame.positions.abs());
 }

@@ -54,6 +54,10 @@ class ProgramMotion : public Motion {
       state_ = state_.cast<float>().cast<double>().eval();
       precision_ = std::numeric_limits<float>::epsilon();
     }
+    // A mistake must explain the frames clearly better than rounding errors do, also in more steps.
+    const double more = static_cast<double>(plan_.steps()) / program.right_steps;
+    if (program.mistakes.size() > (program.single_precision ? 1 : 0))
+      precision_ *= 0.5 / std::sqrt(std::max(1.0, more));
     const AlignedNumbers& masses = particles.masses;
     const Eigen::Index last = masses.size() - 1;
     for (Eigen::Index i = 0; i <= last; ++i) {
@@ -94,13 +98,10 @@ class ProgramMotion : public Motion {
   Vector springForce(const Rows& z, Eigen::Index i, Eigen::Index j) const {
     const Row difference = z.col(j) - z.col(i);
     const Vector separation = difference.head<2>();
-    StudentSpring spring{separation,
-                         difference.tail<2>(),
-                         z.col(i).tail<2>(),
-                         j < i,
-                         start_lengths_[static_cast<std::size_t>(std::max(i, j))],
-                         program_.spring.rest_length,
-                         separation.matrix().norm()};
+    const double start_length = start_lengths_[static_cast<std::size_t>(std::max(i, j))];
+    StudentSpring spring{
+        separation,   difference.tail<2>(),        z.col(i).tail<2>(),        j < i,
+        start_length, program_.spring.rest_length, separation.matrix().norm()};
     spring.pointTo(separation / spring.length);
     for (const auto change : program_.springs) change(spring);
     return program_.spring.stiffness * (spring.length - spring.rest_length) * spring.direction +
@@ -284,7 +285,9 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
       if (motion->tolerance() == 0.0) companion->disturb(random, off_line);
     }
     const double most = std::min(1e-3 * scale, 0.03 * extent);  // beyond, nothing can be said
-    if (limit.isOver() || !(rounding <= most) || scale > motion->largest()) break;
+    if (limit.isOver() || !(rounding <= most) ||
+        scale > (frames.are_floats ? 1e18 : motion->largest()))
+      break;
     if (index < frame->index) continue;  // missing
     agreement.departure = departureOf(*frame, positions, scale, rounding + motion->tolerance());
     // Programs that use angles leave a straight line: cos(π/2) is no 0.

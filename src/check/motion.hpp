@@ -103,15 +103,8 @@ struct Mistake;
 /// The exercise with whatever is changed in it, also in plan and constants: a time step of 0 moves nothing.
 struct StudentProgram : Plan, Constants {
   /// Kinds of programs, as bits: a mistake concerns some of them.
-  enum Kind : unsigned {
-    kEuler = 1,
-    kMidpoint = 2,
-    kHeun = 4,
-    kRungeKutta4 = 8,
-    kOtherTableau = 16,
-    kSymplectic = 32,
-    kImplicit = 64
-  };
+  static constexpr unsigned kEuler = 1, kMidpoint = 2, kHeun = 4, kRungeKutta4 = 8;
+  static constexpr unsigned kOtherTableau = 16, kSymplectic = 32, kImplicit = 64;
   /// When the numbers of a particle are overwritten.
   enum class Order {
     kTogether,
@@ -126,6 +119,7 @@ struct StudentProgram : Plan, Constants {
   bool is_linearised = false;  ///< an implicit method that solves a linear system per step
   Order order = Order::kTogether;
   std::int64_t first_step = 0;  ///< steps before frame 0; negative: the start is repeated
+  double right_steps = static_cast<double>(steps_per_frame);
   bool single_precision = false;
   /// Changes of a spring, of a particle, of a way, and of the numbers that are printed.
   std::vector<void (*)(StudentSpring&)> springs = {};

@@ -136,8 +136,8 @@ def frames(scene, method='Runge-Kutta-4', wrong=(), count=500, tableau=None, **c
 
 
 def number(value, form):
-    """Text as programs print it: '6g' like C++ streams, '6f' like printf, 'r' the shortest."""
-    return repr(float(value)) if form == 'r' else format(value, '.' + form)
+    """Text as programs print it: '6g' like C++ streams, '6f' like printf, 'r' the shortest, 's' that of a float."""
+    return repr(float(value)) if form == 'r' else str(np.float32(value)) if form == 's' else format(value, '.' + form)
 
 
 def write(folder, result, form='17g', separator=' ', first=0):
