@@ -36,17 +36,16 @@ struct JudgeOptions {
   /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
   /// oscillates about its true value, so its mean error over the run so far is judged.
   double symplectic_step = 0.0;
-  /// Tolerance in m of an error-controlled method; 0 for fixed steps. The method promises position
-  /// errors of at most ten tolerances, which change the length of a spring by up to 20. The energy of
-  /// this change is no fault: for particles of 1e-9 kg it exceeds the energy scale.
+  /// Tolerance in m of an error-controlled method; 0 for fixed steps. It promises position errors of at
+  /// most ten tolerances: the energy of springs longer by 20, which may exceed the scale, is no fault.
   double tolerance = 0.0;
+  int symplectic_order = 0;  ///< of a symplectic method; 0 for other methods
 };
 
 /// Judges the frames of a run and keeps the worst verdict.
 class Judge {
  public:
-  static constexpr double kDriftThreshold = 0.01;
-  static constexpr double kGainThreshold = 0.01;
+  static constexpr double kDriftThreshold = 0.01, kGainThreshold = 0.01;
   static constexpr double kDivergenceThreshold = 1.0;
   /// In units of `ReferenceRun::length`. Smaller errors are not visible in a picture of the chain.
   static constexpr double kInaccurateThreshold = 0.01;
@@ -111,8 +110,7 @@ class Judge {
   double sensitive_time_ = 0.0;  ///< where none can promise it
   EnergyEntry entry_;
   PositionError position_error_;
-  Verdict latest_;
-  Verdict worst_;
+  Verdict latest_, worst_;
 };
 
 }  // namespace spring_pendulum

@@ -44,7 +44,9 @@ double toleranceOf(const Plan& plan) {
 }
 
 JudgeOptions judgeOptions(const Plan& plan, bool track) {
-  return {track, plan.method.get().symplectic ? plan.time_step : 0.0, toleranceOf(plan)};
+  const Method& method = plan.method;
+  return {track, method.symplectic ? plan.time_step : 0.0, toleranceOf(plan),
+          method.symplectic ? method.order : 0};
 }
 
 /// Number of states shown per frame.

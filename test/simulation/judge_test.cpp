@@ -1,5 +1,4 @@
-// Verdicts, the energy scale and balance that they rest on, and a recorded coarse map of stability: the
-// verdict by step size and properties of the chain.
+// Verdicts, and the energy scale and balance that they rest on.
 #include "simulation/judge.hpp"
 
 #include <spring_pendulum/base/errors.hpp>
@@ -9,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -163,44 +161,6 @@ TEST(EnergyBalance, LeavesTheResidualOpenOnlyIfDampingIsNotTracked) {
       Judge(uniform(3, {50.0, 0.0, 1.0}, 9.81), start, {false}).balanceOf(0.0, start, 0.0);
   EXPECT_EQ(undamped.dissipated, 0.0);
   EXPECT_EQ(undamped.residual, 0.0);
-}
-
-/// A word a step, the largest first; a letter a value. `.` ok, `d` drift, `g` gained energy,
-/// `X` diverged. Values lie between the borders, so that the map does not hang on rounding.
-std::string mapOf(const char* method, const std::vector<double>& values,
-                  const std::function<test::Scene(double)>& scene) {
-  std::string map;
-  for (const double step : {0.5, 0.15, 0.05, 0.015, 0.005, 0.0015}) {
-    if (!map.empty()) map += " ";
-    for (const double value : values) {
-      const Verdict verdict = test::verdictOfRun(scene(value), findMethod(method), step, 5.0, true);
-      map += "....dgX"[static_cast<int>(verdict.kind)];
-    }
-  }
-  return map;
-}
-
-test::Scene withMass(double mass) {
-  return test::horizontalChain("", 11, mass);
-}
-
-test::Scene damped(double damping) {
-  return test::horizontalChain("", 11, 1.0, {50.0, damping, 1.0});
-}
-
-const std::vector<double> kMasses{1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0};
-const std::vector<double> kDampings{0.0, 0.1, 1.0, 10.0, 100.0, 1000.0};
-
-TEST(StabilityMap, OfStepAgainstMass) {
-  EXPECT_EQ(mapOf("Euler", kMasses, withMass), "XXXXXg XXXXXd XXXXg. XXXXd. XXgd.. Xgdd..");
-  EXPECT_EQ(mapOf("Runge-Kutta-2", kMasses, withMass), "XXXXX. XXXX.. XXXd.. XX.... X..... X.....");
-  EXPECT_EQ(mapOf("Runge-Kutta-4", kMasses, withMass), "XXXX.. XXXd.. XXd... XX.... X..... X.....");
-}
-
-TEST(StabilityMap, OfStepAgainstDamping) {
-  EXPECT_EQ(mapOf("Euler", kDampings, damped), "XXXXXX XXXXXX XXXXXX XXXdXX ggdddX gddd.X");
-  EXPECT_EQ(mapOf("Runge-Kutta-2", kDampings, damped), "XXXXXX XXXXXX ggddXX ....XX .....X .....X");
-  EXPECT_EQ(mapOf("Runge-Kutta-4", kDampings, damped), "XXXXXX dddXXX ....XX ....XX .....X .....X");
 }
 
 }  // namespace

@@ -103,6 +103,15 @@ TEST(Run, TheMeanEnergyOfASymplecticMethodIsThatSinceTheLastChange) {
   run.change(scenario, {{5e3, 0.0, 1.0}}, {}, run.state());
   run.advanceTo(1060.0);
   EXPECT_EQ(run.verdict().kind, VerdictKind::kDrift);
+  // The same step, but another method.
+  scenario.time_step = changed.time_step = 0.03;
+  const auto six = test::horizontalChain("six", 6, 1.0, {50.0, 0.0, 1.0});
+  test::ProgramRun switched = runAfter(scenario, six, 18.0);
+  switched.change(scenario, six.chain.constants(), {{}, {{1, {1e-3, 0.0}}}}, switched.state());
+  switched.advanceTo(72.0);
+  switched.change(changed, six.chain.constants(), {}, switched.state());
+  switched.advanceTo(84.0);
+  EXPECT_EQ(switched.verdict().kind, VerdictKind::kGainedEnergy) << switched.verdict().text;
 }
 
 TEST(Run, AWrongDissipatedEnergyIsNoDriftAfterTheReferenceEither) {
