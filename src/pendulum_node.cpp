@@ -37,10 +37,9 @@ void checkArguments(const std::vector<std::string>& arguments, const OptionSet& 
   for (const std::string& text : arguments) {
     const std::string name = text.substr(0, text.find(":="));
     if (name == text) continue;
-    for (const Option& option : options.options()) {
-      if (option.key != name) continue;
-      throw InputError(fmt::format("'{}' sets no parameter: write _{}", text, text));
-    }
+    for (const Option& option : options.options())
+      if (option.key == name)
+        throw InputError(fmt::format("'{}' sets no parameter: write _{}", text, text));
     if (name != "__master") continue;
     source = name;
     uri = text.substr(name.size() + 2);

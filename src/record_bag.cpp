@@ -66,8 +66,7 @@ class BagRecorder {
 
   /// Writes a state if it is that of a frame, or one that the display rate asks for.
   void write(const Run& run) {
-    if (run.time() < std::exchange(time_, run.time()))
-      pacer_.start(run.time(), {});  // after a reset
+    if (run.time() < std::exchange(time_, run.time())) pacer_.start(run.time(), {});  // reset
     if (!pacer_.isShown(run.time(), run.isAtFrame())) return;
     const std::optional<StateMessages> messages = messages_.build(run, {});
     stamp_ = messages->header.stamp;
@@ -131,9 +130,8 @@ std::vector<Option> bagOptions(BagOptions& o) {
   };
 }
 
-/// Records a run. The same scenario and options give the same bytes. The bag is complete or absent, like every
-/// OutputFile; when appending, a longer copy replaces the bag at the end. After a signal, the bag ends
-/// with the last message before it.
+/// Records a run. The same scenario and options give the same bytes. The bag is complete or absent; when
+/// appending, a longer copy replaces it at the end. After a signal, it ends with the last message before.
 /// \param started called when nothing about the files can be refused any more, before the run
 /// \returns for the closing line: ", 501 messages, 123456 bytes in /home/me/pendulum.bag"
 /// \throws FileError naming the bag

@@ -19,19 +19,16 @@ namespace {
 
 using Vector = Eigen::Vector2d;
 
-/// A held particle nearer to its target than this, m and m/s, is at rest.
-constexpr double kSettled = 1e-9;
+constexpr double kSettled = 1e-9;  // m and m/s: a held particle nearer to its target is at rest
 /// Constants that change while the chain moves.
 const std::vector<std::string> kLive = {"tolerance",   "stiffness", "damping",
                                         "rest_length", "gravity",   "air_drag"};
 /// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
 /// the range of double, or takes hours per frame.
 constexpr double kLargest = 1e9;
-/// Largest acceleration by a force, in lengths of the chain per s².
-constexpr double kLargestAcceleration = 1e6;
+constexpr double kLargestAcceleration = 1e6;  // by a force, lengths of the chain per s²
 constexpr std::size_t kMostForces = 1000;
-/// Largest speed of a particle on the way to its target, in lengths of the chain per second.
-constexpr double kLengthsPerSecond = 5.0;
+constexpr double kLengthsPerSecond = 5.0;  // lengths of the chain, on the way to a target
 
 /// Returns all numbers of a drive.
 std::vector<double> numbersOf(const Drive& drive) {

@@ -14,9 +14,10 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kFirstWait = 0.5;   // s, for the first transforms
-constexpr double kRestart = 0.5;     // s, the least jump back of a clock that starts again
-constexpr double kForgetting = 1.0;  // s, at least: a frame of two sources jumps all the time
+constexpr double kFirstWait = 0.5;      // s, for the first transforms
+constexpr double kRestart = 0.5;        // s, the least jump back of a clock that starts again
+constexpr double kForgetting = 1.0;     // s, at least: a frame of two sources jumps all the time
+constexpr std::size_t kMostKept = 200;  // transforms of a frame, for common times with other frames
 
 std::string withoutSlash(const std::string& frame) {
   return frame.substr(frame.rfind('/', 0) == 0 ? 1 : 0);
@@ -48,8 +49,8 @@ void Frames::take(const tf2_msgs::TFMessage& message, bool is_static) {
       // tf2 says why it refuses one.
       if (tf2::BufferCore().setTransform(transform, "tf", is_static)) note(transform, is_static);
     } catch (const std::exception& error) {  // of tf2, for example at the ends of ROS time
-      if (!warnings_.isDue()) continue;
-      ROS_WARN_STREAM("tf: frame " << inQuotes(transform.child_frame_id) << ": " << error.what());
+      if (warnings_.isDue())
+        ROS_WARN_STREAM("tf: frame " << inQuotes(transform.child_frame_id) << ": " << error.what());
     }
   }
 }
@@ -59,26 +60,32 @@ void Frames::note(const geometry_msgs::TransformStamped& transform, bool is_stat
   const auto& [place, is_new] = edges_.try_emplace(withoutSlash(transform.child_frame_id));
   Edge& edge = place->second;
   const bool was_fixed = std::exchange(edge.is_fixed, is_static || stamp == 0.0);
-  edge.last = transform;
   edge.old_ones = !edge.is_fixed && stamp < edge.latest - kRestart ? edge.old_ones + 1 : 0;
   edge.latest = edge.is_fixed ? 0.0 : std::max(edge.latest, stamp);
   if (edge.old_ones > 1 || (!is_new && was_fixed != edge.is_fixed)) edge.is_outdated = true;
+  if (edge.old_ones == 1 || edge.is_fixed || was_fixed) edge.kept.clear();
+  edge.kept.push_back(transform);
+  if (edge.kept.size() > kMostKept) edge.kept.pop_front();
   if (edge.old_ones < 2) transforms_->setTransform(transform, "tf", edge.is_fixed);
 }
 
 void Frames::renew(const std::string& frame) {
   double now = -1.0;  // s, by the clock that has started again
-  for (const std::string& child : {frame, frame_id_}) {
+  for (std::string child : {frame, frame_id_}) {
     std::size_t left = edges_.size();  // tf2 refuses trees with loops below
     for (auto one = edges_.find(child); one != edges_.end() && left-- > 0;
-         one = edges_.find(withoutSlash(one->second.last.header.frame_id)))
-      if (one->second.is_outdated) now = std::max(now, one->second.last.header.stamp.toSec());
+         one = edges_.find(child)) {
+      const std_msgs::Header& last = one->second.kept.back().header;
+      if (one->second.is_outdated && renewals_[child].isDue(kForgetting))
+        now = std::max(now, (one->second.is_fixed ? ros::TIME_MAX : last.stamp).toSec());
+      child = withoutSlash(last.frame_id);
+    }
   }
-  if (now < 0.0 || !renewals_.isDue(kForgetting)) return;
+  if (now < 0.0) return;
   transforms_ = std::make_unique<tf2::BufferCore>();
   for (const auto& [child, edge] : std::exchange(edges_, {}))
-    if (edge.is_fixed || edge.last.header.stamp.toSec() <= now + kRestart)
-      note(edge.last, edge.is_fixed);
+    if (edge.is_fixed || edge.kept.back().header.stamp.toSec() <= now + kRestart)
+      for (const auto& transform : edge.kept) note(transform, edge.is_fixed);
 }
 
 StampedTransform Frames::from(const std::string& name) {

@@ -6,6 +6,7 @@
 #include <ros/callback_queue.h>
 #include <ros/subscriber.h>
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <string>
@@ -42,15 +43,15 @@ class Frames {
  private:
   /// From a frame to its parent.
   struct Edge {
-    geometry_msgs::TransformStamped last;
-    double latest = 0.0;                         ///< stamp, s; 0: none
-    int old_ones = 0;                            ///< how many have come since that are older
-    bool is_fixed = false, is_outdated = false;  ///< outdated: tf2 would refuse the last one
+    std::deque<geometry_msgs::TransformStamped> kept;  ///< by one clock, oldest first
+    double latest = 0.0;                               ///< stamp, s; 0: none
+    int old_ones = 0;                                  ///< how many have come since that are older
+    bool is_fixed = false, is_outdated = false;        ///< outdated: tf2 would refuse the last ones
   };
 
   void take(const tf2_msgs::TFMessage& message, bool is_static);
   void note(const geometry_msgs::TransformStamped& transform, bool is_static);
-  /// Gives a new tf2 the last transforms if one on the way from a frame is outdated.
+  /// Gives a new tf2 the transforms kept if one on the way from a frame is outdated.
   void renew(const std::string& frame);
 
   std::string frame_id_;
@@ -58,7 +59,8 @@ class Frames {
   ros::CallbackQueue queue_;  ///< served by `receive`
   ros::Subscriber moving_, fixed_;
   std::map<std::string, Edge> edges_;  ///< by child
-  Throttle warnings_, renewals_;
+  Throttle warnings_;
+  std::map<std::string, Throttle> renewals_;  ///< by outdated child
 };
 
 }  // namespace spring_pendulum

@@ -17,9 +17,8 @@ namespace {
 
 constexpr double kLongestSilence = 1.0;  // s
 constexpr Eigen::Index kMostHandles = 20;
-/// Diameter of a handle, in lengths of the chain at the start; smaller if handles are close together.
-constexpr double kSize = 0.08;
-constexpr double kShareOfSpring = 0.7;
+constexpr double kSize = 0.08;  // diameter in lengths of the chain, if handles are far apart
+constexpr double kShareOfSpring = 0.7;  // else in distances of handles
 
 std::string nameOf(std::ptrdiff_t particle) {
   return fmt::format("particle_{}", particle + 1);
@@ -55,9 +54,8 @@ Handles::Handles(ros::NodeHandle& node, const Run& run, const NodeOptions& optio
       particles_(evenlyChosen(run.chain().size(), kMostHandles)),
       updates_(node.advertise<visualization_msgs::InteractiveMarkerUpdate>(
           node.resolveName("handles") + "/update", 100)) {
-  const double length = std::max(chainLength(run.chain(), run.start()), 0.1);
-  const double size =
-      length * std::min(kSize, kShareOfSpring / static_cast<double>(particles_.size()));
+  const double size = std::max(chainLength(run.chain(), run.start()), 0.1) *
+                      std::min(kSize, kShareOfSpring / static_cast<double>(particles_.size()));
   for (const std::ptrdiff_t particle : particles_) {
     visualization_msgs::InteractiveMarker marker;
     marker.header.frame_id = options.frame_id;
@@ -121,8 +119,7 @@ void Handles::release(std::ptrdiff_t particle) {
 
 void Handles::releaseSilent() {
   const ros::SteadyTime now = ros::SteadyTime::now();
-  const std::map<std::ptrdiff_t, Drag> drags = drags_;
-  for (const auto& [particle, drag] : drags) {
+  for (const auto& [particle, drag] : std::map(drags_)) {
     if ((now - drag.heard).toSec() < kLongestSilence) continue;
     ROS_WARN_STREAM("particle " << particle + 1 << ": no input from the mouse for 1 s: released");
     release(particle);

@@ -124,7 +124,6 @@ bool Node::isDue() const {
 
 void Node::serve() {
   callBack(steps_wanted_ > 0 && driver_.isActing() ? kShortWait : 0.0);
-  frames_.receive();
   robots_.lookUp();
   if (isDue()) return;
   const ros::SteadyTime next = run_.isOver() || paused_ ? show_at_ : pacer_.dueTime(nextTime());
@@ -135,6 +134,7 @@ void Node::serve() {
 void Node::callBack(double wait) {
   try {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait));
+    frames_.receive();
   } catch (const std::exception& error) {  // of interactive_markers, if the clock is beyond 2^31 s
     if (refusals_.isDue()) ROS_ERROR_STREAM("refused: " << error.what());
   }

@@ -11,8 +11,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// Limit of the queue of states, bytes. A slow subscriber loses messages instead of increasing the
-/// memory of the node.
+/// Bytes: a slow subscriber loses states instead of increasing the memory of the node.
 constexpr std::int64_t kQueueBytes = 64 << 20;
 constexpr std::int64_t kLongestQueue = 1000;
 
