@@ -2,7 +2,7 @@
 import math
 
 import rospy
-from geometry_msgs.msg import PoseStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped, Vector3, WrenchStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback as Feedback
@@ -197,12 +197,23 @@ class Robots(LiveTest):
             rospy.sleep(0.8)
             self.assertEqual(node.output().count('has stopped'), stops)
 
+    def test_an_arm_whose_clock_starts_again_has_a_frame_at_once(self):
+        with self.node(held='last'):
+            arm = connected('/tf', TFMessage)
+            for start in (5000.0, 10.0):
+                for k in range(20):  # joints have different stamps
+                    stamps = [rospy.Time.from_sec(start + 0.05 * k + late) for late in (0.0, 0.02)]
+                    arm.publish(TFMessage([transform('arm', stamp=stamps[0]), transform('hand', 1.0, 0.0, stamps[1], 'arm')]))
+                    rospy.sleep(0.01)
+                self.call('apply_force', 5, 'hand', Vector3(1.0, 0.0, 0.0), 0.0, 0.1)
+
     def test_at_rest_while_paused_is_for_where_the_holder_is_now(self):
         with self.node(held='last'):
             self.call('pause', True)
-            for _ in range(3):
-                self.topics[2].publish(pose(8.0, 0.0))
-                rospy.sleep(0.3)
+            for x in (7.0, 7.5, 8.0):
+                self.topics[2].publish(pose(x, 0.0))
+                rospy.sleep(0.8)
+                self.assertEqual(self.last().positions[10].x, x)
             self.call('at_rest')
             self.wait_state(lambda m: max(math.hypot(v.x, v.z) for v in m.velocities) == 0.0, 'the chain hangs at rest')
             self.call('pause', False)

@@ -74,6 +74,7 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
       earlier.time = last->time + share * (sample.time - last->time);
     }
   }
+  place_.reset();
   samples_.push_back(sample);
   while (samples_.front().time < sample.time - kSilence) samples_.pop_front();
   estimateMotion(has_velocity);
@@ -131,9 +132,9 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
   if (silence > kLongestLead) {
     if (isSilent(now) && !std::exchange(warned_, true))
       warn_(name_ + " has stopped: the particle is held where it is");
-    return Target{place_ ? *place_ : place_.emplace(here), {}, {}};
+    if (!place_) place_ = interval == 0.0 ? target.position : here;  // a pause sees it late
+    return Target{*place_, {}, {}};
   }
-  place_.reset();
   // The motion of a holder during a long interval is unknown.
   if (interval > kSilence) target.velocity = target.acceleration = {};
   const double age = silence - interval;
