@@ -114,7 +114,9 @@ TEST(Markers, OnlyTheFirstChainHasACamera) {
     NodeOptions options;
     options.text_row = row;
     RunMessages messages(run, options, true);
-    EXPECT_EQ(messages.build(run, {})->camera.has_value(), row < 2);
+    Showing nothing_seen;
+    nothing_seen.wants_markers = false;
+    EXPECT_EQ(messages.build(run, nothing_seen)->camera.has_value(), row < 2);
     EXPECT_FALSE(messages.build(run, {})->camera) << "it has not moved";
   }
 }
