@@ -14,6 +14,7 @@ output=$project/output
 options=()
 parameters=()  # the same for the node: `--time-step 0.01` is `time_step: 0.01` there
 full_path() { [ -z "$1" ] || realpath -m -- "$1"; }  # an empty path is for Exercise3 to refuse
+state=  # the last frame, whose time gives the animation its speed
 answers=false
 has_file=false
 while [ $# -gt 0 ]; do
@@ -29,7 +30,8 @@ while [ $# -gt 0 ]; do
       case $option in
         --output) output=$(full_path "$value"); continue ;;
         --particles) particles=$(full_path "$value"); continue ;;
-        --config | --energy | --save-state) value=$(full_path "$value") ;;
+        --config | --energy) value=$(full_path "$value") ;;
+        --save-state) value=$(full_path "$value"); state=$value ;;
       esac
       options+=("$option" "$value")
       key=${option#--}
@@ -57,11 +59,24 @@ compile "$build" "${programs[@]}"
 
 simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "${options[@]}")
 if $answers; then exec "${simulate[@]}"; fi
+if [ -z "$state" ]; then
+  temporary=$(mktemp)
+  trap 'rm -f "$temporary"' EXIT
+  state=$temporary
+  simulate+=(--save-state "$state")
+fi
 "${simulate[@]}"
-say "frames: $output/frame_0000.txt and so on"
+say "frames: in $output"
 
-(cd "$output" && gnuplot -e "load '$project/data/animate_pendulum.plt'" 2> /dev/null)
-say "animation: $output/pendulum.gif"
+interval=$(sed -En 's/^# state of .* at frame ([0-9]+), t = (.+) s$/\1 \2/p' "$state" | awk '$1 > 0 { printf "%.9g", $2 / $1 }')
+[ -z "${temporary:-}" ] || rm -f "$temporary"
+if [ -e "$output/frame_0000.txt" ]; then
+  (cd "$output" &&
+    gnuplot -e "frame_interval = ${interval:-0.1}; load '$project/data/animate_pendulum.plt'" 2> /dev/null)
+  say "animation: $output/pendulum.gif"
+else
+  say "no animation: the frames before are not in $output"
+fi
 have_ros || { say "this machine has no ROS 1: no bag, no rviz"; exit 0; }
 
 "$(program record_bag)" "$method" --particles "$particles" --bag "$output/pendulum.bag" "${options[@]}"
