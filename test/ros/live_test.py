@@ -200,12 +200,16 @@ class Robots(LiveTest):
     def test_an_arm_whose_clock_starts_again_has_a_frame_at_once(self):
         with self.node(held='last'):
             arm = connected('/tf', TFMessage)
-            for start in (5000.0, 10.0):
+            for start, side, is_used in ((5000.0, 1, True), (20.0, 1, False), (5.0, -1, True)):
                 for k in range(20):  # joints have different stamps
                     stamps = [rospy.Time.from_sec(start + 0.05 * k + late) for late in (0.0, 0.02)]
-                    arm.publish(TFMessage([transform('arm', stamp=stamps[0]), transform('hand', 1.0, 0.0, stamps[1], 'arm')]))
+                    message = TFMessage([transform('arm', stamp=stamps[0]), transform('hand', 1.0, 0.0, stamps[1], 'arm')])
+                    rotation = message.transforms[1].transform.rotation
+                    rotation.w, rotation.y = (1 + side) / 2, (1 - side) / 2
+                    arm.publish(message)
                     rospy.sleep(0.01)
-                self.call('apply_force', 5, 'hand', Vector3(1.0, 0.0, 0.0), 0.0, 0.1)
+                if is_used:
+                    self.assertIn('(%d, ' % side, self.call('apply_force', 5, 'hand', Vector3(1.0, 0.0, 0.0), 0.0, 0.1))
 
     def test_at_rest_while_paused_is_for_where_the_holder_is_now(self):
         with self.node(held='last'):

@@ -63,7 +63,8 @@ void Frames::note(const geometry_msgs::TransformStamped& transform, bool is_stat
   edge.old_ones = !edge.is_fixed && stamp < edge.latest - kRestart ? edge.old_ones + 1 : 0;
   edge.latest = edge.is_fixed ? 0.0 : std::max(edge.latest, stamp);
   if (edge.old_ones > 1 || (!is_new && was_fixed != edge.is_fixed)) edge.is_outdated = true;
-  if (edge.old_ones == 1 || edge.is_fixed || was_fixed) edge.kept.clear();
+  const bool goes_back = !is_new && stamp < edge.kept.back().header.stamp.toSec() - kRestart;
+  if (goes_back || edge.is_fixed || was_fixed) edge.kept.clear();
   edge.kept.push_back(transform);
   if (edge.kept.size() > kMostKept) edge.kept.pop_front();
   if (edge.old_ones < 2) transforms_->setTransform(transform, "tf", edge.is_fixed);

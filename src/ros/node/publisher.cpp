@@ -11,8 +11,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// Bytes: a slow subscriber loses states instead of increasing the memory of the node.
-constexpr std::int64_t kQueueBytes = 64 << 20;
+constexpr std::int64_t kQueueBytes = 64 << 20;  // a slow subscriber loses more than these
 constexpr std::int64_t kLongestQueue = 1000;
 
 std::uint32_t queueLength(std::int64_t message_bytes) {
