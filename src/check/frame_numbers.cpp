@@ -95,7 +95,10 @@ void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   const FrameNumbers& first = all.frames.front();
   all.are_floats = !has_many && first.index == all.start && !first.equals(start, kRounded) &&
                    first.equalsFloatsOf(start, kRounded);
-  if (all.digits >= AllFrames::kDigitsOfFloat && (all.frames.back().positions != start).any())
+  std::ptrdiff_t telling = 0;  // numbers, which a program in double would hardly print like this
+  for (const FrameNumbers& frame : all.frames)
+    telling += (frame.units < 0x1p-26 * frame.positions.abs()).count();
+  if ((has_many || telling > 10) && (all.frames.back().positions != start).any())
     all.are_floats |= std::all_of(all.frames.begin(), all.frames.end(), floats);
   for (FrameNumbers& frame : all.frames)  // a double program may round what it prints
     if (all.are_floats) frame.units = frame.units.max(0x1p-23 * frame.positions.abs());

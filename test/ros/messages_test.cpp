@@ -114,9 +114,7 @@ TEST(Markers, OnlyTheFirstChainHasACamera) {
     NodeOptions options;
     options.text_row = row;
     RunMessages messages(run, options, true);
-    Showing nothing_seen;
-    nothing_seen.wants_markers = false;
-    EXPECT_EQ(messages.build(run, nothing_seen)->camera.has_value(), row < 2);
+    EXPECT_EQ(messages.build(run, {})->camera.has_value(), row < 2);
     EXPECT_FALSE(messages.build(run, {})->camera) << "it has not moved";
   }
 }

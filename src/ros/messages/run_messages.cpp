@@ -173,8 +173,8 @@ std::optional<StateMessages> RunMessages::build(const Run& run, const Showing& s
   if (showing.wants_markers) {
     draw(run, messages.header, showing.same_camera);
     messages.markers = &markers_;
+    if (std::exchange(camera_moved_, false)) messages.camera = camera(messages.header);
   }
-  if (std::exchange(camera_moved_, false)) messages.camera = camera(messages.header);
   if (showing.wants_state) {
     setState(state_, run, messages.header);
     messages.state = &state_;
