@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <set>
 
 namespace spring_pendulum {
 namespace {
@@ -72,20 +73,20 @@ void Frames::note(const geometry_msgs::TransformStamped& transform, bool is_stat
 
 void Frames::renew(const std::string& frame) {
   double now = -1.0;  // s, by the clock that has started again
-  for (std::string child : {frame, frame_id_}) {
-    std::size_t left = edges_.size();  // tf2 refuses trees with loops below
-    for (auto one = edges_.find(child); one != edges_.end() && left-- > 0;
+  std::set<std::string> way;
+  for (std::string child : {frame, frame_id_})
+    for (auto one = edges_.find(child); one != edges_.end() && way.insert(child).second;
          one = edges_.find(child)) {
       const std_msgs::Header& last = one->second.kept.back().header;
       if (one->second.is_outdated && renewals_[child].isDue(kForgetting))
         now = std::max(now, (one->second.is_fixed ? ros::TIME_MAX : last.stamp).toSec());
       child = withoutSlash(last.frame_id);
     }
-  }
   if (now < 0.0) return;
   transforms_ = std::make_unique<tf2::BufferCore>();
   for (const auto& [child, edge] : std::exchange(edges_, {}))
-    if (edge.is_fixed || edge.kept.back().header.stamp.toSec() <= now + kRestart)
+    if (way.count(child) == 0 || edge.is_fixed ||
+        edge.kept.back().header.stamp.toSec() <= now + kRestart)
       for (const auto& transform : edge.kept) note(transform, edge.is_fixed);
 }
 
@@ -105,10 +106,9 @@ StampedTransform Frames::from(const std::string& name) {
       return {tf2::Transform(rotation(found.transform.rotation),
                              tf2::Vector3(shift.x, shift.y, shift.z)),
               found.header.stamp.toSec()};
-    } catch (const std::exception& error) {
+    } catch (const std::exception& e) {
       if (ros::SteadyTime::now() < end && ros::ok()) continue;
-      throw InputError(
-          fmt::format("no transform from frame {}: {}", inQuotes(frame), error.what()));
+      throw InputError(fmt::format("no transform from frame {}: {}", inQuotes(frame), e.what()));
     }
   }
 }
