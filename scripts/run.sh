@@ -14,7 +14,7 @@ output=$project/output
 options=()
 parameters=()  # the same for the node: `--time-step 0.01` is `time_step: 0.01` there
 full_path() { [ -z "$1" ] || realpath -m -- "$1"; }  # an empty path is for Exercise3 to refuse
-state=  # the last frame, whose time gives the animation its speed
+state='' has_state=false config=''  # the time of the saved state gives the animation its speed
 answers=false
 has_file=false
 while [ $# -gt 0 ]; do
@@ -30,8 +30,9 @@ while [ $# -gt 0 ]; do
       case $option in
         --output) output=$(full_path "$value"); continue ;;
         --particles) particles=$(full_path "$value"); continue ;;
-        --config | --energy) value=$(full_path "$value") ;;
-        --save-state) value=$(full_path "$value"); state=$value ;;
+        --config) value=$(full_path "$value"); config=$value ;;
+        --energy) value=$(full_path "$value") ;;
+        --save-state) value=$(full_path "$value"); state=$value; has_state=true ;;
       esac
       options+=("$option" "$value")
       key=${option#--}
@@ -59,17 +60,18 @@ compile "$build" "${programs[@]}"
 
 simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "${options[@]}")
 if $answers; then exec "${simulate[@]}"; fi
-if [ -z "$state" ]; then
-  temporary=$(mktemp)
-  trap 'rm -f "$temporary"' EXIT
-  state=$temporary
+if ! $has_state; then
+  state=$(mktemp)
+  trap 'rm -f "$state"' EXIT
+  # A configuration that saves the state has a run of its own.
+  if [ -n "$config" ] && grep -qs save_state "$config"; then "${simulate[@]}"; simulate+=(--no-frames); fi
   simulate+=(--save-state "$state")
 fi
 "${simulate[@]}"
 say "frames: in $output"
 
 interval=$(sed -En 's/^# state of .* at frame ([0-9]+), t = (.+) s$/\1 \2/p' "$state" | awk '$1 > 0 { printf "%.9g", $2 / $1 }')
-[ -z "${temporary:-}" ] || rm -f "$temporary"
+$has_state || rm -f "$state"
 if [ -e "$output/frame_0000.txt" ]; then
   (cd "$output" &&
     gnuplot -e "frame_interval = ${interval:-0.1}; load '$project/data/animate_pendulum.plt'" 2> /dev/null)
