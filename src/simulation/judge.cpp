@@ -68,7 +68,7 @@ double Judge::change(const Chain& chain, const State& before, const State& after
                      const JudgeOptions& options, double supplied, bool has_moved) {
   const double energy_before = energyOf(before).total();
   if (options.tolerance != options_.tolerance) sensitive_time_ = exceeded_time_ = 0.0;
-  if (!changed_ || options.symplectic_order != options_.symplectic_order ||
+  if (!changed_ || options.symplectic_method != options_.symplectic_method ||
       !(chain.constants() == chain_.constants())) {
     mean_time_ = entry_.time;
     sums_.setZero();

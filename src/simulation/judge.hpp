@@ -39,7 +39,7 @@ struct JudgeOptions {
   /// Tolerance in m of an error-controlled method; 0 for fixed steps. It promises position errors of at
   /// most ten tolerances: the energy of springs longer by 20, which may exceed the scale, is no fault.
   double tolerance = 0.0;
-  int symplectic_order = 0;  ///< of a symplectic method; 0 for other methods
+  const void* symplectic_method = nullptr;  ///< identifies a symplectic method; null: another one
 };
 
 /// Judges the frames of a run and keeps the worst verdict.
