@@ -57,7 +57,7 @@ class ProgramMotion : public Motion {
     // A mistake must explain the frames clearly better than rounding errors do, also in more steps.
     const double more = static_cast<double>(plan_.steps()) / program.right_steps;
     if (program.mistakes.size() > (program.single_precision ? 1 : 0))
-      precision_ *= 0.5 / std::sqrt(std::max(1.0, more));
+      share_ = 0.5 / std::sqrt(std::max(1.0, more));
     const AlignedNumbers& masses = particles.masses;
     const Eigen::Index last = masses.size() - 1;
     for (Eigen::Index i = 0; i <= last; ++i) {
@@ -262,7 +262,8 @@ std::unique_ptr<Motion> motionOf(const StudentProgram& program, const Scene& par
 
 Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<Motion>()>& make,
                   WorkLimit& limit, bool off_line) {
-  std::mt19937 random(1);  // the same on every machine
+  constexpr double kLargest = 1e18;  // m, beyond which squares are infinite in float
+  std::mt19937 random(1);            // the same on every machine
   const auto motion = make();
   // One alone may hardly move in the direction in which errors grow.
   const std::array companions{make(), make()};
@@ -285,11 +286,10 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
       if (motion->tolerance() == 0.0) companion->disturb(random, off_line);
     }
     const double most = std::min(1e-3 * scale, 0.03 * extent);  // beyond, nothing can be said
-    if (limit.isOver() || !(rounding <= most) ||
-        scale > (frames.are_floats ? 1e18 : motion->largest()))
-      break;
+    if (limit.isOver() || !(rounding <= most) || scale > kLargest) break;
     if (index < frame->index) continue;  // missing
-    agreement.departure = departureOf(*frame, positions, scale, rounding + motion->tolerance());
+    const double error = motion->share() * rounding + motion->tolerance();
+    agreement.departure = departureOf(*frame, positions, scale, error);
     // Programs that use angles leave a straight line: cos(π/2) is no 0.
     if (agreement.departure && !off_line && offsets.colwise().maxCoeff().minCoeff() == 0.0)
       return compare(frames, make, limit, true);

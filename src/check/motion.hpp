@@ -184,8 +184,7 @@ class Motion {
   /// Error in m that two right results may have besides rounding. If it is not 0, `disturb` must be
   /// called at the start only.
   double tolerance() const { return plan_.method.get().hasFixedStep() ? 0.0 : plan_.tolerance; }
-  /// Coordinate in m beyond which squares may be infinite in the program.
-  double largest() const { return precision_ > 1e-8 ? 1e18 : 1e150; }
+  double share() const { return share_; }  ///< of the rounding errors: may be a difference
 
  protected:
   Motion(const Plan& plan, const Scene& particles);
@@ -194,6 +193,7 @@ class Motion {
   std::int64_t frame_;                                         ///< of the state
   Eigen::Array4Xd state_;                                      ///< x, y, vx, vy by particle
   double precision_ = std::numeric_limits<double>::epsilon();  ///< relative, of the numbers
+  double share_ = 1.0;
   bool is_disturbed_ = false;
 };
 
