@@ -68,16 +68,16 @@ if ! $has_state; then
   simulate+=(--save-state "$state")
 fi
 "${simulate[@]}"
-say "frames: in $output"
+if compgen -G "$output/frame_*.txt" > /dev/null; then say "frames: in $output"; fi
 
-interval=$(sed -En 's/^# state of .* at frame ([0-9]+), t = (.+) s$/\1 \2/p' "$state" | awk '$1 > 0 { printf "%.9g", $2 / $1 }')
+interval=$(sed -En 's/^# state of .* at frame ([0-9]+), t = (.+) s$/\1 \2/p' "${state:-/dev/null}" | awk '$1 > 0 { printf "%.9g", $2 / $1 }')
 $has_state || rm -f "$state"
 if [ -e "$output/frame_0000.txt" ]; then
   (cd "$output" &&
-    gnuplot -e "frame_interval = ${interval:-0.1}; load '$project/data/animate_pendulum.plt'" 2> /dev/null)
+    gnuplot -e "frame_interval = ${interval:-0.1}; load '${project//\'/\'\'}/data/animate_pendulum.plt'" 2> /dev/null)
   say "animation: $output/pendulum.gif"
 else
-  say "no animation: the frames before are not in $output"
+  say "no animation: $output has no frame_0000.txt"
 fi
 have_ros || { say "this machine has no ROS 1: no bag, no rviz"; exit 0; }
 
