@@ -119,7 +119,7 @@ struct StudentProgram : Plan, Constants {
   bool is_linearised = false;  ///< an implicit method that solves a linear system per step
   Order order = Order::kTogether;
   std::int64_t first_step = 0;  ///< steps before frame 0; negative: the start is repeated
-  double right_steps = static_cast<double>(steps_per_frame);
+  double right_steps = static_cast<double>(steps_per_frame);  ///< of the right program, per frame
   bool single_precision = false;
   /// Changes of a spring, of a particle, of a way, and of the numbers that are printed.
   std::vector<void (*)(StudentSpring&)> springs = {};
@@ -184,7 +184,7 @@ class Motion {
   /// Error in m that two right results may have besides rounding. If it is not 0, `disturb` must be
   /// called at the start only.
   double tolerance() const { return plan_.method.get().hasFixedStep() ? 0.0 : plan_.tolerance; }
-  double share() const { return share_; }  ///< of the rounding errors: may be a difference
+  double share() const { return share_; }  ///< part of the rounding errors that is allowed
 
  protected:
   Motion(const Plan& plan, const Scene& particles);
