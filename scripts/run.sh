@@ -63,7 +63,7 @@ if $answers; then exec "${simulate[@]}"; fi
 if ! $has_state; then
   state=$(mktemp)
   trap 'rm -f "$state"' EXIT
-  # A configuration that saves the state has a run of its own.
+  # If the configuration saves the state in a file of its own, a second run saves it here.
   if [ -n "$config" ] && grep -qs save_state "$config"; then "${simulate[@]}"; simulate+=(--no-frames); fi
   simulate+=(--save-state "$state")
 fi

@@ -66,7 +66,7 @@ class BagRecorder {
 
   /// Writes a state if it is that of a frame, or one that the display rate asks for.
   void write(const Run& run) {
-    if (run.time() < std::exchange(time_, run.time())) pacer_.start(run.time(), {});  // reset
+    if (run.time() < std::exchange(time_, run.time())) pacer_.start(run.time(), {});
     if (!pacer_.isShown(run.time(), run.isAtFrame())) return;
     const std::optional<StateMessages> messages = messages_.build(run, {});
     stamp_ = messages->header.stamp;

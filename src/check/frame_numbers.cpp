@@ -95,7 +95,7 @@ void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   const FrameNumbers& first = all.frames.front();
   all.are_floats = !has_many && first.index == all.start && !first.equals(start, kRounded) &&
                    first.equalsFloatsOf(start, kRounded);
-  std::ptrdiff_t telling = 0;  // numbers of which few doubles have the text of a float
+  std::ptrdiff_t telling = 0;  // numbers with so many digits that few of them are floats
   for (const FrameNumbers& frame : all.frames)
     telling += (frame.units < 0x1p-26 * frame.positions.abs()).count();
   if ((has_many || telling > 10) && (all.frames.back().positions != start).any())

@@ -36,8 +36,8 @@ struct JudgeOptions {
   /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
   /// oscillates about its true value, so its mean error over the run so far is judged.
   double symplectic_step = 0.0;
-  /// Tolerance in m of an error-controlled method; 0 for fixed steps. It promises position errors of at
-  /// most ten tolerances: the energy of springs longer by 20, which may exceed the scale, is no fault.
+  /// Tolerance in m of an error-controlled method; 0 for fixed steps. As position errors of ten tolerances
+  /// are allowed, a spring may be 20 too long. That energy is no fault, even if it exceeds the scale.
   double tolerance = 0.0;
   const void* symplectic_method = nullptr;  ///< identifies a symplectic method; null: another one
 };

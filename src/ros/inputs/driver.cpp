@@ -26,9 +26,9 @@ const std::vector<std::string> kLive = {"tolerance",   "stiffness", "damping",
 /// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
 /// the range of double, or takes hours per frame.
 constexpr double kLargest = 1e9;
-constexpr double kLargestAcceleration = 1e6;  // by a force, lengths of the chain per s²
+constexpr double kLargestAcceleration = 1e6;  // by a force, chain lengths per s²
 constexpr std::size_t kMostForces = 1000;
-constexpr double kLengthsPerSecond = 5.0;  // lengths of the chain, on the way to a target
+constexpr double kLengthsPerSecond = 5.0;  // largest speed towards a target, in chain lengths
 
 /// Returns all numbers of a drive.
 std::vector<double> numbersOf(const Drive& drive) {

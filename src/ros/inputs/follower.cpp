@@ -132,7 +132,7 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
   if (silence > kLongestLead) {
     if (isSilent(now) && !std::exchange(warned_, true))
       warn_(name_ + " has stopped: the particle is held where it is");
-    if (!place_) place_ = interval == 0.0 ? target.position : here;  // a pause sees it late
+    if (!place_) place_ = interval == 0.0 ? target.position : here;  // it is seen late in a pause
     return Target{*place_, {}, {}};
   }
   // The motion of a holder during a long interval is unknown.

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kLongestSilence = 1.0;  // s
 constexpr Eigen::Index kMostHandles = 20;
-constexpr double kSize = 0.08;  // diameter in lengths of the chain, if handles are far apart
-constexpr double kShareOfSpring = 0.7;  // else in distances of handles
+constexpr double kSize = 0.08;          // largest diameter of a handle, in chain lengths
+constexpr double kShareOfSpring = 0.7;  // largest diameter, in distances between handles
 
 std::string nameOf(std::ptrdiff_t particle) {
   return fmt::format("particle_{}", particle + 1);

@@ -11,7 +11,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr std::int64_t kQueueBytes = 64 << 20;  // a slow subscriber loses more than these
+constexpr std::int64_t kQueueBytes = 64 << 20;  // kept for a slow subscriber, which loses the rest
 constexpr std::int64_t kLongestQueue = 1000;
 
 std::uint32_t queueLength(std::int64_t message_bytes) {
