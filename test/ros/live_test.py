@@ -213,9 +213,11 @@ class Robots(LiveTest):
 
     def test_at_rest_while_paused_is_for_where_the_holder_is_now(self):
         with self.node(held='last'):
+            poses = connected('held_11/pose', PoseStamped)
             self.call('pause', True)
             for x in (7.0, 7.5, 8.0):
-                self.topics[2].publish(pose(x, 0.0))
+                poses.publish(pose(x, 0.0))
+                self.wait_state(lambda m, x=x: m.positions[10].x == x, 'the particle is at its pose')
                 rospy.sleep(0.8)
                 self.assertEqual(self.last().positions[10].x, x)
             self.call('at_rest')
