@@ -82,26 +82,27 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 
 /// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
-  constexpr double kRounded = 0.51;  // units of the last digit
-  const bool has_many = all.digits > AllFrames::kDigitsOfFloat;
-  const auto is_shortest =
-      [](double x) {  // text of a float, as Java, numpy and std::format print it
-        return !std::isfinite(x) || parseNumber(fmt::format("{}", static_cast<float>(x))) == x;
-      };
+  constexpr double kRounded = 0.51;        // units of the last digit
+  const auto is_shortest = [](double x) {  // as Java, numpy and std::format print floats
+    return !std::isfinite(x) || parseNumber(fmt::format("{}", static_cast<float>(x))) == x;
+  };
   const auto floats = [&](const FrameNumbers& frame) {
     return frame.index == all.start || frame.positions.unaryExpr(is_shortest).all() ||
-           (has_many && frame.equalsFloatsOf(frame.positions, kRounded));
+           frame.equalsFloatsOf(frame.positions, kRounded);
   };
   const FrameNumbers& first = all.frames.front();
-  all.are_floats = !has_many && first.index == all.start && !first.equals(start, kRounded) &&
-                   first.equalsFloatsOf(start, kRounded);
-  std::ptrdiff_t telling = 0;  // numbers with so many digits that few of them are floats
-  for (const FrameNumbers& frame : all.frames)
-    telling += (frame.units < 0x1p-26 * frame.positions.abs()).count();
-  if ((has_many || telling > 10) && (all.frames.back().positions != start).any())
-    all.are_floats |= std::all_of(all.frames.begin(), all.frames.end(), floats);
-  for (FrameNumbers& frame : all.frames)  // a double program may round what it prints
-    if (all.are_floats) frame.units = frame.units.max(0x1p-23 * frame.positions.abs());
+  const bool starts_so = all.digits <= AllFrames::kDigitsOfFloat && first.index == all.start &&
+                         !first.equals(start, kRounded) && first.equalsFloatsOf(start, kRounded);
+  if (!starts_so && !std::all_of(all.frames.begin(), all.frames.end(), floats)) return;
+  double evidence = 0.0;  // log of how many numbers with as many digits there are for each float
+  for (auto& [index, numbers, units] : all.frames) {
+    const Eigen::ArrayX2d spacing =
+        numbers.unaryExpr([](double x) { return std::exp2(std::logb(x) - 23.0); });
+    const auto changed = numbers != start && numbers.isFinite();
+    evidence += changed.select((spacing / units).max(1.0).log(), 0.0).sum();
+    units = units.max(spacing);  // a double program may round what it prints
+  }
+  all.are_floats |= starts_so || evidence > 12.0;
 }
 
 void noteMissingFrames(AllFrames& all, std::int64_t renumbered_by = 0) {

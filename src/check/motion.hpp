@@ -40,7 +40,6 @@ struct FrameNumbers {
 
 struct AllFrames {
   static constexpr int kDigitsOfFloat = 8;  ///< more show whether the numbers are floats
-
   std::vector<FrameNumbers> frames;  ///< by increasing index
   int digits = 0;                    ///< largest number of significant digits
   bool are_floats = false;           ///< whether a program in float has written them
