@@ -22,21 +22,19 @@ constexpr double kLeastStretch = 1e-6;
 
 /// Names the particle that is not finite, else the one with the most kinetic energy.
 Verdict diverged(const EnergyEntry& entry, const Chain& chain, const State& state) {
-  const double time = entry.time;
+  const auto verdict = [time = entry.time](Eigen::Index particle, const std::string& why) {
+    return Verdict{VerdictKind::kDiverged, time, particle,
+                   fmt::format("diverged at t = {:.6g} s: {}", time, why)};
+  };
   for (Eigen::Index i = 0; i < state.size(); ++i)
     if (!state.values().row(i).allFinite())
-      return {VerdictKind::kDiverged, time, i + 1,
-              fmt::format("diverged at t = {:.6g} s: particle {} is no longer a finite number",
-                          time, i + 1)};
-  const Eigen::Index moving = chain.size() - 1;
+      return verdict(i + 1, fmt::format("particle {} is no longer a finite number", i + 1));
+  Eigen::Index moving = chain.size() - 1, most = 0;
   const auto speeds_squared = state.velocities().bottomRows(moving).rowwise().squaredNorm();
-  Eigen::Index most = 0;
   speeds_squared.cwiseProduct(chain.masses().tail(moving)).maxCoeff(&most);
-  return {
-      VerdictKind::kDiverged, time, most + 2,
-      fmt::format("diverged at t = {:.6g} s: energy up by {:.3g} J, {:.3g} times the energy scale, "
-                  "most of it in particle {}",
-                  time, entry.gain, entry.relative_gain, most + 2)};
+  return verdict(most + 2, fmt::format("energy up by {:.3g} J, {:.3g} times the energy scale, with "
+                                       "the most kinetic energy in particle {}",
+                                       entry.gain, entry.relative_gain, most + 2));
 }
 
 /// The kinetic energy of the whole chain at the speed of its fastest held particle, J.
@@ -209,20 +207,22 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
     error = sums_[2] / sums_[3];
     allowance += options_.symplectic_step / (time - mean_time_);
   }
+  const auto amount = [&](double joules, double share, std::string_view what) {
+    if (options_.symplectic_step > 0.0)
+      return fmt::format("{:.3g} % of the energy scale{} on average until t = {:.6g} s",
+                         100.0 * share, what, time);
+    return fmt::format("{:.3g} J{} at t = {:.6g} s, {:.3g} % of the energy scale", joules, what,
+                       time, 100.0 * share);
+  };
   if (gain > kGainThreshold + allowance)
-    return {VerdictKind::kGainedEnergy, time, 0,
-            fmt::format(
-                "gained energy: {:.3g} J above the start at t = {:.6g} s, {:.3g} % of the energy "
-                "scale, although {}",
-                entry_.gain, time, 100.0 * entry_.relative_gain,
-                changed_ || chain_.isDriven() ? "the energy supplied to the chain is counted"
-                                              : "no force drives the chain")};
-  if (!(std::min(std::abs(residual), std::abs(error)) <= kDriftThreshold + allowance))
     return {
-        VerdictKind::kDrift, time, 0,
-        fmt::format("drift: the energy balance is off by {:.3g} J at t = {:.6g} s, {:.3g} % of the "
-                    "energy scale",
-                    *entry_.residual, time, 100.0 * *entry_.relative_residual)};
+        VerdictKind::kGainedEnergy, time, 0,
+        fmt::format("gained energy: {}, although {}", amount(entry_.gain, gain, " above the start"),
+                    changed_ || chain_.isDriven() ? "the energy supplied to the chain is counted"
+                                                  : "no force drives the chain")};
+  if (!(std::min(std::abs(residual), std::abs(error)) <= kDriftThreshold + allowance))
+    return {VerdictKind::kDrift, time, 0,
+            "drift: the energy balance is off by " + amount(*entry_.residual, residual, "")};
   return {VerdictKind::kOk, time, 0, "ok"};
 }
 
