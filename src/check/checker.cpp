@@ -137,8 +137,8 @@ class Checker {
   /// Tries, by level, a mistake, a wrong number, float, two mistakes, or a mistake and a wrong number.
   void tryMistakes(StudentProgram right, int level) {
     StudentProgram in_float = right.with(table_.back());
-    if (level == 0 && frames_.are_floats && explains(in_float)) return;
     if (level < 2) tryChanges(right, 0, level == 1);  // perhaps it prints floats only
+    if (level == 0 && frames_.are_floats && explains(in_float)) return tryChanges(right, 0, true);
     if (frames_.are_floats) right = in_float;
     if (level < 2 && frames_.are_floats) tryChanges(right, 0, level == 1);
     in_float.sentences.back() += ", or its errors are as small as those of float";

@@ -29,16 +29,15 @@ struct Format {
   int digits = 0, decimals = 0;
 
   void note(std::string_view word) {
-    constexpr std::int64_t kMostExponent = 400;  // of a number other than 0
     const std::string_view mantissa = word.substr(0, word.find_first_of("eE"));
     const std::size_t point = std::min(mantissa.find('.'), mantissa.size() - 1);
     auto after_point = static_cast<std::int64_t>(mantissa.size() - 1 - point);
     int count = 0;
     for (const char c : mantissa)
       if (('1' <= c && c <= '9') || (c == '0' && count > 0)) ++count;
-    if (mantissa.size() < word.size())
-      after_point -= std::clamp(parseInteger(word.substr(mantissa.size() + 1)).value_or(0),
-                                -kMostExponent, kMostExponent);
+    if (mantissa.size() < word.size())  // an exponent; beyond 400, the number is 0
+      after_point -= std::clamp<std::int64_t>(
+          parseInteger(word.substr(mantissa.size() + 1)).value_or(0), -400, 400);
     digits = std::max(digits, count);
     decimals = std::max(decimals, static_cast<int>(after_point));
   }
@@ -82,13 +81,14 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 
 /// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
-  constexpr double kRounded = 0.51;        // units of the last digit
-  const auto is_shortest = [](double x) {  // as Java, numpy and std::format print floats
-    return !std::isfinite(x) || parseNumber(fmt::format("{}", static_cast<float>(x))) == x;
+  constexpr double kRounded = 0.51;  // units of the last digit
+  const auto is_float = [](double x, double unit) {
+    const auto nearest = static_cast<float>(x);  // its text is that of Java, numpy and std::format
+    return !std::isfinite(x) || std::abs(x - nearest) <= kRounded * unit ||
+           parseNumber(fmt::format("{}", nearest)) == x;
   };
   const auto floats = [&](const FrameNumbers& frame) {
-    return frame.index == all.start || frame.positions.unaryExpr(is_shortest).all() ||
-           frame.equalsFloatsOf(frame.positions, kRounded);
+    return frame.index == all.start || frame.positions.binaryExpr(frame.units, is_float).all();
   };
   const FrameNumbers& first = all.frames.front();
   const bool starts_so = all.digits <= AllFrames::kDigitsOfFloat && first.index == all.start &&

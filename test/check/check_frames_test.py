@@ -285,6 +285,7 @@ def other_courses_are_judged(lab):
         (dict(L_0=0.9), '6g', 0, ('Runge-Kutta-4',), 4, ['L_0']), (dict(g=9), '7g', 0, ('Runge-Kutta-4',), 4, ['g']),
         (single, '9g', 1, ('Runge-Kutta-4',), 4, ['single_precision']),  # below: up to 1e38, then nan
         (dict(h=0.011), 's', 0, ('Runge-Kutta-4', '--time-step', '0.011'), 0, []),
+        (dict(method='Euler', h=0.16), 's', 0, ('Euler', '--time-step', '0.16'), 5, []),  # explodes
         (single, 's', 1, ('Runge-Kutta-4',), 4, ['single_precision']), (dict(g=9.8, method='Euler'), 's', 0, ('Euler',), 4, ['gravity_9.8']),
         (dict(single, method='Euler', h=0.04), '6f', 0, ('Euler', '--time-step', '0.04'), 4, ['single_precision']),
         # Errors as small as those of float, in double: nothing that has been tried.

@@ -136,8 +136,10 @@ def frames(scene, method='Runge-Kutta-4', wrong=(), count=500, tableau=None, **c
 
 
 def number(value, form):
-    """Text as programs print it: '6g' like C++ streams, '6f' like printf, 'r' the shortest, 's' that of a float."""
-    return repr(float(value)) if form == 'r' else str(np.float32(value)) if form == 's' else format(value, '.' + form)
+    """Text as programs print it: '6g' like C++ streams, '6f' like printf, 'r' the shortest, 's' that of a float in C++."""
+    short = np.float32(value) if form == 's' else value
+    return repr(float(value)) if form == 'r' else format(value, '.' + form) if form != 's' else (
+        str(int(short)) if 1e8 <= abs(short) < 1e12 else str(short))
 
 
 def write(folder, result, form='17g', separator=' ', first=0):
