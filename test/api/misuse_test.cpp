@@ -104,8 +104,7 @@ TEST(Misuse, ArgumentsOfAdvance) {
   }
 }
 
-// The starting state may hold anything: the result is not finite, but no run ends in a crash or
-// without end.
+// The starting state may hold anything: the result is not finite, but every run ends, and none crashes.
 TEST(Misuse, StatesThatAreNotFinite) {
   for (const Method& method : methodTable())
     for (const double value : {kNan, kInfinity, 1e308}) {

@@ -24,8 +24,7 @@ std::vector<test::Scene> quickScenes() {
   return scenes;
 }
 
-// Advances by steps that suit the method. A divergence is a result as well, but NaN is not equal to
-// itself.
+// Advances by steps that suit the method. A divergence is a result, too, but NaN is not equal to NaN.
 State::Matrix advanced(Integrator& integrator, const Method& method, State state) {
   const bool fixed = method.hasFixedStep();
   integrator.advance(state, fixed ? 1e-4 : 0.05, fixed ? 50 : 10);

@@ -9,8 +9,7 @@
 namespace spring_pendulum {
 namespace {
 
-/// Largest eigenvalue of M^-1/2 B^T D B M^-1/2 by a dense solver that shares no code with the
-/// library.
+/// Largest eigenvalue of M^-1/2 B^T D B M^-1/2 by a dense solver, without code of the library.
 double denseLargest(const Chain& chain, const Eigen::VectorXd& stiffness) {
   const Eigen::Index n = chain.size() - 1;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);

@@ -24,8 +24,7 @@ bool cleansUp(const std::string& call) {
 
 class FaultInjection : public testing::TestWithParam<std::string> {
  protected:
-  /// The folder as a run finds it: frames and an energy file of an earlier run, and a file of a run
-  /// that was killed.
+  /// What a run finds: frames and an energy file of an earlier run, and a file of a killed one.
   static void fill(const TemporaryFolder& folder) {
     folder.write("particle.txt", kTwoParticles);
     folder.write("run.yaml", "frames: 3\n");

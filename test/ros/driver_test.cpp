@@ -176,6 +176,9 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
   EXPECT_TRUE(follower.isSilent(4.0));
   EXPECT_EQ(follower.targetAt(4.0, {}, 0.03)->velocity.x, 0.0);
   EXPECT_EQ(std::exchange(said, ""), "odom has stopped: the particle is held where it is");
+  EXPECT_FALSE(takes(std::nan(""), 4.1, 4.1));
+  EXPECT_EQ(std::exchange(said, ""), "odom has numbers that are not finite" + held);
+  EXPECT_TRUE(takes(5.0, 0.0, 4.2));  // after a silence, any place is a start
 }
 
 TEST(Follower, SaysOnceThatInputsContradictEachOther) {
@@ -231,6 +234,7 @@ struct Inputs {
   double jitter = 0.0;  ///< s, of the time on the way
   double end = 8.0;     ///< s
   int bundle = 1;       ///< inputs that come at once
+  int copies = 1;       ///< of each input, on the way to the next one
 };
 
 /// The tip of a chain follows a holder with a position and a velocity at each time.
@@ -249,8 +253,9 @@ void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
       if (time_of(last) + delayed > now) break;
       Target input = holder_at(time_of(next));
       if (!inputs.have_velocity) input.velocity = {};
-      follower.take(input, inputs.have_velocity, inputs.clock * time_of(next),
-                    time_of(last) + delayed);
+      for (int i = 0; i < inputs.copies; ++i)
+        follower.take(input, inputs.have_velocity, inputs.clock * time_of(next),
+                      time_of(last) + delayed + i / inputs.rate / inputs.copies);
     }
     const State& state = live.run.state();
     const auto target = follower.targetAt(now, {state.x()[5], state.y()[5]}, now - live.run.time());
@@ -281,6 +286,7 @@ TEST(Follower, IsWithItsHolderOnACircle) {
   for (const double clock : {0.0, 0.5, 0.9, 1.0, 1.1, 2.0})  // 0.03 s if it is slower
     EXPECT_LT(largest_distance({false, 30.0, clock}), clock > 0.0 && clock < 1.0 ? 0.07 : 2e-3);
   EXPECT_LT(largest_distance({true, 30.0}), 2e-3);  // odometry
+  EXPECT_LT(largest_distance({false, 30.0, 1.0, 0.0, 8.0, 1, 2}), 2e-3);
   EXPECT_LT(largest_distance({false, 30.0, 1.0, 0.01}), 5e-3);
   for (const double clock : {0.9, 1.0, 2.0})
     for (const int bundle : {2, 5, 10})

@@ -93,8 +93,7 @@ class Topics(NodeTest):
             self.assertEqual((tip.x, tip.y, tip.z), (1, 0, 2))
 
     def test_state_is_the_frame_and_its_energies_add_up(self):
-        # The dissipated energy must be right for a subscriber that comes late: this one comes when
-        # the run is over.
+        # The dissipated energy must be right for a subscriber that comes when the run is over.
         with Folder() as folder:
             frames = run_exercise(folder, 'Runge-Kutta-4', '--frames', '31', '--particles', HORIZONTAL,
                                   '--energy', folder + '/energy.csv')

@@ -176,8 +176,7 @@ TEST(HardScenes, TenMillionSteps) {
 }
 
 TEST(HardScenes, AMotionThatDiesAwayEndsInRoundingAndNotInDenormalNumbers) {
-  // Denormal numbers make a step about 20 times slower; lengths of the order of 1 m never lead
-  // there.
+  // Denormal numbers make a step about 20 times slower; lengths near 1 m never lead there.
   Scene scene = horizontalChain("", 11, 0.01, {}, 0.0);
   scene.start = straightLine(11, 1.1, 0.0);
   makeIntegrator("Runge-Kutta-4", scene.chain)->advance(scene.start, 0.005, 100000);

@@ -7,8 +7,7 @@
 namespace spring_pendulum::test {
 
 /// Scene `seed` belongs to family `seed` modulo their number; its name is "light tail 17".
-/// Particles: 2 to 12, in long families 13 to 60; light particles down to 1e-9 kg, stiffness up to
-/// 1e9 N/m.
+/// Particles: 2 to 12, in long families 13 to 60; masses down to 1e-9 kg, stiffness up to 1e9 N/m.
 Scene randomScene(unsigned seed);
 
 }  // namespace spring_pendulum::test

@@ -20,15 +20,15 @@ constexpr double kBaseline = 0.03;  // s, least time between inputs whose differ
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
 
 bool Follower::refuse(const std::string& why, double now) {
-  refused_at_ = now;
-  if (!std::exchange(warned_, true))
+  const bool is_first = now >= std::exchange(refused_at_, now) + kSilence;
+  if (!std::exchange(warned_, true) || is_first)
     warn_(name_ + " " + why + ": such inputs are ignored until they are steady");
   return false;
 }
 
-bool Follower::isNext(const Sample& before, const Sample& input) const {
+bool Follower::isNext(const Sample& before, const Sample& input, double longest) {
   const PlaneVector<double>&from = before.holder.position, &to = input.holder.position;
-  return input.stamp >= before.stamp && std::hypot(to.x - from.x, to.y - from.y) <= longest_;
+  return input.stamp >= before.stamp && std::hypot(to.x - from.x, to.y - from.y) <= longest;
 }
 
 bool Follower::isBelievable(const Sample& input) {
@@ -40,8 +40,8 @@ bool Follower::isBelievable(const Sample& input) {
   if (!(std::hypot(velocity.x, velocity.y) <= fastest))
     return refuse(fmt::format("moves at more than {:.3g} m/s", fastest), now);
   const auto refused = std::exchange(refused_, std::nullopt);
-  if (samples_.empty() || isNext(samples_.back(), input)) return true;
-  if (refused && isNext(*refused, input)) {
+  if (isSilent(now) || isNext(samples_.back(), input, longest_)) return true;
+  if (refused && isNext(*refused, input, longest_)) {
     samples_.clear();
     return true;
   }
@@ -53,6 +53,8 @@ bool Follower::isBelievable(const Sample& input) {
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
   Sample sample{input, stamp, now, now};
+  const bool has_come = !samples_.empty() && stamp != 0.0 && stamp == samples_.back().stamp;
+  if (has_come && isNext(samples_.back(), sample, 0.0)) return true;
   if (!isBelievable(sample)) return false;
   if (now >= refused_at_ + kSilence && std::exchange(warned_, false))
     warn_(name_ + " is followed again");

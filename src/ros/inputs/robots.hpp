@@ -62,7 +62,7 @@ class Follower {
     double time;     ///< s, steady clock: when it was probably sent
     double arrival;  ///< s, steady clock
   };
-  bool isNext(const Sample& before, const Sample& input) const;
+  static bool isNext(const Sample& before, const Sample& input, double longest);
   bool isBelievable(const Sample& input);
   bool refuse(const std::string& why, double now);
   /// The last input that is at least this much older than the newest one; null: none.

@@ -18,8 +18,7 @@ namespace spring_pendulum {
 
 using visualization_msgs::Marker;
 
-/// A state of a run with its view. Sizes are relative to the view, so that scenes of any size look
-/// alike.
+/// A state of a run with its view. Sizes are relative to the view, so all scenes look alike.
 struct Picture {
   const Run& run;
   const NodeOptions& options;

@@ -22,8 +22,7 @@ class Stamps {
   ros::Time last_;
 };
 
-/// Limits repeated log lines by the wall clock. The throttled macros of ROS use ROS time, which may stand
-/// still.
+/// Limits repeated log lines by the wall clock. The macros of ROS use ROS time, which may stand still.
 class Throttle {
  public:
   /// True at most every so many seconds.

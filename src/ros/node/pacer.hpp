@@ -7,8 +7,7 @@ namespace spring_pendulum {
 
 constexpr double kLongestWait = 1e9;  ///< s; ros::Duration has 32 bits for seconds
 
-/// Computes when a simulated time is due. After a delay, the run continues at normal speed and does
-/// not catch up.
+/// Computes when a simulated time is due. After a delay, the run continues at its speed: it does not catch up.
 class Pacer {
  public:
   /// \param factor       simulated seconds per second; 0: every time is due immediately

@@ -63,8 +63,7 @@ std::int64_t evaluationsOf(const char* method, test::Scene scene, double toleran
   return integrator->forceEvaluations();
 }
 
-// Order 4 is the cheapest in the first milliseconds only. Waiting for the next race took 46,000
-// evaluations.
+// Order 4 is the cheapest in the first milliseconds. Waiting for the next race took 46,000 evaluations.
 TEST(Auto, RacesAgainWhenAMethodBecomesSlower) {
   const test::Scene scene = test::referenceScene("alternating_50");
   const std::int64_t good = evaluationsOf("Stabilized-Taylor-8", scene, 1e-5, 1.0);
