@@ -15,10 +15,9 @@
 namespace spring_pendulum {
 namespace {
 
-/// The methods that students write for the exercise.
+/// Methods of the exercise, and of other courses: those are right only if they are asked for.
 constexpr unsigned kOfExercise =
     StudentProgram::kEuler | StudentProgram::kMidpoint | StudentProgram::kRungeKutta4;
-/// Methods of other courses, which are right only if they are asked for.
 constexpr unsigned kOfCourses = StudentProgram::kHeun | StudentProgram::kOtherTableau;
 
 using Methods = std::vector<const Method*>;
@@ -123,7 +122,8 @@ class Checker {
       for (const Method* method : methods) tryMistakes(StudentProgram(*method, scenario_), level);
       Programs found = std::exchange(found_, {});
       std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-        return a.mistakes.size() < b.mistakes.size();
+        return std::pair(a.mistakes.size(), b.last_frame) <
+               std::pair(b.mistakes.size(), a.last_frame);
       });
       // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
       const auto weak = std::stable_partition(
@@ -140,7 +140,7 @@ class Checker {
     if (level < 2) tryChanges(right, 0, level == 1);  // perhaps it prints floats only
     if (level == 0 && frames_.are_floats && explains(in_float)) return tryChanges(right, 0, true);
     if (frames_.are_floats) right = in_float;
-    if (level < 2 && frames_.are_floats) tryChanges(right, 0, level == 1);
+    for (int i = 0; i < 2 && level == 2 && frames_.are_floats; ++i) tryChanges(right, 0, i == 1);
     in_float.sentences.back() += ", or its errors are as small as those of float";
     const bool may_be_float = !frames_.are_floats && frames_.digits <= AllFrames::kDigitsOfFloat;
     if (level == 2 && may_be_float) explains(in_float);
