@@ -9,8 +9,7 @@
 
 namespace spring_pendulum {
 
-/// Returns an upper estimate of the memory of a run, B. Measured with Exercise3; the messages of
-/// the node and a bag need more.
+/// Returns an upper estimate of the memory of a run, B. The messages of the node and a bag need more.
 double expectedMemory(const Plan& plan, Eigen::Index particles);
 
 /// Returns a remark if a run is expected to need 0.5 GB or more, else empty text:

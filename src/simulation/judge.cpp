@@ -17,6 +17,8 @@ namespace {
 
 /// Position error that error-controlled methods promise not to exceed, in tolerances.
 constexpr double kPromise = 10.0;
+constexpr double kStandardErrors =
+    2.5;  // by which the mean of few frames may differ from the true one
 /// The least energy scale is that of all springs stretched by this share of their length.
 constexpr double kLeastStretch = 1e-6;
 
@@ -69,7 +71,7 @@ double Judge::change(const Chain& chain, const State& before, const State& after
   if (!changed_ || options.symplectic_method != options_.symplectic_method ||
       !(chain.constants() == chain_.constants())) {
     mean_time_ = entry_.time;
-    sums_.setZero();
+    sums_ = jumps_ = Eigen::Array4d::Zero();
   }
   options_ = options;
   if (has_moved) largest_scale_ = scale(entry_.time, supplied);
@@ -201,11 +203,15 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
-    sums_ += Eigen::Array4d(gain, residual, error, 1.0);
+    // Frames further apart than the oscillation are a sample of it, with a standard error.
+    const Eigen::Array4d frame(gain, residual, error, 1.0);
+    sums_ += frame;
+    jumps_ += 0.5 * (frame - std::exchange(last_, frame)).square();
     gain = sums_[0] / sums_[3];
     residual = sums_[1] / sums_[3];
     error = sums_[2] / sums_[3];
-    allowance += options_.symplectic_step / (time - mean_time_);
+    allowance += options_.symplectic_step / (time - mean_time_) +
+                 kStandardErrors * std::sqrt(jumps_.maxCoeff()) / sums_[3];
   }
   const auto amount = [&](double joules, double share, std::string_view what) {
     if (options_.symplectic_step > 0.0)

@@ -57,8 +57,7 @@ class ReferenceRun {
   /// largest length of the reference at the measured frames (for particles that start close together).
   double length() const { return length_; }
 
-  /// Bound on the position error of the reference at the last frame, m; NaN after the measurement has
-  /// stopped.
+  /// Bound on the position error of the reference at the last frame, m; NaN after it has stopped.
   double uncertainty() const { return uncertainty_; }
 
   /// Largest distance of a particle from its position in `state()`, m; NaN if that is not known.

@@ -177,8 +177,7 @@ TEST(SwingingModes, FollowTheLaguerrePolynomial) {
   }
 }
 
-/// Angular frequencies of small sideways swings of a chain of 1 m, rad/s, from differences of the library's
-/// own accelerations.
+/// Angular frequencies of small sideways swings of a chain of 1 m, rad/s, by the library's accelerations.
 Eigen::VectorXd frequencies(Eigen::Index masses) {
   const auto n = static_cast<double>(masses);
   const Chain chain = chainOf(masses + 1, 1.0 / n, {1e8, 0.0, 1.0 / n});

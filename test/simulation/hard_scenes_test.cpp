@@ -62,8 +62,7 @@ TEST(HardScenes, FallingStraightThroughTheAnchorKeepsTheEnergy) {
   EXPECT_LT(worst, 1e-3);  // measured 2.7e-4: only the steps across the jump lose their order
 }
 
-// The series of a Taylor method is invalid beyond the anchor, and can return to the side of the
-// start within one step.
+// The series of a Taylor method is invalid beyond the anchor, and can come back within one step.
 TEST(HardScenes, FallingStraightThroughTheAnchorKeepsTheTolerance) {
   struct Fall {
     double mass;

@@ -132,8 +132,7 @@ TEST(EnergyScale, RefusesEnergiesBeyondADouble) {
 }
 
 TEST(EnergyBalance, ClosesWithTheOrderOfTheMethod) {
-  // Halving the step divides the residual by 2^order; measured 2.01 (Euler), 4.10 (Runge-Kutta-2),
-  // 15.9 (Runge-Kutta-4).
+  // Halving the step divides the residual by 2^order; measured 2.01, 4.10 and 15.9 for Runge-Kutta-4.
   const Chain chain = uniform(4, SpringLaw{}, 9.81);
   for (const Method& method : methodTable()) {
     if (!method.hasFixedStep()) continue;

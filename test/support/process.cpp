@@ -102,8 +102,7 @@ Result run(const Command& command) {
   return Process(command).wait();
 }
 
-// The capabilities are removed from the bounding set, so that root does not regain them when the
-// program starts.
+// The capabilities leave the bounding set, so root does not regain them when the program starts.
 void respectPermissions() {
   if (geteuid() != 0) return;
   if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0) _exit(kCouldNotStart);

@@ -23,8 +23,7 @@ struct Result {
   std::string output;
   std::string errors;
   double peak_memory = 0.0;  ///< B
-  /// Computing time after the last signal, s. Unlike wall-clock time, it does not depend on what else
-  /// the computer does.
+  /// Computing time after the last signal, s: it does not depend on what else the computer does.
   double seconds_after_signal = 0.0;
 };
 

@@ -1,5 +1,4 @@
-// Random scenes by number: scene n is the same on every machine, and consecutive scenes belong to
-// different families.
+// Random scenes by number, the same on every machine. Consecutive ones belong to different families.
 #pragma once
 
 #include "support/scene.hpp"

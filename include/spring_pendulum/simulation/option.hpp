@@ -1,5 +1,4 @@
-// One option of a program. The command line, YAML, ROS parameters, launch arguments and the help
-// text use the same row.
+// One option of a program: one row for the command line, YAML, ROS parameters, launch files and help.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>

@@ -35,8 +35,7 @@ struct Verdict {
   std::string text = "ok";      ///< one line: what is wrong, when and where
 };
 
-/// Position errors of a run: the largest distance of a particle from its position in the reference
-/// run. NaN if not measured.
+/// Position errors: the largest distance of a particle from where the reference run has it; NaN: unknown.
 struct PositionError {
   double now = std::numeric_limits<double>::quiet_NaN();           ///< m, at the last frame
   double uncertainty = std::numeric_limits<double>::quiet_NaN();   ///< m, of `now`
@@ -45,8 +44,7 @@ struct PositionError {
   double bound = std::numeric_limits<double>::quiet_NaN();  ///< m, largest sum with uncertainty
   double measured_until = std::numeric_limits<double>::quiet_NaN();  ///< s
 
-  /// Whether `largest` is known to be within a factor of 2 of the true value. Else only `bound` is
-  /// known.
+  /// Whether `largest` is known within a factor of 2. Else only `bound` is known.
   bool isResolved() const { return bound <= 1.5 * largest; }
 };
 

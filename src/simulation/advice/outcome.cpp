@@ -65,8 +65,7 @@ class Trials {
     checks_energy_ = Run(scene_, own).energyEntry().dissipated.has_value();
   }
 
-  /// Runs a variant of the plan until the verdict is `enough` or worse. Measures the position error if it
-  /// matters.
+  /// Runs a variant of the plan until the verdict is `enough` or worse; measures positions if they matter.
   /// \returns nothing if the allowed work was used up or the trial was stopped
   std::optional<Trial> run(Plan plan, VerdictKind enough) {
     if (total_work_ >= kMostTrials * kTrialWork || (stop_ && stop_())) return {};
