@@ -81,10 +81,10 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 
 /// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
-  constexpr double kRounded = 0.51;  // units of the last digit
+  constexpr double kRounded = 0.51, kLarge = 0x1p24;  // units; m: beyond, texts of floats are longer
   const auto is_float = [](double x, double unit) {
     const auto nearest = static_cast<float>(x);  // its text is that of Java, numpy and std::format
-    return !std::isfinite(x) || std::abs(x - nearest) <= kRounded * unit ||
+    return !(std::abs(x) < kLarge) || std::abs(x - nearest) <= kRounded * unit ||
            parseNumber(fmt::format("{}", nearest)) == x;
   };
   const auto floats = [&](const FrameNumbers& frame) {
@@ -98,7 +98,7 @@ void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   for (auto& [index, numbers, units] : all.frames) {
     const Eigen::ArrayX2d spacing =
         numbers.unaryExpr([](double x) { return std::exp2(std::logb(x) - 23.0); });
-    const auto changed = numbers != start && numbers.isFinite();
+    const auto changed = numbers != start && numbers.abs() < kLarge;
     evidence += changed.select((spacing / units).max(1.0).log(), 0.0).sum();
     units = units.max(spacing);  // a double program may round what it prints
   }
