@@ -12,16 +12,17 @@ constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its ho
 constexpr double kMet = 0.01;           // m, within which a particle is with its holder
 constexpr double kLost = 0.5;           // m, beyond which the log says that it is not
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
-constexpr double kAtOnce = 3.0;         // seconds of stamps per second in a bundle of inputs
-constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
-constexpr double kLongestLead = 0.2;    // s, for which the motion of a holder is extrapolated
-constexpr double kSteepest = 5.0;       // m/s², largest acceleration of a slow holder
-constexpr double kBaseline = 0.03;  // s, least time between inputs whose difference is a velocity
+constexpr double kCopied = 0.08;      // s, after which the same message says that its holder stands
+constexpr double kAtOnce = 3.0;       // seconds of stamps per second in a bundle of inputs
+constexpr double kForget = 0.002;     // share of the delay, for each message, as clocks drift
+constexpr double kLongestLead = 0.2;  // s, for which the motion of a holder is extrapolated
+constexpr double kSteepest = 5.0;     // m/s², largest acceleration of a slow holder
+constexpr double kBaseline = 0.03;    // s, least time between inputs whose difference is a velocity
 constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
 
 bool Follower::refuse(const std::string& why, double now) {
-  const bool is_first = now >= std::exchange(refused_at_, now) + kSilence;
-  if (!std::exchange(warned_, true) || is_first)
+  refused_at_ = now;
+  if (std::exchange(said_, kRefused) != kRefused)
     warn_(name_ + " " + why + ": such inputs are ignored until they are steady");
   return false;
 }
@@ -53,10 +54,11 @@ bool Follower::isBelievable(const Sample& input) {
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
   Sample sample{input, stamp, now, now};
-  const bool has_come = !samples_.empty() && stamp != 0.0 && stamp == samples_.back().stamp;
-  if (has_come && isNext(samples_.back(), sample, 0.0)) return true;
+  const bool is_soon = !isSilent(now) && now < samples_.back().arrival + kCopied && stamp != 0.0;
+  if (is_soon && stamp == samples_.back().stamp && isNext(samples_.back(), sample, 0.0))
+    return true;
   if (!isBelievable(sample)) return false;
-  if (now >= refused_at_ + kSilence && std::exchange(warned_, false))
+  if (now >= refused_at_ + kSilence && std::exchange(said_, kNothing) != kNothing)
     warn_(name_ + " is followed again");
   if (isSilent(now)) {
     samples_.clear();
@@ -132,7 +134,7 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
   Target target = samples_.back().holder;
   const double silence = now - samples_.back().time;
   if (silence > kLongestLead) {
-    if (isSilent(now) && !std::exchange(warned_, true))
+    if (isSilent(now) && std::exchange(said_, std::max(said_, kStopped)) == kNothing)
       warn_(name_ + " has stopped: the particle is held where it is");
     if (!place_) place_ = interval == 0.0 ? target.position : here;  // it is seen late in a pause
     return Target{*place_, {}, {}};

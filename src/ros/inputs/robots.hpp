@@ -77,7 +77,7 @@ class Follower {
   std::optional<Sample> refused_;  ///< the last input, if it was a jump that was not taken
   double refused_at_ = 0.0;        ///< s, at the last refusal
   std::optional<PlaneVector<double>> place_;  ///< m, of a particle that waits for its input
-  bool warned_ = false;                       ///< that the input is refused, or silent
+  enum Said { kNothing, kStopped, kRefused } said_ = kNothing;  ///< of the input
   double left_ = 0.0;  ///< s, since when the particle has been far from its holder; 0: it is not
   double jumped_ = -1.0, expected_ = 0.0;  ///< s, when it got far, and should have come near again
 };

@@ -39,9 +39,8 @@ struct StateMessages {
   std::optional<PendulumStatus> status;                      ///< if it has changed
 };
 
-/// Builds the messages about a run. Every marker has a fixed namespace and id, so each message replaces
-/// the previous one, also that of another run; what is not drawn is deleted. A long chain is thinned,
-/// which the text mentions.
+/// Builds the messages about a run. Markers have fixed namespaces and ids, so each message replaces the
+/// last one, also of another run; what is not drawn is deleted. A long chain is thinned, as the text says.
 class RunMessages {
  public:
   /// \param simulated stamp with simulated time instead of ROS time
