@@ -81,7 +81,7 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
 
 /// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
-  constexpr double kRounded = 0.51, kLarge = 0x1p24;  // units; m: beyond, texts of floats are longer
+  constexpr double kRounded = 0.51, kLarge = 0x1p24;  // units; m, from where texts are longer
   const auto is_float = [](double x, double unit) {
     const auto nearest = static_cast<float>(x);  // its text is that of Java, numpy and std::format
     return !(std::abs(x) < kLarge) || std::abs(x - nearest) <= kRounded * unit ||
