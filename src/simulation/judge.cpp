@@ -191,27 +191,24 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   const double spread = std::min(2.0 * kPromise * options_.tolerance, 1e150);  // m, squared below
   double allowance = static_cast<double>(chain_.size() - 1) * 0.5 * chain_.spring().stiffness *
                      spread * spread / largest_scale_;
-  double residual = entry_.relative_residual.value_or(0.0);
+  const double residual = entry_.relative_residual.value_or(0.0);
   worst_residual_ = std::fmax(worst_residual_, std::abs(residual));
   // Negated comparisons are also true for NaN, the energy of a state that is not finite.
   if (!(entry_.relative_gain <= kDivergenceThreshold + allowance))
     return diverged(entry_, chain_, state);
-  double gain = entry_.relative_gain;
   // In a stiff transient, the dissipated energy can be wrong although the state is right.
-  double error = residual;
-  if (residual != 0.0) error *= 1.0 - dissipated_error_ / *entry_.residual;
+  const double wrong = residual != 0.0 ? dissipated_error_ / *entry_.residual : 0.0;
+  Eigen::Array4d errors(entry_.relative_gain, residual, (1.0 - wrong) * residual, 1.0);
+  Eigen::Array4d chance = Eigen::Array4d::Zero();
   if (options_.symplectic_step > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
+    allowance += options_.symplectic_step / (time - mean_time_);
     // Frames further apart than the oscillation are a sample of it, with a standard error.
-    const Eigen::Array4d frame(gain, residual, error, 1.0);
-    sums_ += frame;
-    jumps_ += 0.5 * (frame - std::exchange(last_, frame)).square();
-    gain = sums_[0] / sums_[3];
-    residual = sums_[1] / sums_[3];
-    error = sums_[2] / sums_[3];
-    allowance += options_.symplectic_step / (time - mean_time_) +
-                 kStandardErrors * std::sqrt(jumps_.maxCoeff()) / sums_[3];
+    jumps_ += 0.5 * (errors - std::exchange(last_, errors)).square();
+    sums_ += errors;
+    chance = kStandardErrors / sums_[3] * jumps_.sqrt();
+    errors = sums_ / sums_[3];
   }
   const auto amount = [&](double joules, double share, std::string_view what) {
     if (options_.symplectic_step > 0.0)
@@ -220,15 +217,17 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
     return fmt::format("{:.3g} J{} at t = {:.6g} s, {:.3g} % of the energy scale", joules, what,
                        time, 100.0 * share);
   };
-  if (gain > kGainThreshold + allowance)
+  if (errors[0] > kGainThreshold + allowance + chance[0])
     return {
         VerdictKind::kGainedEnergy, time, 0,
-        fmt::format("gained energy: {}, although {}", amount(entry_.gain, gain, " above the start"),
+        fmt::format("gained energy: {}, although {}",
+                    amount(entry_.gain, errors[0], " above the start"),
                     changed_ || chain_.isDriven() ? "the energy supplied to the chain is counted"
                                                   : "no force drives the chain")};
-  if (!(std::min(std::abs(residual), std::abs(error)) <= kDriftThreshold + allowance))
+  const Eigen::Array4d certain = errors.abs() - chance;
+  if (!(std::min(certain[1], certain[2]) <= kDriftThreshold + allowance))
     return {VerdictKind::kDrift, time, 0,
-            "drift: the energy balance is off by " + amount(*entry_.residual, residual, "")};
+            "drift: the energy balance is off by " + amount(*entry_.residual, errors[1], "")};
   return {VerdictKind::kOk, time, 0, "ok"};
 }
 
