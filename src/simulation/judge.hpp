@@ -39,7 +39,7 @@ struct JudgeOptions {
   /// Tolerance in m of an error-controlled method; 0 for fixed steps. As position errors of ten tolerances
   /// are allowed, a spring may be 20 too long. That energy is no fault, even if it exceeds the scale.
   double tolerance = 0.0;
-  const void* symplectic_method = nullptr;  ///< identifies a symplectic method; null: another one
+  int symplectic_order = 0;  ///< of a symplectic method; 1 is Semi-Implicit-Euler
 };
 
 /// Judges the frames of a run and keeps the worst verdict.
@@ -102,9 +102,9 @@ class Judge {
   double pulled_depth_ = 0.0;            ///< by which forces lower the energy at rest, J
   double largest_scale_ = 0.0;           ///< at which the chain has moved, J
   double mean_time_;                     ///< since when the mean is judged, s
-  Eigen::Array4d last_{0, 0, 0, 1}, sums_{0, 0, 0, 0}, jumps_ = sums_;  ///< of errors, and 1
-  double dissipated_error_ = 0.0;  ///< J, when it was measured last
-  double worst_residual_ = 0.0;    ///< largest relative residual of the energy balance
+  Eigen::Array4d sums_{0, 0, 0, 0};  ///< since then: relative gain, residual, error, one each frame
+  double dissipated_error_ = 0.0;    ///< J, when it was measured last
+  double worst_residual_ = 0.0;      ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.
   double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance
   double sensitive_time_ = 0.0;  ///< where none can promise it

@@ -46,7 +46,7 @@ double toleranceOf(const Plan& plan) {
 JudgeOptions judgeOptions(const Plan& plan, bool track) {
   const Method& method = plan.method;
   return {track, method.symplectic ? plan.time_step : 0.0, toleranceOf(plan),
-          method.symplectic ? &method : nullptr};
+          method.symplectic ? method.order : 0};
 }
 
 /// Number of states shown per frame.

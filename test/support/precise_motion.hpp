@@ -146,8 +146,7 @@ class ExtrapolatedMotion {
     return now;
   }
 
-  /// Takes a step of size h into `table_[0]`. Returns the difference of the last two columns; a
-  /// velocity counts 0.05 s.
+  /// Takes a step of size h into `table_[0]`. Returns how the last two columns differ, m; velocities x 0.05 s.
   Real extrapolate(Real h) {
     Vector before;
     for (int k = 0; k < kColumns; ++k) {

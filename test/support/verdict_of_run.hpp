@@ -24,7 +24,8 @@ inline Verdict verdictOfRun(const Scene& scene, const Method& method, double tim
   const auto integrator = makeIntegrator(method, scene.chain, {1e-6, with_energy});
   State state = scene.start;
   Judge judge(scene.chain, state,
-              JudgeOptions{with_energy, method.symplectic ? time_step : 0.0, 0.0});
+              JudgeOptions{with_energy, method.symplectic ? time_step : 0.0, 0.0,
+                           method.symplectic ? method.order : 0});
   judge.judge(0.0, state, 0.0, nullptr);  // as every run does
   const std::int64_t steps =
       std::max<std::int64_t>(1, std::llround(std::min(0.1, duration) / time_step));
