@@ -142,7 +142,7 @@ class Checker {
     if (frames_.are_floats) right = in_float;
     for (int i = 0; i < 2 && level == 2 && frames_.are_floats; ++i) tryChanges(right, 0, i == 1);
     in_float.sentences.back() += ", or its errors are as small as those of float";
-    const bool may_be_float = !frames_.are_floats && frames_.digits <= AllFrames::kDigitsOfFloat;
+    const bool may_be_float = !frames_.are_floats && frames_.digits < 9;  // which show it
     if (level == 2 && may_be_float) explains(in_float);
     for (std::size_t i = 0; level > 2 && i + 1 < table_.size(); ++i)
       if (right.canMake(table_[i])) tryChanges(right.with(table_[i]), i + 1, level == 4);
@@ -257,7 +257,7 @@ class Checker {
                                   ? "all " + counted(count, "frame")
                                   : fmt::format("frames up to {}", last_frame_);
     return fmt::format("{}: {} in the {} printed", fmt::join(methods_, " or "), which,
-                       counted(std::min(frames_.digits, frames_.are_floats ? 7 : 17), "digit"));
+                       counted(std::min(frames_.digits, 17), "digit"));
   }
 
   FrameCheck equal() const {

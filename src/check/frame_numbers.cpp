@@ -79,7 +79,7 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
   return {frame.index, Eigen::Map<const Rows>(numbers.data(), rows, 2), {}};
 }
 
-/// Notes whether the numbers are floats: in all later frames or, with few digits, in a rounded start.
+/// Notes whether the numbers are floats: in all later frames or, with less than nine digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   constexpr double kRounded = 0.51, kLarge = 0x1p24;  // units; m, from where texts are longer
   const auto is_float = [](double x, double unit) {
@@ -91,7 +91,7 @@ void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
     return frame.index == all.start || frame.positions.binaryExpr(frame.units, is_float).all();
   };
   const FrameNumbers& first = all.frames.front();
-  const bool starts_so = all.digits <= AllFrames::kDigitsOfFloat && first.index == all.start &&
+  const bool starts_so = all.digits < 9 && first.index == all.start &&
                          !first.equals(start, kRounded) && first.equalsFloatsOf(start, kRounded);
   if (!starts_so && !std::all_of(all.frames.begin(), all.frames.end(), floats)) return;
   double evidence = 0.0;  // log of how many numbers with as many digits there are for each float
@@ -102,6 +102,7 @@ void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
     evidence += changed.select((spacing / units).max(1.0).log(), 0.0).sum();
     units = units.max(spacing);  // a double program may round what it prints
   }
+  if (starts_so || evidence > 0.0) all.digits = std::min(all.digits, 7);
   all.are_floats |= starts_so || evidence > 12.0;
 }
 

@@ -39,12 +39,11 @@ struct FrameNumbers {
 };
 
 struct AllFrames {
-  static constexpr int kDigitsOfFloat = 8;  ///< more show whether the numbers are floats
-  std::vector<FrameNumbers> frames;         ///< by increasing index
-  int digits = 0;                           ///< largest number of significant digits
-  bool are_floats = false;                  ///< whether a program in float has written them
-  std::int64_t start = 0;                   ///< index of the frame that should be the start
-  std::vector<std::string> notes;           ///< on missing frames and on the format
+  std::vector<FrameNumbers> frames;  ///< by increasing index
+  int digits = 0;                    ///< largest number of significant digits
+  bool are_floats = false;           ///< whether a program in float has written them
+  std::int64_t start = 0;            ///< index of the frame that should be the start
+  std::vector<std::string> notes;    ///< on missing frames and on the format
 
   /// If the first frame is the start with another index, lets it have that of the start.
   bool renumber(const Eigen::ArrayX2d& positions);
