@@ -122,8 +122,8 @@ class Checker {
       for (const Method* method : methods) tryMistakes(StudentProgram(*method, scenario_), level);
       Programs found = std::exchange(found_, {});
       std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-        return std::pair(a.mistakes.size(), b.last_frame) <
-               std::pair(b.mistakes.size(), a.last_frame);
+        return std::tuple(a.mistakes.size(), b.last_frame, a.single_precision) <
+               std::tuple(b.mistakes.size(), a.last_frame, b.single_precision);
       });
       // A motion that explodes soon agrees with few frames; it must not hide a better explanation.
       const auto weak = std::stable_partition(
