@@ -197,14 +197,15 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   // In a stiff transient, the dissipated energy can be wrong although the state is right.
   const double wrong = residual != 0.0 ? dissipated_error_ / *entry_.residual : 0.0;
   Eigen::Array4d errors(entry_.relative_gain, residual, (1.0 - wrong) * residual, 1.0);
-  if (options_.symplectic_step > 0.0) {
+  if (const double h = options_.symplectic_step; h > 0.0) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
-    allowance += options_.symplectic_step / (time - mean_time_);
-    // That of Semi-Implicit-Euler is half the change of U in a step. Frames at equal phases hide its mean.
+    allowance += h / (time - mean_time_);
+    // That of Semi-Implicit-Euler is half the change of U as particles that are not held move in a step.
     if (options_.symplectic_order == 1) {
       State last = state;
-      last.values().leftCols<2>() -= options_.symplectic_step * state.values().rightCols<2>();
+      const Eigen::VectorXd back = h * (chain_.inverseMasses().array() > 0.0).cast<double>();
+      last.values().leftCols<2>() -= back.asDiagonal() * state.values().rightCols<2>();
       const Energy energy = energyOf(last), &now = entry_.energy;
       errors.head<3>() += 0.5 * (energy.gravity + energy.spring - now.gravity - now.spring) /
                           std::max(largest_scale_ + pulled_depth_, energyOfHolders(chain_, state));

@@ -36,8 +36,7 @@ Outcome outcomeOf(const Run& run, const std::function<bool()>& stop = {});
 
 /// The largest step size without divergence or energy gain.
 struct StableStep {
-  /// s, with three significant digits; infinite if the whole run may be one step; 0 if not known; NaN for
-  /// error-controlled methods.
+  /// s, in three digits; infinite: the whole run; 0: not known; NaN: of error-controlled methods.
   double step = std::numeric_limits<double>::quiet_NaN();
   bool is_estimate = false;  ///< whether this is the linear limit because runs take too long
 };
