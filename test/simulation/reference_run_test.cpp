@@ -41,8 +41,7 @@ class ReferenceRunOn : public testing::TestWithParam<test::KnownMotion> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceRunOn, testing::ValuesIn(kKnownMotions),
                          testing::PrintToStringParamName());
 
-// Measured: the true error is at most 0.2 of the bound,
-// which is 1e-8 m at most.
+// Measured: the true error is at most 0.2 of the bound, and that at most 1e-8 m.
 TEST_P(ReferenceRunOn, StaysWithinItsUncertainty) {
   const test::Scene scene = test::referenceScene(GetParam().scene);
   ReferenceRun reference(scene.chain, scene.start, 1e-6, true);
