@@ -201,13 +201,13 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
     allowance += h / (time - mean_time_);
-    // That of Semi-Implicit-Euler is half the change of U as particles that are not held move in a step.
-    if (options_.symplectic_order == 1) {
-      State last = state;
-      const Eigen::VectorXd back = h * (chain_.inverseMasses().array() > 0.0).cast<double>();
-      last.values().leftCols<2>() -= back.asDiagonal() * state.values().rightCols<2>();
-      const Energy energy = energyOf(last), &now = entry_.energy;
-      errors.head<3>() += 0.5 * (energy.gravity + energy.spring - now.gravity - now.spring) /
+    // Semi-Implicit-Euler conserves E - h/2 dU/dt of a linear chain. Held particles stand still in it.
+    const Eigen::VectorXd moves = (chain_.inverseMasses().array() > 0.0).cast<double>();
+    for (const double dt : {-h, h}) {
+      if (options_.symplectic_order != 1) break;
+      State moved = state;
+      moved.values().leftCols<2>() += dt * moves.asDiagonal() * state.values().rightCols<2>();
+      errors.head<3>() -= 0.25 * dt / h * energyOf(moved).total() /
                           std::max(largest_scale_ + pulled_depth_, energyOfHolders(chain_, state));
     }
     sums_ += errors;

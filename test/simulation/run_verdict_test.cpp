@@ -108,9 +108,9 @@ TEST(Run, TheMeanEnergyOfASymplecticMethodIsThatSinceTheLastChange) {
   const auto six = test::horizontalChain("six", 6, 1.0, {50.0, 0.0, 1.0});
   test::ProgramRun switched = runAfter(scenario, six, 18.0);
   switched.change(scenario, six.chain.constants(), {{}, {{1, {1e-3, 0.0}}}}, switched.state());
-  switched.advanceTo(72.0);
+  switched.advanceTo(66.0);
   switched.change(changed, six.chain.constants(), {}, switched.state());
-  switched.advanceTo(96.0);
+  switched.advanceTo(78.0);
   EXPECT_EQ(switched.verdict().kind, VerdictKind::kGainedEnergy) << switched.verdict().text;
 }
 
