@@ -79,9 +79,9 @@ FrameNumbers read(const FrameText& frame, std::ptrdiff_t particles, Format& form
   return {frame.index, Eigen::Map<const Rows>(numbers.data(), rows, 2), {}};
 }
 
-/// Notes whether the numbers are floats: in all later frames or, with less than nine digits, in a rounded start.
+/// Notes whether the numbers are floats: in all later frames or, with fewer than nine digits, in a rounded start.
 void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
-  constexpr double kRounded = 0.51, kLarge = 0x1p24;  // units; m, from where texts are longer
+  constexpr double kRounded = 0.51, kLarge = 0x1p24;  // units; m, where Java prints more digits
   const auto is_float = [](double x, double unit) {
     const auto nearest = static_cast<float>(x);  // its text is that of Java, numpy and std::format
     return !(std::abs(x) < kLarge) || std::abs(x - nearest) <= kRounded * unit ||

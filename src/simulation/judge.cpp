@@ -201,10 +201,10 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
     // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
     // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
     allowance += h / (time - mean_time_);
-    // Semi-Implicit-Euler conserves E - h/2 dU/dt of a linear chain. Held particles stand still in it.
-    const Eigen::VectorXd moves = (chain_.inverseMasses().array() > 0.0).cast<double>();
+    // Semi-Implicit-Euler conserves E - h/2 dU/dt of a linear chain; held particles do not count in it.
     for (const double dt : {-h, h}) {
       if (options_.symplectic_order != 1) break;
+      const Eigen::VectorXd moves = (chain_.inverseMasses().array() > 0.0).cast<double>();
       State moved = state;
       moved.values().leftCols<2>() += dt * moves.asDiagonal() * state.values().rightCols<2>();
       errors.head<3>() -= 0.25 * dt / h * energyOf(moved).total() /
