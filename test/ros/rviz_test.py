@@ -212,7 +212,6 @@ class Rviz(NodeTest):
             viewer.wait_for_picture('hand_before.png', lambda p: p.near(column, row, is_yellow), 'the tip')
 
             def grabbed():
-                """Moves the mouse to the tip and a little to the right of it."""
                 viewer.look_after()
                 mouse('mousemove', column, row)
                 rospy.sleep(1.0)
@@ -223,6 +222,7 @@ class Rviz(NodeTest):
                 rospy.sleep(1.0)
                 if self.last().positions[-1].x > rest.x + 0.5:
                     return True
+                mouse('mousemove', column, row)  # without a handle, the mouse has turned the camera
                 mouse('mouseup', 1)
                 return False
             wait_until(grabbed, 'the tip follows the mouse', patience=120)
