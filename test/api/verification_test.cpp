@@ -313,8 +313,7 @@ Fall fallOfFoldedChain(Eigen::Index size) {
   return fall;
 }
 
-// M. G. Calkin, R. H. March, Am. J. Phys. 57 (1989) 154-157. The continuous chain
-// that conserves energy takes 0.847213 of the time of a stone.
+// M. G. Calkin, R. H. March, Am. J. Phys. 57 (1989) 154-157: a chain takes 0.847213 of a stone's time.
 TEST(FoldedChain, FallsFasterThanAStone) {
   double before = 1.0;
   for (const Eigen::Index size : {20, 50, 100, 200}) {

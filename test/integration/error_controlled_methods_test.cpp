@@ -87,8 +87,7 @@ TEST_P(ErrorControlledMethod, KeepsItsTolerance) {
   }
 }
 
-// A looser tolerance must cost less: a method that ignores the tolerance and is always accurate
-// would pass the tests above.
+// A method that ignores the tolerance, and is always accurate, passes the tests above.
 TEST_P(ErrorControlledMethod, SpendsLessForLess) {
   const Scene scene = referenceScene("horizontal_11");
   std::int64_t evaluations = 0;

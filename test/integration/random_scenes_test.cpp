@@ -1,5 +1,4 @@
-// The tolerance on random scenes, and the oracle that measures the errors. `scripts/benchmark.sh
-// tolerance` runs many more scenes.
+// The tolerance on random scenes. `scripts/benchmark.sh tolerance` runs many more of them.
 #include "support/random_scenes.hpp"
 
 #include <spring_pendulum/integration/method_table.hpp>

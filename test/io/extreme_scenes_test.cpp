@@ -1,5 +1,4 @@
-// Random products of extreme scenes and values of options: what is refused is refused before the run, so
-// that no program has touched a file by then.
+// Random products of extreme scenes and values of options: what is refused is refused before the run.
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/integration/method_table.hpp>

@@ -1,5 +1,4 @@
-// Every system call of a run for its files fails once: one line, exit status 1, and no file lost or
-// incomplete. See support/fault_injection.cpp.
+// Every system call of a run for its files fails once: one line, exit status 1, and no file is lost.
 #include <csignal>
 #include <filesystem>
 #include <map>

@@ -117,6 +117,22 @@ TEST(DrivenRun, CountsTheWorkOfAKickByEulersMethods) {
   }
 }
 
+// Lifted with an acceleration a, a particle that starts with the velocity `offset` · h a keeps its distance
+// from its holder: their force is constant, and the trapezoidal rule for their work is exact.
+TEST(DrivenRun, TakesThePowerOfAHolderAtItsPlace) {
+  constexpr double h = 0.1, a = 2.0, force = 9.81 + a;
+  for (const auto& [method, offset] :
+       {std::pair{"Euler", 0.5}, {"Semi-Implicit-Euler", -0.5}, {"Velocity-Verlet", 0.0}}) {
+    const Scene scene = horizontalChain("lifted", 2, 1.0, {50.0, 0.0, 1.0});
+    State state(2);
+    state.values().row(1) << 0.0, -1.0 - force / 50.0, 0.0, offset * h * a;
+    const auto lifted =
+        makeIntegrator(findMethod(method), scene.chain.drivenBy({{{0, {0.0, a}}}, {}}));
+    lifted->advance(state, h, 10);
+    EXPECT_NEAR(lifted->suppliedEnergy(), force * 0.5 * a, 1e-12) << method;
+  }
+}
+
 TEST(DrivenRun, FollowsLightParticlesWithAuto) {
   for (const double air_drag : {0.0, 0.02}) {
     const Scene scene = slackCable(5, 1e-3, air_drag);

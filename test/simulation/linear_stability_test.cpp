@@ -18,8 +18,7 @@ namespace {
 
 constexpr double kDuration = 5.0;  // s
 
-/// ln of the spectral radius of the matrix by which one step multiplies (q, q'/rate), for
-/// q'' + decay q' + swing² q = 0 and a step size of 1 s.
+/// ln of the spectral radius of one step of 1 s on (q, q'/rate), for q'' + decay q' + swing² q = 0.
 double growthOfIntegrator(const Method& method, double swing, double decay) {
   constexpr double kSize = 0x1p-10;
   const Chain chain(Eigen::Vector2d::Ones(), {swing * swing, decay, 1.0}, 0.0);

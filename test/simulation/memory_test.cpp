@@ -1,5 +1,4 @@
-// What a run says about its memory before it starts. That the figures are true and that a run is
-// refused is tested with Exercise3 (process_exercise3_memory_test).
+// What a run says about its memory before it starts. process_exercise3_memory_test measures it.
 #include "simulation/expected_memory.hpp"
 #include <spring_pendulum/integration/method_table.hpp>
 #include <spring_pendulum/simulation/scenario.hpp>

@@ -148,8 +148,7 @@ TEST(ReferenceRun, StaysWithinItsUncertaintyBesideChaoticMotions) {
   }
 }
 
-// The cost is compared with its limit at frames, however many parts they have. A chain of 50 particles
-// of 1e-6 kg takes 780 ms for 5 s.
+// The cost is compared with its limit at frames, however many parts they have.
 TEST(ReferenceRun, StopsAtTheSameFrameForEveryNumberOfParts) {
   const test::Scene scene = test::horizontalChain("feather", 50, 1e-6);
   std::vector<int> frames;

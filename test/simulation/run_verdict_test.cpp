@@ -178,8 +178,7 @@ TEST(Run, SensitiveMotionIsNotBlamedOnTheRun) {
   EXPECT_THAT(run.toleranceRemark(), HasSubstr("no method can promise a tolerance of 1e-08 m"));
 }
 
-// A light particle buckles between heavy ones at 2.8 s. At 7.2 s, perturbations of the start have
-// grown 52 times, those of a later state 125 times.
+// A light particle buckles at 2.8 s. At 7.2 s, errors of the start have grown 52 times, later ones 125.
 TEST(Run, SaysFromWhenOnItExceedsTheTolerance) {
   const Eigen::Vector4d masses{1.0, 1.0, 1e-4, 1.0};
   const test::Scene scene{"", Chain(masses, {50.0, 1.0, 1.0}, 9.81),

@@ -10,8 +10,7 @@
 
 namespace spring_pendulum::test {
 
-/// Returns the local position error of the dense output at 0.4 of the first step that ends after
-/// 0.5 s, and the size of this step.
+/// Returns the position error of the dense output at 0.4 of the first step after 0.5 s, and the step size.
 struct InsideOfStep {
   double error;
   double step;

@@ -19,8 +19,7 @@ struct ExactMotion {
   double growth = 0.0;
 };
 
-/// Returns the states at `interval`, ..., `outputs` x `interval` s. The error of each position is
-/// about 1e-12 m times the growth, or 1e-11 m.
+/// Returns the states at `interval`, ..., `outputs` x `interval` s, within 1e-11 m or 1e-12 m times the growth.
 /// \param budget approximate limit of the processor time, s
 /// \returns nothing if the budget does not suffice
 std::optional<ExactMotion> exactMotion(const Scene& scene, double interval, int outputs,

@@ -1,8 +1,7 @@
 // The motion of a chain in extended precision, or with 113 bits for motions so chaotic that extended
 // precision loses them. Shares no code with the library: Gragg-Bulirsch-Stoer extrapolation.
 //
-// Reference: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
-// Springer 1993, section II.9.
+// Reference: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 1993, section II.9.
 #pragma once
 
 #include <algorithm>

@@ -67,6 +67,7 @@ class SteppedIntegrator : public FixedStepIntegrator {
                     const ChainKernels& kernels = fastestChainKernels())
       : FixedStepIntegrator(chain, track_dissipation, kernels), current_(chain.size()) {}
 
+  /// Puts held particles in their places, too, before it takes the power of their holders there.
   virtual void step(double time_step) = 0;
   StateBuffer& current() { return current_; }
   /// state velocities += weight * slope accelerations
@@ -85,10 +86,7 @@ class SteppedIntegrator : public FixedStepIntegrator {
     requireAdvance(chain().size, state.size(), time_step, steps);
     held_.begin(state, time_step);
     current_.values() = state.values();
-    for (std::int64_t n = 0; n < steps; ++n) {
-      step(time_step);
-      held_.place(current_.values(), 1);
-    }
+    for (std::int64_t n = 0; n < steps; ++n) step(time_step);
     state.values() = current_.values();
   }
 

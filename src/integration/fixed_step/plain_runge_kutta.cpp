@@ -20,6 +20,7 @@ void PlainRungeKutta::step(double time_step) {
   }
   kernels_.combine(pitch, current().data(), stageSum(time_step, tableau_.b, slopes_),
                    current().data());
+  held_.place(current().values(), 1);
   if (tableau_.stages == 1) trapezoidalRule(stage_, current(), time_step);
 }
 

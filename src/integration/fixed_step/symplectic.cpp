@@ -12,6 +12,7 @@ void SemiImplicitEuler::step(double time_step) {
   evaluate(current(), slope_);
   kick(current(), time_step, slope_);
   drift(current(), time_step);
+  held_.place(current().values(), 1);
   addPowers(current(), 0.5 * time_step);
 }
 
@@ -37,6 +38,7 @@ void VelocityVerlet::step(double time_step) {
   kick(current(), 0.5 * time_step, end_slope_);
   std::swap(begin_slope_, end_slope_);
   begin_slope_known_ = true;
+  held_.place(current().values(), 1);
   addPowers(current(), 0.5 * time_step);
 }
 

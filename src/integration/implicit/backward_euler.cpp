@@ -37,6 +37,7 @@ void BackwardEuler::restart() {
 
 void BackwardEuler::step(double time_step) {
   failed_ = failed_ || !solve(time_step);
+  held_.place(current().values(), 1);
   addPowers(current(), time_step);
   trapezoidalRule(current(), begin_, time_step);
   if (failed_) {

@@ -5,8 +5,7 @@
 // i of a block depends on stage i-1 of that block and of its two neighbours. So every stage stops
 // one block before the end of the previous stage, and continues there in the next tile. The order
 // is from the free end to the fixed particle, because the springs of a block need the block to the
-// left, and its particles the springs to the right. Short chains are kept in registers where these
-// suffice.
+// left, and its particles the springs to the right. Short chains are kept in registers if they fit.
 //
 // The loop is software pipelined. Each iteration does the two phases of a stage for two blocks, so that
 // neither waits for the divider:

@@ -2,8 +2,7 @@
 // of the motion from the state, without truncation error. Their size determines the step size, and
 // the series is summed at the end of the step.
 //
-// For a spring with separation d and relative velocity w = d', the length L, the tension T and the force f
-// are
+// A spring with separation d and relative velocity w = d' has the length L, tension T and force f
 //
 //     L L = d·d      T = k_s (L - rest length) + k_d L'      u = T / L      f = u d
 //

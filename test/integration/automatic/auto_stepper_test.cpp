@@ -150,8 +150,7 @@ TEST(Auto, KeepsItsToleranceWhereOnlyImplicitMethodsArePractical) {
     }
 }
 
-// Explicit methods overflow there: the shortest step exceeds their stability limit. Order 12 did so
-// from 3e12/s on, order 8 from 1e13/s on.
+// Explicit methods overflow there, order 12 from 3e12/s on: the shortest step is beyond their limit.
 TEST(Auto, TakesTheImplicitMethodAloneForExtremeDampingRates) {
   for (const double rate : {9e11, 1.1e12, 3e12, 1e13, 1e14, 1e18, 1e100})
     for (const double tolerance : {1e-2, 1e-6}) {

@@ -34,8 +34,7 @@ TEST(EmbeddedPair, ErrorBelongsToAMethodOfLowerOrder) {
   EXPECT_GT(orderConditionResidual(slopes, embedded, kEmbeddedOrder + 1), 1e-5);
 }
 
-/// The largest violation of a condition up to `order` by the state at θ: b_i(θ)/θ are the weights
-/// of a method with the tableau a/θ.
+/// The largest violation of a condition up to `order` at θ: b_i(θ)/θ are the weights of the tableau a/θ.
 double denseResidual(const EmbeddedPair& pair, double theta, int order) {
   ButcherTableau scaled = allSlopes(pair);
   for (auto& row : scaled.a)

@@ -55,8 +55,7 @@ TEST(StabilizedPolynomials, AreStableAsFarAsTheTableSaysAndNotMuchFurther) {
     }
 }
 
-// The estimate is of order p - 1, the same for all of an order, and no fast mode of amplitude 1
-// shows in it as more than that.
+// The estimate is of order p - 1, and no fast mode of amplitude 1 shows in it as more than that.
 TEST(StabilizedPolynomials, ErrorEstimatesKeepClearOfFastModes) {
   for (const int order : {4, 8}) {
     const double first = stabilizedPolynomials(order).begin()->errorWeight(order);
