@@ -170,7 +170,8 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
   EXPECT_TRUE(takes(0.6, 1.1, 2.1));  // its clock has started again
   EXPECT_EQ(std::exchange(said, ""), "");
   EXPECT_FALSE(follower.isSilent(2.2));
-  EXPECT_TRUE(follower.isSilent(3.0));
+  EXPECT_TRUE(follower.isSilent(2.9) && follower.targetAt(2.9, {}, 0.03).has_value());
+  EXPECT_EQ(std::exchange(said, ""), "odom has stopped: the particle is held where it is");
   EXPECT_TRUE(takes(0.6, 3.0, 3.0));
   EXPECT_EQ(std::exchange(said, ""), "odom is followed again");
   EXPECT_TRUE(follower.isSilent(4.0));
@@ -179,6 +180,18 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
   EXPECT_FALSE(takes(std::nan(""), 4.1, 4.1));
   EXPECT_EQ(std::exchange(said, ""), "odom has numbers that are not finite" + held);
   EXPECT_TRUE(takes(5.0, 0.0, 4.2));  // after a silence, any place is a start
+}
+
+TEST(Follower, StandsWhereTheSameMessageComesAgain) {
+  for (const double velocity : {0.0, 0.8}) {  // that the message tells
+    Follower follower("in", 3.0, [](auto&) {});
+    for (double now = 1.0; now < 4.0; now += 0.03) {
+      const double stamp = std::min(now, 2.0), place = 0.8 * stamp;
+      EXPECT_TRUE(follower.take({{place, 0.0}, {velocity, 0.0}, {}}, velocity > 0.0, stamp, now));
+      const double x = follower.targetAt(now, {}, 0.03)->position.x;
+      if (now > 2.2) EXPECT_EQ(x, place) << now;
+    }
+  }
 }
 
 TEST(Follower, SaysOnceThatInputsContradictEachOther) {

@@ -23,8 +23,7 @@ constexpr double kSettled = 1e-9;  // m and m/s: a held particle nearer to its t
 /// Constants that change while the chain moves.
 const std::vector<std::string> kLive = {"tolerance",   "stiffness", "damping",
                                         "rest_length", "gravity",   "air_drag"};
-/// Largest constant, in SI units, that a running chain takes over. The motion after larger ones exceeds
-/// the range of double, or takes hours per frame.
+/// Largest constant of a running chain, SI units. After larger ones, it overflows or takes hours per frame.
 constexpr double kLargest = 1e9;
 constexpr double kLargestAcceleration = 1e6;  // by a force, chain lengths per s²
 constexpr std::size_t kMostForces = 1000;

@@ -22,7 +22,7 @@ constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in larges
 
 bool Follower::refuse(const std::string& why, double now) {
   refused_at_ = now;
-  if (std::exchange(said_, kRefused) != kRefused)
+  if (!std::exchange(says_refused_, true))
     warn_(name_ + " " + why + ": such inputs are ignored until they are steady");
   return false;
 }
@@ -54,12 +54,17 @@ bool Follower::isBelievable(const Sample& input) {
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
   Sample sample{input, stamp, now, now};
-  const bool is_soon = !isSilent(now) && now < samples_.back().arrival + kCopied && stamp != 0.0;
-  if (is_soon && stamp == samples_.back().stamp && isNext(samples_.back(), sample, 0.0))
-    return true;
+  const bool is_copy = !isSilent(now) && stamp != 0.0 && stamp == samples_.back().stamp;
+  if (is_copy && isNext(samples_.back(), sample, 0.0)) {
+    if (now < samples_.back().arrival + kCopied) return true;
+    samples_.clear();
+    sample.holder.velocity = {};
+  }
   if (!isBelievable(sample)) return false;
-  if (now >= refused_at_ + kSilence && std::exchange(said_, kNothing) != kNothing)
+  if (now >= refused_at_ + kSilence && (says_refused_ || says_stopped_)) {
+    says_refused_ = says_stopped_ = false;
     warn_(name_ + " is followed again");
+  }
   if (isSilent(now)) {
     samples_.clear();
     left_ = 0.0;
@@ -134,7 +139,7 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
   Target target = samples_.back().holder;
   const double silence = now - samples_.back().time;
   if (silence > kLongestLead) {
-    if (isSilent(now) && std::exchange(said_, std::max(said_, kStopped)) == kNothing)
+    if (isSilent(now) && now >= refused_at_ + kSilence && !std::exchange(says_stopped_, true))
       warn_(name_ + " has stopped: the particle is held where it is");
     if (!place_) place_ = interval == 0.0 ? target.position : here;  // it is seen late in a pause
     return Target{*place_, {}, {}};

@@ -24,8 +24,7 @@ namespace {
 constexpr double kOutOfPlane = 1e-3;       // m
 constexpr double kUnknownInterval = 1e-3;  // s
 
-/// Returns the force on the holder of a particle, N, as the sensor of a gripper would feel it: springs,
-/// weight and inertia. The mass of P_1 is not used.
+/// Returns the force that the sensor of a gripper would feel, N: springs, weight and inertia; of P_1 no mass.
 PlaneVector<double> forceOnHolder(const Run& run, std::ptrdiff_t particle) {
   const Chain& chain = run.chain();
   PlaneVector<double> force{};

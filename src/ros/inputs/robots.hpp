@@ -45,8 +45,7 @@ class Follower {
   /// \param now          present time of a steady clock, s
   /// \returns whether it is
   bool take(const Target& input, bool has_velocity, double stamp, double now);
-  /// Returns where the particle shall be at the present state, so that it is with its holder in the next
-  /// one, which is shown now; nothing before the first input.
+  /// Returns where the particle shall be at the present state, to be with its holder in the next one.
   /// \param here     position of the particle, m
   /// \param interval until the next state, s; 0: the particle is placed at its holder at once
   std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
@@ -76,8 +75,8 @@ class Follower {
   std::deque<Sample> samples_;     ///< since the particle began to come to its holder, newest last
   std::optional<Sample> refused_;  ///< the last input, if it was a jump that was not taken
   double refused_at_ = 0.0;        ///< s, at the last refusal
-  std::optional<PlaneVector<double>> place_;  ///< m, of a particle that waits for its input
-  enum Said { kNothing, kStopped, kRefused } said_ = kNothing;  ///< of the input
+  std::optional<PlaneVector<double>> place_;          ///< m, of a particle that waits for its input
+  bool says_refused_ = false, says_stopped_ = false;  ///< of the input, since it was followed
   double left_ = 0.0;  ///< s, since when the particle has been far from its holder; 0: it is not
   double jumped_ = -1.0, expected_ = 0.0;  ///< s, when it got far, and should have come near again
 };

@@ -7,8 +7,7 @@
 
 namespace spring_pendulum {
 
-/// A frame around the start and, for a chain that hangs from P_1, its length at rest. When the chain
-/// leaves the frame, the frame widens in steps.
+/// A frame around the start and what hangs from P_1 at rest. It widens in steps when the chain leaves it.
 struct SceneView {
   /// \param hangs whether only P_1 is held
   SceneView(const Run& run, bool hangs);

@@ -10,8 +10,7 @@ class Stamps {
   /// \param simulated use simulated time instead of ROS time
   explicit Stamps(bool simulated) : simulated_(simulated) {}
 
-  /// \param simulated_time s since the start of the run. If it jumps back (a reset), stamps
-  ///   continue from their last value.
+  /// \param simulated_time s since the start of the run; after a reset, stamps go on from the last one
   /// \throws InputError if simulated time is too long for a stamp
   ros::Time next(double simulated_time);
 
