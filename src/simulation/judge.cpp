@@ -31,7 +31,8 @@ Verdict diverged(const EnergyEntry& entry, const Chain& chain, const State& stat
       return verdict(i + 1, fmt::format("particle {} is no longer a finite number", i + 1));
   Eigen::Index moving = chain.size() - 1, most = 0;
   const auto speeds_squared = state.velocities().bottomRows(moving).rowwise().squaredNorm();
-  speeds_squared.cwiseProduct(chain.masses().tail(moving)).maxCoeff(&most);
+  const auto is_free = chain.inverseMasses().tail(moving).array() > 0.0;
+  is_free.select(speeds_squared.cwiseProduct(chain.masses().tail(moving)), 0.0).maxCoeff(&most);
   return verdict(most + 2, fmt::format("energy up by {:.3g} J, {:.3g} times the energy scale, with "
                                        "the most kinetic energy in particle {}",
                                        entry.gain, entry.relative_gain, most + 2));
@@ -135,14 +136,13 @@ EnergyEntry Judge::balanceOf(double time, const State& state, double dissipated,
   entry.supplied = supplied;
   entry.gain = entry.energy.total() - start_energy_ - supplied;
   // A drive that has just begun has supplied less energy than it is going to.
-  const double scale_now =
-      std::max(scale(time, supplied) + pulled_depth_, energyOfHolders(chain_, state));
-  entry.relative_gain = entry.gain / scale_now;
+  entry.scale = std::max(scale(time, supplied) + pulled_depth_, energyOfHolders(chain_, state));
+  entry.relative_gain = entry.gain / entry.scale;
   if (options_.track_dissipation) entry.dissipated = dissipated;
   if (!chain_.isDissipative() && !changed_) entry.dissipated = 0.0;
   if (entry.dissipated) {
     entry.residual = entry.gain + *entry.dissipated;
-    entry.relative_residual = *entry.residual / scale_now;
+    entry.relative_residual = *entry.residual / entry.scale;
   }
   return entry;
 }
@@ -167,6 +167,8 @@ const Verdict& Judge::judge(double time, const State& state, double dissipated,
 void Judge::measure(const State& state, const ReferenceRun* reference) {
   PositionError& error = position_error_;
   error.now = error.uncertainty = PositionError{}.now;
+  const bool only_start = error.largest == 0.0 && error.measured_until == error.largest_time;
+  if (reference == nullptr && only_start) error = {};
   if (reference == nullptr) return;
   error.now = reference->errorOf(state);
   error.uncertainty = reference->uncertainty();
@@ -184,6 +186,24 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
   error.largest_time = entry_.time;
 }
 
+double Judge::oscillationOf(const State& state) const {
+  const double h = options_.symplectic_step;
+  const Eigen::VectorXd moves = (chain_.inverseMasses().array() > 0.0).cast<double>();
+  State slope(state.size()), moved = state;
+  computeSlope(chain_, state, slope);
+  const bool is_first_order = options_.symplectic_order == 1;
+  const auto energy_after = [&](double dt) {
+    const double half_square = is_first_order ? 0.0 : 0.5 * dt * dt;
+    moved.positions() = state.positions();
+    moved.positions() +=
+        moves.asDiagonal() * (dt * state.velocities() + half_square * slope.velocities());
+    return energyOf(moved).total();
+  };
+  const double before = energy_after(-h), after = energy_after(h);
+  return is_first_order ? 0.25 * (after - before)
+                        : (2.0 * entry_.energy.total() - before - after) / 16.0;
+}
+
 Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   largest_scale_ = scale(time, supplied);
   const double spread = std::min(2.0 * kPromise * options_.tolerance, 1e150);  // m, squared below
@@ -197,19 +217,10 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   // In a stiff transient, the dissipated energy can be wrong although the state is right.
   const double wrong = residual != 0.0 ? dissipated_error_ / *entry_.residual : 0.0;
   Eigen::Array4d errors(entry_.relative_gain, residual, (1.0 - wrong) * residual, 1.0);
-  if (const double h = options_.symplectic_step; h > 0.0) {
-    // To first order, the energy error is h/2 dU/dt with the potential energy U. The mean of dU/dt
-    // over a time t is at most (energy scale)/t. There is no limit at the start, where t = 0.
-    allowance += h / (time - mean_time_);
-    // Semi-Implicit-Euler conserves E - h/2 dU/dt of a linear chain; held particles do not count in it.
-    for (const double dt : {-h, h}) {
-      if (options_.symplectic_order != 1) break;
-      const Eigen::VectorXd moves = (chain_.inverseMasses().array() > 0.0).cast<double>();
-      State moved = state;
-      moved.values().leftCols<2>() += dt * moves.asDiagonal() * state.values().rightCols<2>();
-      errors.head<3>() -= 0.25 * dt / h * energyOf(moved).total() /
-                          std::max(largest_scale_ + pulled_depth_, energyOfHolders(chain_, state));
-    }
+  if (options_.symplectic_step > 0.0 && time > mean_time_) {  // at the start, the scale may be 0
+    // The mean of h/2 dU/dt, with the potential energy U, over a time t is at most h (energy scale)/t.
+    allowance += options_.symplectic_step / (time - mean_time_);
+    errors.head<3>() -= oscillationOf(state) / entry_.scale;
     sums_ += errors;
     errors = sums_ / sums_[3];
   }
@@ -258,7 +269,7 @@ bool Judge::isShown(bool continues_after_divergence) const {
 std::string Judge::measurements() const {
   const PositionError& error = position_error_;
   std::string text = "position error not measured";
-  if (error.measured_until > 0.0 || error.measured_until == entry_.time) {
+  if (!std::isnan(error.measured_until)) {
     text = error.isResolved() ? fmt::format("largest position error {} m at t = {:.6g} s",
                                             roundedText(error.largest, 2), error.largest_time)
                               : fmt::format("largest position error below {} m",

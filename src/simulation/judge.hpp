@@ -89,6 +89,9 @@ class Judge {
   Energy energyOf(const State& state) const;
   void measureChain(const State& state, double energy, double time);
   void measure(const State& state, const ReferenceRun* reference);
+  /// Returns how the energy oscillates with a symplectic method, J: by h/2 dU/dt with Semi-Implicit-Euler, and
+  /// to third order by -h²/16 d²U/dt² with Velocity-Verlet, for a linear chain with potential energy U.
+  double oscillationOf(const State& state) const;
   Verdict energyVerdict(double time, const State& state, double supplied);
   Verdict positionVerdict(const ReferenceRun* reference) const;
 

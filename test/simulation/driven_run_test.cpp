@@ -120,7 +120,7 @@ TEST(DrivenRun, CountsTheWorkOfAKickByEulersMethods) {
 // Lifted with an acceleration a, a particle that starts with the velocity `offset` · h a keeps its distance
 // from its holder: their force is constant, and the trapezoidal rule for their work is exact.
 TEST(DrivenRun, TakesThePowerOfAHolderAtItsPlace) {
-  constexpr double h = 0.1, a = 2.0, force = 9.81 + a;
+  const double h = 0.1, a = 2.0, force = 9.81 + a;
   for (const auto& [method, offset] :
        {std::pair{"Euler", 0.5}, {"Semi-Implicit-Euler", -0.5}, {"Velocity-Verlet", 0.0}}) {
     const Scene scene = horizontalChain("lifted", 2, 1.0, {50.0, 0.0, 1.0});

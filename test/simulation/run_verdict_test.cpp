@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstddef>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "support/program_run.hpp"
@@ -84,6 +84,57 @@ TEST(Run, OscillatingEnergyOfSymplecticMethodsIsNotGained) {
       const test::ProgramRun run = runAfter(scenario, horizontal(damping), 20.0);
       EXPECT_LE(run.verdict().kind, VerdictKind::kInaccurate) << method << ' ' << damping;
     }
+}
+
+TEST(Run, JudgesAFallThatStartsWithoutAnyEnergyOfItsOwn) {
+  test::Scene fall = test::horizontalChain("fall", 2, 2.0, {0.0, 0.0, 0.0});
+  fall.start.y()[1] = -1.0;  // below P_1
+  EXPECT_LE(runAfter(scenarioOf("Semi-Implicit-Euler"), fall, 1.0).verdict().kind,
+            VerdictKind::kInaccurate);
+}
+
+// Frames meet the oscillation of the energy in a few phases only. Its mean differs by 0.2 % and -12.5 %.
+TEST(Run, TheMeanEnergyOfVelocityVerletDoesNotDependOnTheFrames) {
+  Scenario scenario = scenarioOf("Velocity-Verlet");
+  test::Scene scene = test::horizontalChain("spring", 2, 1.0, {50.0, 0.0, 1.0}, 0.0);
+  for (const auto& [rate, start, speed, kind] :
+       {std::tuple{0.6, 0.002828427, 0.02, VerdictKind::kInaccurate},
+        {1.0, 0.004, 0.0, VerdictKind::kDrift}})
+    for (const int steps : {1, 2, 5, 10, 12, 25}) {
+      scenario.time_step = rate / std::sqrt(50.0);
+      scenario.steps_per_frame = steps;
+      scene.start.x()[1] = 1.0 + start;
+      scene.start.vx()[1] = speed;
+      const VerdictKind said =
+          runAfter(scenario, scene, 40 * steps * scenario.time_step).verdict().kind;
+      EXPECT_TRUE(said == kind || said < std::min(kind, VerdictKind::kDrift))
+          << rate << " " << steps;
+    }
+}
+
+TEST(Run, TheStartAloneIsNoMeasuredError) {
+  Scenario scenario = scenarioOf("Auto");
+  scenario.frame_interval = 1000.0;
+  test::ProgramRun run(scenario, horizontal(0.0));
+  run.advance();
+  run.advance();
+  EXPECT_TRUE(std::isnan(run.positionError().largest) && std::isnan(run.positionError().bound));
+  EXPECT_THAT(run.measurements(), HasSubstr("position error not measured"));
+}
+
+TEST(Run, NamesAFreeParticleThatDiverged) {
+  Scenario scenario = scenarioOf("Runge-Kutta-2");
+  scenario.time_step = 0.08;
+  test::Scene scene = test::horizontalChain("row", 6, 1.0, {50.0, 0.0, 1.0}, 0.0);
+  Eigen::VectorXd masses = scene.chain.masses();
+  masses[1] = 1000.0;
+  scene.chain = Chain(masses, scene.chain.spring(), 0.0);
+  scene.start.vy()[1] = 20.0;
+  test::ProgramRun run(scenario, scene);
+  run.advance();
+  run.change(scenario, run.chain().constants(), {{{1, {}}}, {}}, run.state());
+  run.advanceTo(100.0);
+  EXPECT_GT(run.verdict().particle, 2) << run.verdict().text;
 }
 
 // After changes at other times, the mean energy really is too large.
@@ -260,21 +311,16 @@ TEST(Run, SaysTheSameForEveryNumberOfPartsOfAFrame) {
     scenario.time_step = 1.0 / 1024.0;
     scenario.steps_per_frame = 1024;
     std::vector<std::string> said;
-    std::vector<PositionError> errors;
     for (const int parts : {1, 2, 4, 64}) {
       test::ProgramRun run(scenario, scene, {false, 1.0 / parts, [] { return false; }});
       while (run.advancePart()) continue;
       ASSERT_EQ(run.frame(), 12);
-      said.push_back(run.measurements() + run.verdict().text + run.toleranceRemark());
-      errors.push_back(run.positionError());
+      const auto& [now, uncertainty, most, time, bound, until] = run.positionError();
+      said.push_back(run.measurements() + run.verdict().text + run.toleranceRemark() +
+                     testing::PrintToString(std::vector{most, bound, until}));
       kinds.insert(run.verdict().kind);
     }
-    for (std::size_t i = 1; i < errors.size(); ++i) {
-      EXPECT_EQ(said[i], said[0]) << scene.name;
-      EXPECT_EQ(errors[i].largest, errors[0].largest);
-      EXPECT_EQ(errors[i].bound, errors[0].bound);
-      EXPECT_EQ(errors[i].measured_until, errors[0].measured_until);
-    }
+    for (const std::string& other : said) EXPECT_EQ(other, said[0]) << scene.name;
   }
   EXPECT_TRUE(kinds.count(VerdictKind::kSensitive) == 1 && kinds.count(VerdictKind::kOk) == 1);
 }

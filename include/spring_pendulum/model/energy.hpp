@@ -25,6 +25,7 @@ struct EnergyEntry {
   Energy energy;                     ///< not finite if the state is not
   double supplied = 0.0;             ///< S(t)
   double gain = 0.0;                 ///< E(t) - E(0) - S(t)
+  double scale = 0.0;                ///< energy scale of the run so far
   double relative_gain = 0.0;        ///< gain / scale
   std::optional<double> dissipated;  ///< nothing if not tracked
   std::optional<double> residual;    ///< E(t) + D(t) - E(0) - S(t)

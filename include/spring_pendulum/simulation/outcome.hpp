@@ -54,12 +54,10 @@ struct StabilityReport {
 
 /// Returns a step size in s at which the linearised chain is stable with a margin, whatever its shape;
 /// infinite without springs and for error-controlled methods, 0 if none is known. O(N).
-/// \param duration of the run, s. The energy of a mode may grow during the run by as much as a verdict
-///   allows.
+/// \param duration of the run, s, in which the energy of a mode may grow by as much as a verdict allows
 double linearStepLimit(const Method& method, const Chain& chain, double duration);
 
-/// Returns the largest stable step size of a run, from a few trial runs. `Plan::time_step` determines the
-/// duration, and if it is not stable, the result is smaller.
+/// Returns the largest stable step size of a run, from trial runs as long as that with `Plan::time_step`.
 /// \param stop asked during the trials; when it returns true, the result is not valid
 /// \throws InputError for a value of the plan out of its range, as the functions below
 StableStep largestStableStep(const Chain& chain, const State& start, const Plan& plan,
@@ -69,8 +67,7 @@ StableStep largestStableStep(const Chain& chain, const State& start, const Plan&
 StabilityReport checkStability(const Chain& chain, const State& start, const Plan& plan,
                                const std::function<bool()>& stop = {});
 
-/// Returns one line if the time step is clearly above the stability limit of the method, whatever the
-/// positions of the particles; else an empty string. O(N) if it is empty.
+/// Returns one line if the time step is clearly above the method's stability limit, else an empty string.
 std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan);
 
 /// Returns one line with a remedy for a motion that diverged; empty if it was stopped.

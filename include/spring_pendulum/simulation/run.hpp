@@ -29,8 +29,7 @@ class Judge;
 class ReferenceRun;
 
 struct RunOptions {
-  /// Integrate the dissipated energy whatever it costs. Without this, a run does it if that takes at
-  /// most about 50 ms or 10 % of the run.
+  /// Integrate the dissipated energy even if that takes more than about 50 ms and 10 % of the run.
   bool track_dissipation = false;
   /// Simulated time in s between the states at which `advancePart` stops; 0: only at frames. A frame
   /// of n steps is divided into parts of whole steps, or into 2^q output intervals of an
@@ -94,8 +93,7 @@ class Run {
   /// That of the plan's method; `change` replaces it.
   const Integrator& integrator() const { return *integrator_; }
   const State& start() const { return start_; }
-  /// The frame of the start: 0, or that of the saved state from which the run goes on. Energies,
-  /// errors and verdicts are relative to the start.
+  /// The frame of the start, to which energies and errors are relative: 0, or that of the saved state.
   std::int64_t firstFrame() const { return first_frame_; }
   const State& state() const { return state_; }
   /// The last frame that was reached, counted from 0.
@@ -131,8 +129,7 @@ class Run {
   std::string closingLine(const std::string& output = "") const;
   /// What was measured: "largest position error 0.00024 m at t = 9.8 s, energy balance not checked".
   std::string measurements() const;
-  /// A line if the position error of an error-controlled method exceeds ten tolerances or cannot be
-  /// known to that; else empty.
+  /// A line if the position error of an error-controlled method may exceed ten tolerances; else empty.
   std::string toleranceRemark() const;
 
  private:

@@ -1,5 +1,4 @@
-// What a user asks of a program that simulates: a plan, constants, and the names of files. The
-// initialisers are the defaults, and their only definition.
+// What a user asks of a program: a plan, constants and names of files. The initialisers are the defaults.
 #pragma once
 
 #include <spring_pendulum/model/scene.hpp>
@@ -27,20 +26,17 @@ struct Scenario : Plan {
   std::string save_state = {};             ///< file for the state at the last frame; empty: none
 };
 
-/// Returns the table of the options of a run, bound to `scenario`, in the order of the help text. The
-/// current values are shown as defaults.
+/// Returns the options of a run in the order of the help text, bound to `scenario`, which has the defaults.
 std::vector<Option> scenarioOptions(Scenario& scenario);
 
-/// Makes a scenario from pairs of key and value.
-/// \param options later pairs override earlier ones
+/// Makes a scenario from pairs of key and value; later pairs override earlier ones.
 /// \param scenario values of the options that are not given
 /// \throws InputError naming the option and its range for a wrong value, an unknown key (with the
 ///   nearest known one), an option that the method does not use, or options that contradict each other
 Scenario makeScenario(const std::vector<std::pair<std::string, std::string>>& options,
                       Scenario scenario = {});
 
-/// Makes the scene of a scenario from particles of any origin: a file, an array, random numbers. Every
-/// program makes its scenes with this function.
+/// Makes the scene of a scenario from particles of any origin. Every program makes its scenes with it.
 /// \throws InputError if a chain that starts at rest has no such start
 Scene makeScene(const Scenario& scenario, Scene particles);
 

@@ -51,8 +51,7 @@ double growthFromLimits(const Method& method, double swing, double decay) {
   return std::log(std::abs(1.0 + e) + std::sqrt(discriminant));
 }
 
-/// Returns the largest step size in s for a mode with k = frequency² and c = damping. Its energy may
-/// grow during the run by as much as a verdict allows.
+/// Returns the largest step size in s for a mode with k = frequency² and c = damping; see the header.
 double stepForMode(const Method& method, double frequency, double damping, double duration) {
   constexpr double kMostSteps = 1e12;  // rounding errors of ln |R| add up
   const double rate = std::max(frequency, damping);

@@ -3,8 +3,7 @@
 // Every mode of the chain obeys q'' + c q' + k q = 0. One step of size h multiplies the mode by the
 // stability function R(hλ) of the method, where λ² + c λ + k = 0.
 //
-// Reference: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer
-// 1996, section IV.2.
+// Reference: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., 1996, section IV.2.
 #pragma once
 
 #include <spring_pendulum/integration/method_table.hpp>

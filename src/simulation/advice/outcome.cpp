@@ -107,8 +107,7 @@ class Trials {
     return trial ? std::optional(trial->verdict) : std::nullopt;
   }
 
-  /// Searches from `first` for the largest step size up to `most` whose verdict is better than `bad`, while
-  /// one at most 2 % larger is bad.
+  /// Searches from `first` up to `most` for the largest step, within 2 %, with a better verdict than `bad`.
   /// \param failed a step size known to be bad
   /// \returns three digits; infinity for `most`, 0 if no run can be tried, NaN if no reference run can
   double largestStep(double first, double most, VerdictKind bad, double failed = kInfinity) {

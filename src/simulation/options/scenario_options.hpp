@@ -52,8 +52,7 @@ void checkScenario(const Scenario& scenario);
 /// \throws InputError if it is not one of the frames of the plan
 void checkFirstFrame(const Plan& plan, std::int64_t frame);
 
-/// Returns the given options that the method does not use: options for error-controlled methods if
-/// the method has a fixed step, and the reverse.
+/// Returns the given options that the method does not use: those for error control, or for fixed steps.
 std::vector<std::string_view> unusedKeys(const Plan& plan, const OptionSet& options);
 
 /// Returns why a method does not use such an option, and the options to use instead: "Auto chooses its
