@@ -21,6 +21,19 @@ bool cleansUp(const std::string& call) {
   return call == "unlinkat" || call == "fstatat" || call == "fstat";
 }
 
+/// A run with a fault at one of its calls.
+/// \returns the name of the call; empty if there are not as many
+std::string disturb(Command command, int call, const std::string& kind, Result& result) {
+  const TemporaryFolder outside;
+  command.environment = {{"LD_PRELOAD", FAULT_INJECTION},
+                         {"FAULT_FOLDER", command.folder},
+                         {"FAULT_CALL", std::to_string(call)},
+                         {"FAULT_KIND", kind},
+                         {"FAULT_REPORT", outside.path("call")}};
+  result = run(command);
+  return readFile(outside.path("call"));
+}
+
 class FaultInjection : public testing::TestWithParam<std::string> {
  protected:
   /// What a run finds: frames and an energy file of an earlier run, and a file of a killed one.
@@ -47,20 +60,6 @@ class FaultInjection : public testing::TestWithParam<std::string> {
     EXPECT_EQ(run(command(folder)).status, 0);
     finished_ = filesIn(folder.path());
     EXPECT_EQ(finished_.size(), 6U);
-  }
-
-  /// A run with a fault at one of its calls.
-  /// \returns the name of the call; empty if there are not as many
-  static std::string disturb(const TemporaryFolder& folder, int call, Result& result) {
-    const TemporaryFolder outside;
-    Command disturbed = command(folder);
-    disturbed.environment = {{"LD_PRELOAD", FAULT_INJECTION},
-                             {"FAULT_FOLDER", folder.path()},
-                             {"FAULT_CALL", std::to_string(call)},
-                             {"FAULT_KIND", GetParam()},
-                             {"FAULT_REPORT", outside.path("call")}};
-    result = run(disturbed);
-    return readFile(outside.path("call"));
   }
 
   void expectNothingLost(const Files& files, const std::string& call) const {
@@ -103,7 +102,7 @@ TEST_P(FaultInjection, AtEveryCall) {
     const TemporaryFolder folder;
     fill(folder);
     Result result;
-    const std::string call = disturb(folder, count + 1, result);
+    const std::string call = disturb(command(folder), count + 1, GetParam(), result);
     if (call.empty()) break;
     SCOPED_TRACE(call + ", call " + std::to_string(count + 1) + ": " + result.errors);
     const Files files = filesIn(folder.path());
@@ -130,6 +129,20 @@ TEST_P(FaultInjection, AtEveryCall) {
 INSTANTIATE_TEST_SUITE_P(Kinds, FaultInjection,
                          testing::Values("fail", "broken", "kill", "short", "again"),
                          [](const auto& kind) { return kind.param; });
+
+TEST(FaultsOfAResumedRun, KeepTheEnergiesOfTheFirstPart) {
+  std::string name = "first";
+  for (int call = 1; !name.empty(); ++call) {
+    const TemporaryFolder folder;
+    folder.write("s.txt", "# state of 2 particles at frame 1, t = 0.1 s\n0 0 1 0 0\n1 0 1 0 0\n");
+    folder.write("e.csv", "frame\n0,first part\n");
+    const Command command =
+        exercise3(folder, wordsOf("Euler s.txt --resume --frames 3 --no-frames --energy e.csv"));
+    Result result;
+    name = disturb(command, call, "fail", result);
+    EXPECT_THAT(readFile(folder.path("e.csv")), testing::HasSubstr("\n0,first part\n")) << name;
+  }
+}
 
 /// Makes the files of a program that cannot create a thread; 0: it can create all.
 Files filesWithout(int thread, const std::string& kind, std::vector<std::string> program) {

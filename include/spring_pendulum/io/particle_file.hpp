@@ -1,5 +1,4 @@
-// Particle files: the initial positions, the masses and, optionally, the initial velocities of the
-// particles.
+// Particle files: the initial positions, masses and, optionally, initial velocities of the particles.
 //
 // A line `x y m` (m, m, kg) or `x y m vx vy` (velocities in m/s) for each particle, in the order of
 // the chain. All lines have velocities or none. The first particle is fixed; its mass and its

@@ -33,10 +33,8 @@ struct FrameText {
   std::string text;
 };
 
-/// Returns the files frame_NNNN.txt of a folder, with any number of digits, by index, whoever wrote
-/// them.
-/// \throws FileError naming folder or file if it can't be read, if there are no frames, or if they
-///   are too long to be compared
+/// Returns the files frame_NNNN.txt of a folder, with any number of digits, by index.
+/// \throws FileError naming folder or file if it can't be read, or if there are no frames or too long ones
 std::vector<FrameText> readFrameFolder(const std::string& folder);
 
 }  // namespace spring_pendulum

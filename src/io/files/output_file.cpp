@@ -178,6 +178,11 @@ bool OutputFile::copyEarlier() {
   return !error;
 }
 
+std::string OutputFile::earlierText() const {
+  const bool is_missing = ::access(target_.c_str(), F_OK) != 0 && errno == ENOENT;
+  return is_missing ? "" : readTextFile(target_);
+}
+
 std::string OutputFile::unfinishedPath() {
   flush();
   return fmt::format("/proc/self/fd/{}", file_.descriptor());

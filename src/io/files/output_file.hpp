@@ -76,8 +76,7 @@ class OutputFile {
  public:
   /// \param path checked with `checkTouchedFiles`
   /// \throws InputError if the path is that of a frame file
-  /// \throws FileError if it is a folder, a pipe or a device, if it can't be written, or if another
-  ///         run is writing it
+  /// \throws FileError if it is no regular file, can't be written, or another run is writing it
   explicit OutputFile(const std::string& path);
 
   /// Appends text, buffered.
@@ -87,6 +86,8 @@ class OutputFile {
   /// \returns whether there is an earlier file
   /// \throws FileError naming the file
   bool copyEarlier();
+  /// Returns the text of an earlier file; empty: there is none. Throws as `readTextFile`.
+  std::string earlierText() const;
   /// Returns a path by which another program or library can open the unfinished file.
   std::string unfinishedPath();
   /// Returns the size of the unfinished file, bytes.

@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <system_error>
 
 namespace spring_pendulum {
@@ -27,7 +27,7 @@ void beginEnergies(OutputFile& file, std::int64_t first) {
   file.write(
       "frame,time [s],kinetic [J],gravity [J],spring [J],total [J],dissipated [J],residual [J],"
       "residual/scale [1],position error [m]\n");
-  std::ifstream earlier(first > 0 ? file.path() : "");
+  std::istringstream earlier(first > 0 ? file.earlierText() : "");
   for (std::string row; std::getline(earlier, row);) {
     const auto frame = parseInteger(row.substr(0, row.find(',')));
     if (frame.value_or(first) < first) file.write(row + '\n');

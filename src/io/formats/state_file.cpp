@@ -10,8 +10,8 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 namespace spring_pendulum {
@@ -100,7 +100,7 @@ void writeState(OutputFile& file, const AlignedNumbers::ConstView& masses, const
 void writeStateFile(const std::string& path, const Chain& chain, const State& state,
                     std::int64_t frame, double time) {
   OutputFile file(path);
-  std::ifstream earlier(path);
+  std::istringstream earlier(file.earlierText());
   std::string line;
   if (std::getline(earlier, line) && !parseHead(line))
     throw InputError(fullPath(path) + ": is not a state but another file; give another name");

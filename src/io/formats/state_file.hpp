@@ -1,5 +1,4 @@
-// State files: particle files with velocities whose first line names a frame and its time, so that a
-// run can go on from there.
+// State files: particle files with velocities whose first line names the frame and time to go on from.
 //
 //     # state of 11 particles at frame 250, t = 25 s
 //     # x [m]  y [m]  mass [kg]  vx [m/s]  vy [m/s]

@@ -20,8 +20,7 @@ std::string placeOf(std::string_view name, const YAML::Mark& mark) {
   return mark.is_null() ? std::string(name) : fmt::format("{}:{}", name, mark.line + 1);
 }
 
-/// Builds the tree from the events of yaml-cpp's parser. YAML::LoadAll does not return for some broken
-/// files.
+/// Builds the tree from the events of yaml-cpp's parser. YAML::LoadAll hangs on some broken files.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(std::string_view name, YamlTree& root) : name_(name), root_(root) {}

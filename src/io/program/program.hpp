@@ -41,8 +41,7 @@ void printError(std::string_view text) noexcept;
 
 /// From this call on, the first SIGINT, SIGTERM or SIGHUP is only recorded, so that it ends a run between
 /// two steps. One that follows within half a second is the same again: `timeout` and a closing terminal
-/// signal a process twice. A later one ends the program. A signal that is ignored, as under nohup, stays
-/// ignored.
+/// signal a process twice. A later one ends the program. An ignored signal, as under nohup, stays so.
 /// \param also called in the signal handler, so it must be async-signal-safe; null: nothing
 void catchInterruptions(void (*also)() = nullptr);
 
