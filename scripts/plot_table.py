@@ -193,7 +193,7 @@ def draw(table, options):
         rows = [row for row in table.rows if panel is None or row[options.panels] == panel]
         if 'x' in options.log:
             axes.set_xscale('log')
-        if 'y' in options.log and options.type != 'histogram':
+        if 'y' in options.log:
             axes.set_yscale('log')
         {'lines': draw_lines, 'map': draw_map, 'histogram': draw_histogram}[options.type](axes, rows, table, options)
         axes.set(xlabel=table.title(options.x), ylabel=table.title(options.y) if options.y else 'cases',
@@ -218,14 +218,18 @@ def draw(table, options):
 def save(figure, picture):
     # Whole or absent, as all outputs, and where a link leads to.
     picture = os.path.realpath(picture)
-    unfinished = picture + '.unfinished'
+    unfinished = os.path.join(os.path.dirname(picture), '.plot.%d.tmp' % os.getpid())
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGHUP, signal.SIGINT, signal.SIGTERM])  # until this program ends
     try:
-        figure.savefig(unfinished, format='png', dpi=100)
-        os.replace(unfinished, picture)
+        with open(unfinished, 'xb') as file:  # takes no file that is there
+            try:
+                figure.savefig(file, format='png', dpi=100)
+                file.flush()
+                os.replace(unfinished, picture)
+            except OSError:
+                os.remove(unfinished)
+                raise
     except OSError as error:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
         sys.exit('%s: could not be drawn: %s' % (picture, error.strerror))
 
 
@@ -234,6 +238,12 @@ def draw_table(options):
     for key in {'lines': ['x', 'y'], 'map': ['x', 'y', 'color'], 'histogram': ['x']}[options.type]:
         if not getattr(options, key):
             refuse('%s needs %s' % (options.type, key))
+    unused = {'lines': 'color limit', 'map': 'lines', 'histogram': 'y color lines limit'}[options.type].split()
+    for key in unused:
+        if getattr(options, key):
+            refuse('%s: a %s does not use it' % (key, {'lines': 'plot of lines'}.get(options.type, options.type)))
+    if options.type == 'histogram' and 'y' in options.log:
+        refuse('log: a histogram has x only')
     for key in ('x', 'y', 'color', 'lines', 'panels', 'limit'):
         if getattr(options, key) not in ('', *table.titles):
             refuse("%s: unknown axis or column '%s'; known are %s"
@@ -267,6 +277,8 @@ def main():
         refuse("the name of the picture must end in .png, got '%s'" % options.picture)
     if os.path.exists(options.picture) and not (os.path.isfile(options.picture) and os.access(options.picture, os.W_OK)):
         refuse('%s: is no regular file, or one without write permission' % options.picture, 1)
+    if os.path.exists(options.picture) and os.path.samefile(options.table, options.picture):
+        refuse('%s: is the table' % options.picture)
     warnings.simplefilter('ignore')  # of matplotlib, about what a picture cannot show
     try:
         draw_table(options)

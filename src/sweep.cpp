@@ -125,7 +125,7 @@ std::string word(const std::string& text) {
 std::string commandLine(const Scenario& scenario) {
   Scenario copy = scenario, defaults;
   const std::vector<Option> options = scenarioOptions(copy), by_default = scenarioOptions(defaults);
-  const std::string here = scenario.particles.compare(0, 1, "-") == 0 ? "./" : "";
+  const std::string here = scenario.particles.find_first_of("/.") == 0 ? "" : "./";  // no METHOD
   std::string text =
       fmt::format("Exercise3 {} {}", scenario.method.get().name, word(here + scenario.particles));
   for (std::size_t i = 0; i < options.size(); ++i) {
@@ -173,7 +173,8 @@ Study readCheckedStudy(const CommandLine& line) {
     files.frame_folder = output;
     files.outputs = {particlesPath(output, line.only_case)};
   }
-  if (line.sweep.plot) files.outputs.push_back(picturePath(output));
+  for (const std::string& shard : {std::string(), fmt::format(".{}", line.sweep.shard)})
+    if (line.sweep.plot) files.outputs.push_back(picturePath(output) + shard);
   checkTouchedFiles(files);
   if (!line.sweep.plot || !study.plot.empty()) return study;
   throw InputError("--plot: the study has no entry plot");

@@ -37,8 +37,7 @@ std::string rowStart(const Study& study, std::int64_t index);
 std::optional<std::string> runCase(const Study& study, const Case& a_case,
                                    const std::function<bool()>& stop);
 
-/// Draws a table with the script plot_table.py, which lies beside the program. It gets the plot entries as
-/// arguments: no text of a study is ever a command.
+/// Draws a table with plot_table.py, beside the program. No text of a study is ever a command.
 /// \param only_try find out whether the table, which may lack columns, can be drawn
 /// \returns the exit status of the script, which prints what is wrong
 /// \throws FileError if there is no Python

@@ -324,6 +324,7 @@ TEST_F(Sweep, FindsOutBeforeTheFirstCaseWhatItCannotDraw) {
        "several rows have stiffness = 1 and damping = 0; draw them in panels or leave some out"},
       {"gravity: [9.81]", map,
        "damping = 0 cannot be on a logarithmic axis; leave out log or this value"},
+      {"gravity: [9.81]", "histogram, lines: damping", "lines: a histogram does not use it"},
       {"gravity: [9.81]", "lines, y: verdict", "only numbers can be drawn, got 'ok'"}};
   for (const auto& [axis, plot, message] : bad) {
     folder_.write("study.yaml", fmt::format("base: {{particles: chain.txt, frames: 2}}\n"

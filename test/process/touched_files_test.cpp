@@ -141,8 +141,9 @@ TEST_F(TouchedFiles, OfSweepAreNoInputs) {
   const std::map<std::string, std::string> inputs{{"in.txt", kTwoParticles}, {"study.yaml", study}};
   checkAgainstInputs({{SWEEP, "study.yaml"}, inputs, {"--output", kStandardOutput}});
   checkAgainstInputs({{SWEEP, "study.yaml", "--case", "0"}, inputs, {"--output"}});
-  for (const char* place : {"e.png", "e.csv"})
-    check({{SWEEP, "study.yaml", "--plot"}, inputs, {}}, "in.txt", place, {{"--output", "e.csv"}});
+  for (const char* place : {"e.png", "e.csv", ".e.png.1.tmp", "e.png.unfinished"})
+    check({{SWEEP, "study.yaml", "--plot", "--shard", "1/1"}, inputs, {}}, "in.txt", place,
+          {{"--output", "e.csv"}});
   expectBoth(50);
 }
 

@@ -96,11 +96,13 @@ class Tables(unittest.TestCase):
                              (b'case,x,y,y\n0,1,1,1\n', 'two columns have the same name'),
                              (b'case,x,y\n\xff,1,1\n', "can't decode byte"), (None, 'No such file or directory'),
                              (b'case,x,y\n0,1,1e308\n1,1,-1e308\n', 'cannot draw'),
-                             (b'case,x,y\n0,2,1\n1,0,1\n', 'x = 0 cannot be on a logarithmic axis')):
+                             (b'case,x,y\n0,2,1\n1,0,1\n', 'x = 0 cannot be on a logarithmic axis'),
+                             (b'self', 'a.png: is the table')):
             with tempfile.TemporaryDirectory() as folder:
+                name = 'a.png' if text == b'self' else 'a.csv'
                 if text is not None:
-                    pathlib.Path(folder, 'a.csv').write_bytes(text)
-                arguments = 'a.csv a.%s --type map --x x --y y --color y --log x' % ('csv' if text == b'png' else 'png')
+                    pathlib.Path(folder, name).write_bytes(text)
+                arguments = '%s a.%s --type map --x x --y y --color y --log x' % (name, 'csv' if text == b'png' else 'png')
                 done = subprocess.run([plot_table.__file__, *arguments.split()], cwd=folder, capture_output=True, text=True)
             self.assertRegex(done.stderr, r'^plot: .*%s.*\n$' % reason)
             self.assertEqual(done.returncode, 2 if text is not None else 1)
