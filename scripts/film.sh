@@ -89,7 +89,10 @@ trap clean_up EXIT
 # Puts the film in its place, whole, and leaves an earlier one there if that fails.
 finish() {
   [ -s "$made" ] || die "nothing was filmed"
-  cp -- "$made" "$out.unfinished" && mv -f -- "$out.unfinished" "$out" || { rm -f -- "$out.unfinished"; die "'$out' could not be written"; }
+  local beside
+  beside=$(mktemp -d -- "$(dirname -- "$out")/.film.XXXXXX") || die "'$out' could not be written"
+  cp -- "$made" "$beside/film" && mv -f -- "$beside/film" "$out" || { rm -rf -- "$beside"; die "'$out' could not be written"; }
+  rmdir -- "$beside"
   say "$out: $(stat -c %s "$out") bytes"
 }
 # A background job of a script ignores SIGINT; setsid and env start it with the default.

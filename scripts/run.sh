@@ -5,6 +5,7 @@
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
+began=$(date +%s.%N)
 method=Runge-Kutta-4
 if [ $# -gt 0 ] && [[ $1 != -* ]]; then method=$1; shift; fi
 
@@ -68,11 +69,15 @@ if ! $has_state; then
   simulate+=(--save-state "$state")
 fi
 "${simulate[@]}"
-if compgen -G "$output/frame_*.txt" > /dev/null; then say "frames: in $output"; fi
+# Frames of an earlier run may lie there if this one writes none.
+frames=$(find "$output" -maxdepth 1 -name 'frame_*.txt' -newermt "@$began" -print -quit 2> /dev/null) || true
+[ -z "$frames" ] || say "frames: in $output"
 
 interval=$(sed -En 's/^# state of .* at frame ([0-9]+), t = (.+) s$/\1 \2/p' "${state:-/dev/null}" | awk '$1 > 0 { printf "%.9g", $2 / $1 }')
 $has_state || rm -f "$state"
-if [ -e "$output/frame_0000.txt" ]; then
+if [ -z "$frames" ]; then
+  say "no animation: this run wrote no frames"
+elif [ -e "$output/frame_0000.txt" ]; then
   (cd "$output" &&
     gnuplot -e "frame_interval = ${interval:-0.1}; load '${project//\'/\'\'}/data/animate_pendulum.plt'" 2> /dev/null)
   say "animation: $output/pendulum.gif"

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace spring_pendulum {
@@ -41,16 +42,9 @@ double largest(const std::vector<double>& values) {
   return result;
 }
 
-/// How far Euler's energy rises above its start within the 500 frames.
-struct EulerGain {
-  const char* scene;
-  double least;  ///< J
-  double most;   ///< J
-};
-
-constexpr double kExploded = 1e20;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr EulerGain kEulerGains[] = {
+constexpr double kExploded = 1e20, kInfinity = std::numeric_limits<double>::infinity();
+/// How far Euler's energy rises above its start within the 500 frames, J: at least and at most.
+constexpr std::tuple<const char*, double, double> kEulerGains[] = {
     {"particle.txt", 20.0, 21.5},  // measured 20.74
     {"horizontal_11.txt", kExploded, kInfinity},
     {"one_spring.txt", 0.005, 0.0065},        // 0.00586
@@ -62,25 +56,18 @@ constexpr EulerGain kEulerGains[] = {
 };
 
 TEST(DataScenes, EulerGainsEnergyOnEachOfThem) {
-  for (const EulerGain& row : kEulerGains) {
-    const double gain = largest(energyGains(row.scene, "Euler"));
-    EXPECT_GE(gain, row.least) << row.scene;
-    EXPECT_LE(gain, row.most) << row.scene;
+  for (const auto& [scene, least, most] : kEulerGains) {
+    const double gain = largest(energyGains(scene, "Euler"));
+    EXPECT_TRUE(least <= gain && gain <= most) << scene << " " << gain;
   }
 }
 
 TEST(DataScenes, TheOtherMethodsOfTheExerciseNeverGainEnergy) {
-  for (const EulerGain& row : kEulerGains)
+  for (const auto& [scene, least, most] : kEulerGains)
     for (const char* method : {"Runge-Kutta-2", "Runge-Kutta-4"}) {
-      const std::vector<double> gains = energyGains(row.scene, method);
-      EXPECT_LE(largest(gains), 0.0) << row.scene << " " << method;
-      EXPECT_LT(gains.back(), 0.0) << row.scene << " " << method;
+      const std::vector<double> gains = energyGains(scene, method);
+      EXPECT_TRUE(largest(gains) <= 0.0 && gains.back() < 0.0) << scene << " " << method;
     }
-}
-
-TEST(DataScenes, EulerExplodesOnTheElevenParticlesOnlyAfterTwentySeconds) {
-  const std::vector<double> gains = energyGains("horizontal_11.txt", "Euler");
-  EXPECT_LT(*std::max_element(gains.begin(), gains.begin() + 200), 3000.0);  // J, 2234 measured
 }
 
 TEST(DataScenes, NoneIsMissingAbove) {

@@ -19,6 +19,8 @@ check test "$(grep -v '^-- ' run.log)" = "--output: must be a folder, got ''"
 run Runge-Kutta-2 --frames 5 --steps-per-frame 5 --damping=0 --output frames --gravity -9 || { cat run.log; exit 1; }
 check env LC_ALL=C grep -qaP '\x21\xf9\x04.\x05\x00' frames/pendulum.gif  # 0.05 s per picture
 check test -s frames/pendulum.bag
+cp run.log first.log; echo 'no_frames: true' > none.yaml; run Euler --frames 5 --output frames --config none.yaml || exit 1
+check grep -q 'this run wrote no frames' run.log; mv first.log run.log
 sed -n 's/^  source /source /p' run.log | head -n 1 > setup.sh
 sed -n 's/^  rosrun /rosrun /p' run.log > node.sh
 sed -n 's/^  roslaunch /roslaunch /p' run.log > launch.sh

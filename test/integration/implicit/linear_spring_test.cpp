@@ -36,10 +36,8 @@ double errorOfForce(const SpringLaw& law) {
 }
 
 TEST(LinearSpring, AgreesWithFiniteDifferences) {
-  EXPECT_LT(errorOfForce(SpringLaw{}), 1e-9);                 // 1.0e-10
-  EXPECT_LT(errorOfForce(SpringLaw{2e3, 30.0, 0.4}), 1e-9);   // 1.1e-10
-  EXPECT_LT(errorOfForce(SpringLaw{50.0, 0.0, 1.0}), 1e-9);   // undamped
-  EXPECT_LT(errorOfForce(SpringLaw{50.0, 10.0, 0.0}), 1e-9);  // no rest length
+  for (const SpringLaw& law : {SpringLaw{}, {2e3, 30.0, 0.4}, {50.0, 0.0, 1.0}, {50.0, 10.0, 0.0}})
+    EXPECT_LT(errorOfForce(law), 1e-9);  // 1.1e-10
 }
 
 }  // namespace
