@@ -89,8 +89,8 @@ class Judge {
   Energy energyOf(const State& state) const;
   void measureChain(const State& state, double energy, double time);
   void measure(const State& state, const ReferenceRun* reference);
-  /// Returns how the energy oscillates with a symplectic method, J: by h/2 dU/dt with Semi-Implicit-Euler, and
-  /// to third order by -h²/16 d²U/dt² with Velocity-Verlet, for a linear chain with potential energy U.
+  /// Returns the energy minus the modified one, J, which a symplectic method conserves if the chain is linear:
+  /// with the forces f of springs and gravity, -h/2 f·v (Semi-Implicit-Euler) or h²/8 f²/m (Velocity-Verlet).
   double oscillationOf(const State& state) const;
   Verdict energyVerdict(double time, const State& state, double supplied);
   Verdict positionVerdict(const ReferenceRun* reference) const;
@@ -104,6 +104,7 @@ class Judge {
   double fall_ = 0.0, fall_time_ = 0.0;  ///< J/s² since this time, s
   double pulled_depth_ = 0.0;            ///< by which forces lower the energy at rest, J
   double largest_scale_ = 0.0;           ///< at which the chain has moved, J
+  double oscillation_;                   ///< at the start, J, and its changes since then
   double mean_time_;                     ///< since when the mean is judged, s
   Eigen::Array4d sums_{0, 0, 0, 0};  ///< since then: relative gain, residual, error, one each frame
   double dissipated_error_ = 0.0;    ///< J, when it was measured last

@@ -93,23 +93,24 @@ TEST(Run, JudgesAFallThatStartsWithoutAnyEnergyOfItsOwn) {
             VerdictKind::kInaccurate);
 }
 
-// Frames meet the oscillation of the energy in a few phases only. Its mean differs by 0.2 % and -12.5 %.
-TEST(Run, TheMeanEnergyOfVelocityVerletDoesNotDependOnTheFrames) {
-  Scenario scenario = scenarioOf("Velocity-Verlet");
+// Frames meet the oscillation of the energy in a few phases only, but the modified energy is constant.
+TEST(Run, TheModifiedEnergyOfALinearChainIsConserved) {
   test::Scene scene = test::horizontalChain("spring", 2, 1.0, {50.0, 0.0, 1.0}, 0.0);
-  for (const auto& [rate, start, speed, kind] :
-       {std::tuple{0.6, 0.002828427, 0.02, VerdictKind::kInaccurate},
-        {1.0, 0.004, 0.0, VerdictKind::kDrift}})
-    for (const int steps : {1, 2, 5, 10, 12, 25}) {
-      scenario.time_step = rate / std::sqrt(50.0);
-      scenario.steps_per_frame = steps;
-      scene.start.x()[1] = 1.0 + start;
-      scene.start.vx()[1] = speed;
-      const VerdictKind said =
-          runAfter(scenario, scene, 40 * steps * scenario.time_step).verdict().kind;
-      EXPECT_TRUE(said == kind || said < std::min(kind, VerdictKind::kDrift))
-          << rate << " " << steps;
-    }
+  for (const char* method : {"Semi-Implicit-Euler", "Velocity-Verlet"})
+    for (const auto& [rate, start, speed] :
+         {std::tuple{0.1, 0.004, 0.0}, {0.6, 0.002828427, 0.02}, {0.8, 0.004, 0.0}})
+      for (const int steps : {1, 5, 10, 25}) {
+        Scenario scenario = scenarioOf(method);
+        scenario.time_step = rate / std::sqrt(50.0);
+        scenario.steps_per_frame = steps;
+        scene.start.x()[1] = 1.0 + start;
+        scene.start.vx()[1] = speed;
+        const double time = 40 * steps * scenario.time_step;
+        test::ProgramRun run = runAfter(scenario, scene, time);
+        run.change(scenario, {{70.0, 0.0, 1.0}, 0.0}, {{{0, {0.1, 0.0}}}, {}}, run.state());
+        run.advanceTo(2.0 * time);
+        EXPECT_LE(run.verdict().kind, VerdictKind::kInaccurate) << rate << run.verdict().text;
+      }
 }
 
 TEST(Run, TheStartAloneIsNoMeasuredError) {
@@ -137,7 +138,6 @@ TEST(Run, NamesAFreeParticleThatDiverged) {
   EXPECT_GT(run.verdict().particle, 2) << run.verdict().text;
 }
 
-// After changes at other times, the mean energy really is too large.
 TEST(Run, TheMeanEnergyOfASymplecticMethodIsThatSinceTheLastChange) {
   Scenario scenario = scenarioOf("Runge-Kutta-4"), changed = scenarioOf("Semi-Implicit-Euler");
   scenario.time_step = 0.02;
@@ -153,16 +153,7 @@ TEST(Run, TheMeanEnergyOfASymplecticMethodIsThatSinceTheLastChange) {
   test::ProgramRun run = runAfter(scenario, scene, 1000.0);
   run.change(scenario, {{5e3, 0.0, 1.0}}, {}, run.state());
   run.advanceTo(1060.0);
-  EXPECT_EQ(run.verdict().kind, VerdictKind::kDrift);
-  // The same step, but another method.
-  scenario.time_step = changed.time_step = 0.03;
-  const auto six = test::horizontalChain("six", 6, 1.0, {50.0, 0.0, 1.0});
-  test::ProgramRun switched = runAfter(scenario, six, 18.0);
-  switched.change(scenario, six.chain.constants(), {{}, {{1, {1e-3, 0.0}}}}, switched.state());
-  switched.advanceTo(66.0);
-  switched.change(changed, six.chain.constants(), {}, switched.state());
-  switched.advanceTo(78.0);
-  EXPECT_EQ(switched.verdict().kind, VerdictKind::kGainedEnergy) << switched.verdict().text;
+  EXPECT_EQ(run.verdict().kind, VerdictKind::kGainedEnergy);
 }
 
 TEST(Run, AWrongDissipatedEnergyIsNoDriftAfterTheReferenceEither) {
@@ -192,23 +183,6 @@ TEST(Run, AWrongDissipatedEnergyIsNoDriftAfterTheReferenceEither) {
     EXPECT_GT(run.largestEnergyError(), 0.02);
     EXPECT_EQ(run.verdict().kind, VerdictKind::kSensitive) << run.verdict().text;
   }
-}
-
-// In most frames, the energy error is above 1 % of the scale, but it crosses 0 again and again.
-TEST(Run, TheEnergyOfASymplecticMethodIsWrongIfItsMeanIs) {
-  State start(2);
-  start.values().row(1) << 0.172, -0.323, 0.569, -0.2;
-  Scenario scenario = scenarioOf("Semi-Implicit-Euler");
-  scenario.time_step = 0.0209;
-  scenario.steps_per_frame = 1;
-  const Chain chain(Eigen::Vector2d(1.0, 0.39), {36.8, 0.2, 0.391}, 0.0);
-  EXPECT_EQ(runAfter(scenario, {"", chain, start}, 1.0).verdict().kind, VerdictKind::kDrift);
-  // Frames further apart than the oscillation, whose mean is 0.
-  scenario.time_step = 0.01;
-  scenario.steps_per_frame = 50;
-  start.values().row(1) << 1.05, 0.0, 0.0, 0.0;
-  const Chain spring(Eigen::Vector2d(1.0, 1.0), {50.0, 0.0, 1.0}, 0.0);
-  EXPECT_EQ(runAfter(scenario, {"", spring, start}, 20.0).verdict().kind, VerdictKind::kOk);
 }
 
 // A position error of 5e-6 m, far below the tolerance, holds 4 % of the energy of this scene.

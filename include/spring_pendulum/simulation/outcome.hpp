@@ -47,8 +47,7 @@ struct StabilityReport {
   std::optional<Verdict> verdict;  ///< on the trial; none: the run takes too long to be tried
   double position_error = std::numeric_limits<double>::quiet_NaN();  ///< largest of the trial, m
   StableStep stable;
-  /// Largest step size in s without a bad verdict (isBad), until the motion becomes sensitive; 0 if none
-  /// could be tried. NaN if not known, and for error-controlled methods.
+  /// Largest step size in s without a bad verdict until the motion is sensitive; 0: none found; NaN: unknown.
   double accurate_step = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -13,14 +13,12 @@ namespace spring_pendulum {
 
 /// Returns ln |R|, the growth of a mode in one step: above 0 if the method is unstable.
 ///
-/// Exact for explicit Runge-Kutta methods, Taylor series and the symplectic methods. A method that is
-/// stable everywhere is taken to be exact.
+/// Exact for explicit Runge-Kutta, Taylor and symplectic methods; one that is stable everywhere counts as exact.
 /// \param swing h sqrt(k)
 /// \param decay h c
 double growthPerStep(const Method& method, double swing, double decay);
 
-/// Returns the largest stable step size in s of the springs alone: of the fastest mode along the chain.
-/// \param duration of the run, s
+/// Returns the largest stable step size in s of the springs alone, in a run of `duration` s: of the fastest mode.
 double springStepLimit(const Method& method, const Chain& chain, double duration);
 
 /// Whether the oscillation of the stiffest spring alone grows by a factor of 1e8 within the run and

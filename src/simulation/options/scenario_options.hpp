@@ -41,15 +41,13 @@ class OptionSet {
   std::map<std::string_view, std::string> given_;  ///< key and place
 };
 
-/// \throws InputError if a number is out of the range of its option, the steps of the run can't be
-///   counted in 64 bits, or the run would not end at a finite time
+/// \throws InputError if a number is out of range, or the steps or the time of the run are too many
 void checkPlan(const Plan& plan);
 
 /// \throws InputError as checkPlan for all options, and if options exclude each other
 void checkScenario(const Scenario& scenario);
 
-/// Checks that a run can start at a frame.
-/// \throws InputError if it is not one of the frames of the plan
+/// \throws InputError if a run cannot start at this frame, as it is not one of the plan
 void checkFirstFrame(const Plan& plan, std::int64_t frame);
 
 /// Returns the given options that the method does not use: those for error control, or for fixed steps.
