@@ -16,6 +16,7 @@ import math
 import os
 import statistics
 import sys
+import tempfile
 import warnings
 
 from method_styles import METHODS
@@ -218,15 +219,17 @@ def draw(table, options):
 def save(figure, picture):
     # Whole or absent, as all outputs, and where a link leads to.
     picture = os.path.realpath(picture)
-    unfinished = os.path.join(os.path.dirname(picture), '.plot.%d.tmp' % os.getpid())
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGHUP, signal.SIGINT, signal.SIGTERM])  # until this program ends
     try:
-        with open(unfinished, 'xb') as file:  # takes no file that is there
+        handle, unfinished = tempfile.mkstemp('.tmp', '.plot.', os.path.dirname(picture))
+        with open(handle, 'wb') as file:
             try:
+                os.umask(mask := os.umask(0))
+                os.fchmod(handle, 0o666 & ~mask)
                 figure.savefig(file, format='png', dpi=100)
                 file.flush()
                 os.replace(unfinished, picture)
-            except OSError:
+            except BaseException:
                 os.remove(unfinished)
                 raise
     except OSError as error:
@@ -277,7 +280,7 @@ def main():
         refuse("the name of the picture must end in .png, got '%s'" % options.picture)
     if os.path.exists(options.picture) and not (os.path.isfile(options.picture) and os.access(options.picture, os.W_OK)):
         refuse('%s: is no regular file, or one without write permission' % options.picture, 1)
-    if os.path.exists(options.picture) and os.path.samefile(options.table, options.picture):
+    if os.path.exists(options.table) and os.path.exists(options.picture) and os.path.samefile(options.table, options.picture):
         refuse('%s: is the table' % options.picture)
     warnings.simplefilter('ignore')  # of matplotlib, about what a picture cannot show
     try:

@@ -70,7 +70,7 @@ if ! $has_state; then
 fi
 "${simulate[@]}"
 # Frames of an earlier run may lie there if this one writes none.
-frames=$(find "$output" -maxdepth 1 -name 'frame_*.txt' -newermt "@$began" -print -quit 2> /dev/null) || true
+frames=$(find "$output/" -maxdepth 1 -name 'frame_*.txt' -newermt "@$began" -print -quit 2> /dev/null) || true
 [ -z "$frames" ] || say "frames: in $output"
 
 interval=$(sed -En 's/^# state of .* at frame ([0-9]+), t = (.+) s$/\1 \2/p' "${state:-/dev/null}" | awk '$1 > 0 { printf "%.9g", $2 / $1 }')

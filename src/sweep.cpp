@@ -125,9 +125,9 @@ std::string word(const std::string& text) {
 std::string commandLine(const Scenario& scenario) {
   Scenario copy = scenario, defaults;
   const std::vector<Option> options = scenarioOptions(copy), by_default = scenarioOptions(defaults);
-  const std::string here = scenario.particles.find_first_of("/.") == 0 ? "" : "./";  // no METHOD
-  std::string text =
-      fmt::format("Exercise3 {} {}", scenario.method.get().name, word(here + scenario.particles));
+  const std::string here = scenario.particles.compare(0, 1, "-") == 0 ? "./" : "";
+  std::string text = fmt::format("Exercise3 {} --particles {}", scenario.method.get().name,
+                                 word(here + scenario.particles));
   for (std::size_t i = 0; i < options.size(); ++i) {
     const Option& option = options[i];
     if (option.key == "method" || option.key == "particles") continue;

@@ -112,7 +112,7 @@ double fittedTimeStep(const Settings& settings, double time_step) {
 
 std::vector<Option> caseOptions(Settings& s) {
   std::vector<Option> options{{"duration", Number{&s.duration, Range::above(0)}, "s",
-                               "simulated time, in frames of frame_interval; 0: given by frames"},
+                               "simulated time, in frames of frame_interval; else given by frames"},
                               {"mass_factor", Number{&s.mass_factor, Range::above(0)}, "",
                                "factor for the masses of the particle file"}};
   for (const Option& option : scenarioOptions(s.scenario)) {
