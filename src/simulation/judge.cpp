@@ -232,7 +232,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   }
   const auto amount = [&](double joules, double share, std::string_view what) {
     if (options_.symplectic_step > 0.0)
-      return fmt::format("{:.3g} % of the energy scale{} on average until t = {:.6g} s",
+      return fmt::format("{:.3g} % of the scale{} on average until t = {:.6g} s (modified energy)",
                          100.0 * share, what, time);
     return fmt::format("{:.3g} J{} at t = {:.6g} s, {:.3g} % of the energy scale", joules, what,
                        time, 100.0 * share);

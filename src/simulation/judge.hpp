@@ -34,7 +34,7 @@ struct JudgeOptions {
   /// Whether the integrator has it set. If not, the residual is known only for a chain without damping.
   bool track_dissipation = false;
   /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
-  /// oscillates about its true value, so its mean error over the run so far is judged.
+  /// oscillates, so the mean error of its modified energy over the run so far is judged.
   double symplectic_step = 0.0;
   /// Tolerance in m of an error-controlled method; 0 for fixed steps. As position errors of ten tolerances
   /// are allowed, a spring may be 20 too long. That energy is no fault, even if it exceeds the scale.
