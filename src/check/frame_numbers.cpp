@@ -96,8 +96,8 @@ void noteFloats(AllFrames& all, const Eigen::ArrayX2d& start) {
   if (!starts_so && !std::all_of(all.frames.begin(), all.frames.end(), floats)) return;
   double evidence = 0.0;  // log of how many numbers with as many digits there are for each float
   for (auto& [index, numbers, units] : all.frames) {
-    const Eigen::ArrayX2d spacing =
-        numbers.unaryExpr([](double x) { return std::exp2(std::logb(x) - 23.0); });
+    const Eigen::ArrayX2d spacing = numbers.unaryExpr(
+        [](double x) { return std::isfinite(x) ? std::exp2(std::logb(x) - 23.0) : 0.0; });
     const auto changed = numbers != start && numbers.abs() < kLarge;
     evidence += changed.select((spacing / units).max(1.0).log(), 0.0).sum();
     units = units.max(spacing);  // a double program may round what it prints
