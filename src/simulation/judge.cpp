@@ -191,14 +191,15 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
 
 double Judge::oscillationOf(const State& state) const {
   const double h = options_.symplectic_step;
+  if (h == 0.0) return 0.0;
   Eigen::ArrayX2d forces = Eigen::ArrayX2d::Zero(state.size(), 2);
-  for (Eigen::Index i = 0; h > 0.0 && i + 1 < state.size(); ++i) {
+  for (Eigen::Index i = 0; i + 1 < state.size(); ++i) {
     const PlaneVector<double> d{state.x()[i + 1] - state.x()[i], state.y()[i + 1] - state.y()[i]};
     const auto [x, y] = undampedSpringForce(chain_.spring(), d, inverseLength(d));
     forces.row(i) += Eigen::Array2d(x, y).transpose();
     forces.row(i + 1) -= Eigen::Array2d(x, y).transpose();
   }
-  double sum = 0.0;  // the trapezoidal rule for the work of accelerated holders
+  double sum = 0.0;  // of the trapezoidal rule for the work of accelerated holders
   for (const auto& [i, a] : chain_.drive().held)
     sum += 0.25 * h * h * (a.x * forces(i, 0) + a.y * forces(i, 1));
   forces.col(1) -= chain_.gravity() * chain_.masses().array();
@@ -225,7 +226,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
   if (options_.symplectic_step > 0.0 && time > mean_time_) {  // at the start, the scale may be 0
     allowance += options_.symplectic_step / (time - mean_time_);
     const double now = oscillationOf(state), change = now - oscillation_;
-    // A damped chain forgets its start, so that is right for the difference from the reference run.
+    // A damped chain forgets its start, and so does its difference from the reference run.
     errors.head<3>() -= Eigen::Array3d(change, change, now) / entry_.scale;
     sums_ += errors;
     errors = sums_ / sums_[3];

@@ -33,8 +33,7 @@ namespace spring_pendulum {
 struct JudgeOptions {
   /// Whether the integrator has it set. If not, the residual is known only for a chain without damping.
   bool track_dissipation = false;
-  /// Step size in s of a symplectic method; 0 for other methods. The energy of a symplectic method
-  /// oscillates, so the mean error of its modified energy over the run so far is judged.
+  /// Step size in s of a symplectic method, whose mean modified energy is judged; 0 for other methods.
   double symplectic_step = 0.0;
   /// Tolerance in m of an error-controlled method; 0 for fixed steps. As position errors of ten tolerances
   /// are allowed, a spring may be 20 too long. That energy is no fault, even if it exceeds the scale.

@@ -1,6 +1,7 @@
 // What a run says about itself: verdict, measured errors, remarks.
 #include <spring_pendulum/simulation/run.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -291,7 +292,7 @@ TEST(Run, SaysTheSameForEveryNumberOfPartsOfAFrame) {
       ASSERT_EQ(run.frame(), 12);
       const auto& [now, uncertainty, most, time, bound, until] = run.positionError();
       said.push_back(run.measurements() + run.verdict().text + run.toleranceRemark() +
-                     testing::PrintToString(std::vector{most, bound, until}));
+                     fmt::format("{} {} {}", most, bound, until));
       kinds.insert(run.verdict().kind);
     }
     for (const std::string& other : said) EXPECT_EQ(other, said[0]) << scene.name;

@@ -41,7 +41,7 @@ class OptionSet {
   std::map<std::string_view, std::string> given_;  ///< key and place
 };
 
-/// \throws InputError if a number is out of range, or the steps or the time of the run are too many
+/// \throws InputError if a number is out of range, or the run has too many steps or no finite end
 void checkPlan(const Plan& plan);
 
 /// \throws InputError as checkPlan for all options, and if options exclude each other
