@@ -74,6 +74,14 @@ TEST(Run, EnergyBalanceIsNotCheckedWhereItIsCostly) {
   EXPECT_TRUE(test::ProgramRun(scenario, horizontal(), {true}).energyEntry().dissipated);
   EXPECT_EQ(run.verdict().kind, VerdictKind::kOk);
   EXPECT_THAT(run.measurements(), HasSubstr("energy balance not checked"));
+  scenario.method = findMethod("Velocity-Verlet");
+  scenario.frames = 10'000'000;
+  scenario.time_step = 0.1;
+  test::Scene spring = test::horizontalChain("spring", 2, 1.0, {50.0, 1e-5, 1.0}, 0.0);
+  spring.start.x()[1] = 1.5;
+  const test::ProgramRun coarse = runAfter(scenario, spring, 20.0);
+  EXPECT_FALSE(coarse.energyEntry().dissipated);
+  EXPECT_LE(coarse.verdict().kind, VerdictKind::kInaccurate) << coarse.verdict().text;
 }
 
 TEST(Run, OscillatingEnergyOfSymplecticMethodsIsNotGained) {
@@ -110,8 +118,22 @@ TEST(Run, TheModifiedEnergyOfALinearChainIsConserved) {
         test::ProgramRun run = runAfter(scenario, scene, time);
         run.change(scenario, {{70.0, 0.0, 1.0}, 0.0}, {{{0, {0.1, 0.0}}}, {}}, run.state());
         run.advanceTo(2.0 * time);
+        run.change(scenario, run.chain().constants(), {{{0, {}}, {1, {5.0, 0.0}}}, {}},
+                   run.state());
+        run.advanceTo(3.0 * time);
         EXPECT_LE(run.verdict().kind, VerdictKind::kInaccurate) << rate << run.verdict().text;
       }
+}
+
+TEST(Run, TheOscillationOfASymplecticMethodIsNoFaultOfAnother) {
+  for (const double time : {0.5, 1.0, 1.5, 2.0}) {
+    Scenario scenario = scenarioOf("Semi-Implicit-Euler");
+    scenario.time_step = 0.03;
+    test::ProgramRun run = runAfter(scenario, horizontal(0.0), time);
+    run.change(scenarioOf("Runge-Kutta-4"), run.chain().constants(), {}, run.state());
+    run.advanceTo(2.0 * time);
+    EXPECT_LE(run.verdict().kind, VerdictKind::kInaccurate) << time << run.verdict().text;
+  }
 }
 
 TEST(Run, TheStartAloneIsNoMeasuredError) {
