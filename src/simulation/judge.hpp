@@ -33,12 +33,12 @@ namespace spring_pendulum {
 struct JudgeOptions {
   /// Whether the integrator has it set. If not, the residual is known only for a chain without damping.
   bool track_dissipation = false;
-  /// Step size in s of a symplectic method, whose mean modified energy is judged; 0 for other methods.
+  /// Step size in s of a symplectic method, whose mean energy is judged; 0 for other methods.
   double symplectic_step = 0.0;
   /// Tolerance in m of an error-controlled method; 0 for fixed steps. As position errors of ten tolerances
   /// are allowed, a spring may be 20 too long. That energy is no fault, even if it exceeds the scale.
   double tolerance = 0.0;
-  int symplectic_order = 0;  ///< of a symplectic method; 1 is Semi-Implicit-Euler
+  int symplectic_order = 0;  ///< 1: Semi-Implicit-Euler, 2: Velocity-Verlet, 0: any other method
 };
 
 /// Judges the frames of a run and keeps the worst verdict.
@@ -88,9 +88,11 @@ class Judge {
   Energy energyOf(const State& state) const;
   void measureChain(const State& state, double energy, double time);
   void measure(const State& state, const ReferenceRun* reference);
-  /// Returns the energy minus the modified one, J, which a symplectic method conserves if the chain is linear:
-  /// with the forces f of springs and gravity, -h/2 f·v (Semi-Implicit-Euler) or h²/8 f²/m (Velocity-Verlet).
-  double oscillationOf(const State& state) const;
+  /// Returns the energy minus two modified ones, J. With the forces f of springs and gravity, a symplectic method
+  /// conserves E + h/2 f·v (Semi-Implicit-Euler) or E - h²/8 f²/m (Velocity-Verlet) if the chain is linear, and if
+  /// it is not, but for terms of higher order, this plus h²/12 (f²/m + v·K v) with the stiffness matrix K.
+  /// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., 2006, section IX.3.
+  Eigen::Array2d oscillationOf(const State& state) const;
   Verdict energyVerdict(double time, const State& state, double supplied);
   Verdict positionVerdict(const ReferenceRun* reference) const;
 
@@ -103,11 +105,12 @@ class Judge {
   double fall_ = 0.0, fall_time_ = 0.0;  ///< J/s² since this time, s
   double pulled_depth_ = 0.0;            ///< by which forces lower the energy at rest, J
   double largest_scale_ = 0.0;           ///< at which the chain has moved, J
-  double oscillation_;                   ///< at the start, J, and its changes since then
+  Eigen::Array2d oscillation_;           ///< at the start, J, and its jumps since then
   double mean_time_;                     ///< since when the mean is judged, s
-  Eigen::Array4d sums_{0, 0, 0, 0};  ///< since then: relative gain, residual, error, one each frame
-  double dissipated_error_ = 0.0;    ///< J, when it was measured last
-  double worst_residual_ = 0.0;      ///< largest relative residual of the energy balance
+  /// Since then: relative gain, residual, its error, two changes of the modified energies, and one each frame.
+  Eigen::Array<double, 6, 1> sums_ = Eigen::Array<double, 6, 1>::Zero();
+  double dissipated_error_ = 0.0;  ///< J, when it was measured last
+  double worst_residual_ = 0.0;    ///< largest relative residual of the energy balance
   // Since when the error has exceeded ten tolerances, s; 0: never.
   double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance
   double sensitive_time_ = 0.0;  ///< where none can promise it

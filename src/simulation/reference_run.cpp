@@ -102,6 +102,7 @@ ReferenceRun::ReferenceRun(const Chain& chain, const State& start, double run_to
   if (run_tolerance > 0.0) tolerance_ = std::min(tolerance_, kToleranceShare * run_tolerance);
   tolerance_ = std::max(tolerance_, rounding_);
   if (start.size() > kMostParticles && !always) stop(kCostTooMuch);
+  if (chain.size() < 2 && chain.isDriven()) stop("a single particle only follows its holder");
   if (isMeasuring()) start_ = start;
 }
 

@@ -6,8 +6,7 @@
 // they come from the steps or from rounding. Once the two have separated, the motion is too sensitive
 // to be known, and the measurement ends.
 //
-// Everything is decided at frames and by counted work, so how long a run is measured depends neither
-// on the display rate nor on the machine. The run itself is never touched.
+// Everything is decided at frames and by counted work, which depend neither on the display rate nor on the machine.
 #pragma once
 
 #include <spring_pendulum/integration/integrator.hpp>

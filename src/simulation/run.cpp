@@ -45,8 +45,8 @@ double toleranceOf(const Plan& plan) {
 
 JudgeOptions judgeOptions(const Plan& plan, bool track) {
   const Method& method = plan.method;
-  return {track, method.symplectic ? plan.time_step : 0.0, toleranceOf(plan),
-          method.symplectic ? method.order : 0};
+  const int order = method.name == "Velocity-Verlet" ? 2 : method.name == "Semi-Implicit-Euler";
+  return {track, method.symplectic ? plan.time_step : 0.0, toleranceOf(plan), order};
 }
 
 /// Number of states shown per frame.

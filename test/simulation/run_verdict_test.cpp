@@ -174,9 +174,9 @@ TEST(Run, TheMeanEnergyOfASymplecticMethodIsThatSinceTheLastChange) {
   scenario = scenarioOf("Velocity-Verlet");
   scenario.frames = 11000;
   test::ProgramRun run = runAfter(scenario, scene, 1000.0);
-  run.change(scenario, {{5e3, 0.0, 1.0}}, {}, run.state());
+  run.change(scenario, {{8e3, 0.0, 1.0}}, {}, run.state());
   run.advanceTo(1060.0);
-  EXPECT_EQ(run.verdict().kind, VerdictKind::kGainedEnergy);
+  EXPECT_EQ(run.verdict().kind, VerdictKind::kDrift);
 }
 
 TEST(Run, AWrongDissipatedEnergyIsNoDriftAfterTheReferenceEither) {

@@ -37,7 +37,7 @@ struct Method {
   std::string use = {};                     ///< when to use the method, in one line
   const ButcherTableau* tableau = nullptr;  ///< only of explicit Runge-Kutta methods
   IntegratorFactory make = {};              ///< empty: fixed steps of the tableau
-  bool symplectic = false;  ///< without damping, the energy oscillates but does not grow
+  bool symplectic = false;  ///< undamped, the mean energy is constant, and is judged
   /// Memory per particle of a run in addition to Runge-Kutta-4, bytes; 0: little, or not known.
   double bytes_per_particle = 0.0;
 

@@ -119,8 +119,7 @@ struct Option {
   }
   bool isFlag() const { return is<bool>(); }
   bool isNumber() const { return is<double>() || is<std::int64_t>(); }
-  /// Whether YAML may put the value in quotes.
-  bool isText() const { return !isFlag() && !isNumber(); }
+  bool isText() const { return !isFlag() && !isNumber(); }  ///< may have quotes in YAML
 };
 
 }  // namespace spring_pendulum

@@ -83,44 +83,31 @@ class Run {
   /// Whether the current frame may be shown: yes unless the motion has diverged; after a divergence
   /// only if `Plan::on_divergence` is `kContinue` and the energy is finite.
   bool isShown() const;
-  /// Whether the current state is that of a frame.
-  bool isAtFrame() const { return part_ == 0; }
-  /// Whether every number of the state is finite.
-  bool isFinite() const { return state_.values().allFinite(); }
+  bool isAtFrame() const { return part_ == 0; }  ///< whether the current state is that of a frame
+  bool isFinite() const { return state_.values().allFinite(); }  ///< every number of the state
 
   const Plan& plan() const { return plan_; }
   const Chain& chain() const { return chain_; }
-  /// That of the plan's method; `change` replaces it.
-  const Integrator& integrator() const { return *integrator_; }
+  const Integrator& integrator() const { return *integrator_; }  ///< `change` replaces it
   const State& start() const { return start_; }
   /// The frame of the start, to which energies and errors are relative: 0, or that of the saved state.
   std::int64_t firstFrame() const { return first_frame_; }
   const State& state() const { return state_; }
-  /// The last frame that was reached, counted from 0.
-  std::int64_t frame() const { return frame_; }
-  /// Number of shown frames since construction, over all rounds.
-  std::int64_t shownFrames() const { return totals_.frames; }
-  /// Wall-clock time spent integrating, without the reference run, s.
-  double seconds() const { return totals_.seconds; }
-  /// Simulated time, s.
-  double time() const { return timeOfPart(part_); }
-  /// Simulated time after `advancePart`, s.
-  double nextTime() const { return timeOfPart(part_ + 1); }
-  /// Simulated time of the next frame, s.
-  double nextFrameTime() const { return timeOfPart(parts_); }
-  /// Whether `change` was called since the start or the last reset.
-  bool isChanged() const { return changed_; }
+  std::int64_t frame() const { return frame_; }  ///< the last that was reached, counted from 0
+  std::int64_t shownFrames() const { return totals_.frames; }  ///< over all rounds
+  double seconds() const { return totals_.seconds; }  ///< wall-clock, without the reference run
+  double time() const { return timeOfPart(part_); }   ///< simulated, s
+  double nextTime() const { return timeOfPart(part_ + 1); }    ///< after `advancePart`, s
+  double nextFrameTime() const { return timeOfPart(parts_); }  ///< of the next frame, s
+  bool isChanged() const { return changed_; }  ///< by `change`, since the start or the last reset
 
-  /// The verdict on the run so far.
-  const Verdict& verdict() const;
-  /// The energy balance of the current state.
-  EnergyEntry energyEntry() const;
+  const Verdict& verdict() const;   ///< on the run so far
+  EnergyEntry energyEntry() const;  ///< the energy balance of the current state
   /// The largest residual of the energy balance so far, in energy scales; NaN if it is unknown.
   double largestEnergyError() const;
   /// Position error of the current state, and the largest one at the frames so far.
   PositionError positionError() const;
-  /// Work of the reference run so far, s, see Integrator::work.
-  double referenceWork() const;
+  double referenceWork() const;  ///< of the reference run so far, s, see Integrator::work
   /// The state of the reference run at `time()`; null if there is none or it has stopped.
   const State* referenceState() const;
 
