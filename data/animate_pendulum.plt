@@ -39,8 +39,8 @@ stride = best_stride
 # holds the motion. A motion that diverges would shrink everything else to a point, so the box ends
 # where the chain gets five times as long as usual in the first quarter of the run.
 particles = int(system("grep -c . " . frame_name(0)))
-measure = "xargs cat | awk -v n=" . particles . " -v frames=" . frames . " ' \
-  { i = (NR - 1) % n; f = int((NR - 1) / n); x = $1; y = $2 } \
+measure = "xargs cat | LC_ALL=C awk -v n=" . particles . " -v frames=" . frames . " ' \
+  { i = (NR - 1) % n; f = int((NR - 1) / n); x = $1 + 0; y = $2 + 0 } \
   NR == 1 { anchor_x = x; anchor_y = y } \
   i == 0 { len[f] = 0; left[f] = right[f] = x; low[f] = high[f] = y } \
   i > 0 { len[f] += sqrt((x - last_x)^2 + (y - last_y)^2) } \
@@ -54,11 +54,11 @@ measure = "xargs cat | awk -v n=" . particles . " -v frames=" . frames . " ' \
     for (f = 1; f < frames && len[f] <= 5 * usual; ++f) { \
       if (left[f] < l) l = left[f]; if (right[f] > r) r = right[f]; \
       if (low[f] < b) b = low[f]; if (high[f] > t) t = high[f] } \
-    printf \"%.9g %.9g %.9g %.9g %.9g %.9g %.9g\", \
+    printf \"%.9e %.9e %.9e %.9e %.9e %.9e %.9e\", \
       anchor_x, anchor_y, (n > 1 ? len[0] / (n - 1) : 0), l, r, b, t }'"
 measured = system(list_frames . " | " . measure)
 anchor_x = real(word(measured, 1)); anchor_y = real(word(measured, 2))
-if (!exists("rest_length")) rest_length = real(word(measured, 3))
+unstretched = exists("rest_length") ? rest_length : real(word(measured, 3))
 min_x = real(word(measured, 4)); max_x = real(word(measured, 5))
 min_y = real(word(measured, 6)); max_y = real(word(measured, 7))
 
@@ -121,7 +121,7 @@ do for [n = 0 : frames - 1 : stride] {
          with lines linewidth 2 linecolor rgb variable, \
        frame_name(n) using (from_x):(from_y):(dx = $1 - from_x):(dy = $2 - from_y): \
          (from_x = $1, from_y = $2, \
-          strain_color(rest_length > 0 ? sqrt(dx**2 + dy**2) / rest_length - 1 : 0)) \
+          strain_color(unstretched > 0 ? sqrt(dx**2 + dy**2) / unstretched - 1 : 0)) \
          with vectors nohead linewidth line_width linecolor rgb variable, \
        frame_name(n) using 1:(particles > 100 ? NaN : $2) \
          with points pointtype 7 pointsize dot_size linecolor "#2f3640", \

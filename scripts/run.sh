@@ -5,9 +5,9 @@
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
-began=$(date +%s.%N)
-method=Runge-Kutta-4
-if [ $# -gt 0 ] && [[ $1 != -* ]]; then method=$1; shift; fi
+export LC_ALL=C.UTF-8  # awk reads and prints decimal points
+method=Runge-Kutta-4 given=' '
+if [ $# -gt 0 ] && [[ $1 != -* ]]; then method=$1 given+='method '; shift; fi
 
 # Options given here override these, also for the bag and the node.
 particles=$project/data/particle.txt
@@ -29,8 +29,8 @@ while [ $# -gt 0 ]; do
       [ $# -gt 0 ] || die "$option needs a value, see --help"
       value=$1; shift
       case $option in
-        --output) output=$(full_path "$value"); continue ;;
-        --particles) particles=$(full_path "$value"); continue ;;
+        --output) output=$(full_path "$value"); given+='output '; continue ;;
+        --particles) particles=$(full_path "$value"); given+='particles '; continue ;;
         --config) value=$(full_path "$value"); config=$value ;;
         --energy) value=$(full_path "$value") ;;
         --save-state) value=$(full_path "$value"); state=$value; has_state=true ;;
@@ -42,11 +42,17 @@ while [ $# -gt 0 ]; do
     *)
       ! $has_file && [[ $option != -* ]] ||
         die "unexpected '$option': scripts/run.sh [METHOD [FILE]] [options of Exercise3]"
-      has_file=true
+      has_file=true; given+='particles '
       particles=$(full_path "$option")
       continue ;;
   esac
   options+=("$option")
+done
+for key in method particles output; do
+  if [[ $given != *" $key "* ]] && sed 's/#.*//' "${config:-/dev/null}" 2> /dev/null |
+    grep -qE "(^|[{,[:space:]])[\"']?${key}[\"']?[[:space:]]*:"; then
+    die "$config sets $key: give it to scripts/run.sh [METHOD [FILE]] [--output FOLDER] as well"
+  fi
 done
 
 "$project/scripts/setup.sh" core mpi python ros
@@ -61,29 +67,33 @@ compile "$build" "${programs[@]}"
 
 simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$output" "${options[@]}")
 if $answers; then exec "${simulate[@]}"; fi
+own=$(mktemp -d)
+trap 'rm -rf "$own"' EXIT
 if ! $has_state; then
-  state=$(mktemp)
-  trap 'rm -f "$state"' EXIT
+  state=$own/state
   # If the configuration saves the state in a file of its own, a second run saves it here.
-  if [ -n "$config" ] && grep -qs save_state "$config"; then "${simulate[@]}"; simulate+=(--no-frames); fi
+  if [ -n "$config" ] && grep -qs save_state "$config"; then "${simulate[@]}" | tee "$own/closing"; simulate+=(--no-frames); fi
   simulate+=(--save-state "$state")
 fi
-"${simulate[@]}"
+"${simulate[@]}" | tee -a "$own/closing"
 # Frames of an earlier run may lie there if this one writes none.
-frames=$(find "$output/" -maxdepth 1 -name 'frame_*.txt' -newermt "@$began" -print -quit 2> /dev/null) || true
-[ -z "$frames" ] || say "frames: in $output"
+has_frames=false
+if grep -q ' writing to ' "$own/closing"; then has_frames=true; say "frames: in $output"; fi
 
 interval=$(sed -En 's/^# state of .* at frame ([0-9]+), t = (.+) s$/\1 \2/p' "${state:-/dev/null}" | awk '$1 > 0 { printf "%.9g", $2 / $1 }')
-$has_state || rm -f "$state"
-if [ -z "$frames" ]; then
+if ! $has_frames; then
   say "no animation: this run wrote no frames"
 elif [ -e "$output/frame_0000.txt" ]; then
-  (cd "$output" &&
-    gnuplot -e "frame_interval = ${interval:-0.1}; load '${project//\'/\'\'}/data/animate_pendulum.plt'" 2> /dev/null)
-  say "animation: $output/pendulum.gif"
+  film="frame_interval = ${interval:-0.1}; load '${project//\'/\'\'}/data/animate_pendulum.plt'"
+  if (cd "$output" && gnuplot -e "$film" 2> "$own/errors"); then
+    say "animation: $output/pendulum.gif"
+  else
+    say "no animation: gnuplot failed"; cat "$own/errors" >&2
+  fi
 else
   say "no animation: $output has no frame_0000.txt"
 fi
+rm -rf "$own"
 have_ros || { say "this machine has no ROS 1: no bag, no rviz"; exit 0; }
 
 "$(program record_bag)" "$method" --particles "$particles" --bag "$output/pendulum.bag" "${options[@]}"

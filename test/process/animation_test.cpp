@@ -33,7 +33,8 @@ class Animation : public Exercise3Test {
 
   /// Loads the script of a path after other commands.
   Result load(const std::string& path = kScript, const std::string& commands = "") const {
-    return run({{"gnuplot", "-e", commands + "load \"" + path + "\""}, folder_.path()});
+    return run({{"env", "LC_ALL=de_DE.UTF-8", "gnuplot", "-e", commands + "load \"" + path + "\""},
+                folder_.path()});
   }
 
   std::vector<int> delays() const { return delaysOf(read("pendulum.gif")); }
@@ -69,7 +70,7 @@ TEST_F(Animation, RunsAtTheTrueSpeed) {
 }
 
 TEST_F(Animation, TakesAnyScene) {
-  for (const char* particles : {"0 0 1\n", "3 4 1\n3 3 1\n", "-1e6 0 1\n-1e6 1 1\n"}) {
+  for (const char* particles : {"1e-9 0 1\n", "3 4 1\n3 3 1\n", "-1e6 0 1\n-1e6 1 1\n"}) {
     folder_.write("particle.txt", particles);
     makeFrames(2);
     folder_.write("frame_notes.txt", "no frame\n");
@@ -91,7 +92,7 @@ TEST_F(Animation, ShowsTheMotionBeforeADivergence) {
   // A chain that swings in a box of 1 m by 0.5 m and then explodes: cropped to the box.
   for (int n = 0; n < 8; ++n) {
     const std::string far = n < 6 ? "0.5" : "1e9";
-    folder_.write(fmt::format("frame_{:04}.txt", n), "0 0\n1 " + far + "\n");
+    folder_.write(fmt::format("frame_{:04}.txt", n), "0 0\r\n1 " + far + "\r\n");
   }
   const Result result = load();
   EXPECT_EQ(result.status, 0) << result.errors;

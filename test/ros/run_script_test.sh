@@ -12,14 +12,15 @@ cd "$project"
 check test "$(CDPATH=.:/ bash -c 'source scripts/common.sh; echo "$project"')" = "$project"
 
 cd "$folder"
-run() { env -i PATH="$PATH" HOME="$folder" SPRING_PENDULUM_BUILD="$build" "$project/scripts/run.sh" "$@" > run.log 2>&1; }
+run() { env -i LC_ALL=de_DE.UTF-8 PATH="$PATH" HOME="$folder" SPRING_PENDULUM_BUILD="$build" "$project/scripts/run.sh" "$@" > run.log 2>&1; }
 build=$1
 ! run Euler --output= || exit 1
 check test "$(grep -v '^-- ' run.log)" = "--output: must be a folder, got ''"
 run Runge-Kutta-2 --frames 5 --steps-per-frame 5 --damping=0 --output frames --gravity -9 || { cat run.log; exit 1; }
 check env LC_ALL=C grep -qaP '\x21\xf9\x04.\x05\x00' frames/pendulum.gif  # 0.05 s per picture
 check test -s frames/pendulum.bag
-cp run.log first.log; echo 'no_frames: true' > none.yaml; run Euler --frames 5 --output frames --config none.yaml || exit 1
+cp run.log first.log; echo '{no_frames: true, method: Euler}' > none.yaml; ! run --config none.yaml || exit 1
+check grep -q 'none.yaml sets method' run.log; run Euler --frames 5 --output frames --config none.yaml || exit 1
 check grep -q 'this run wrote no frames' run.log; mv first.log run.log
 sed -n 's/^  source /source /p' run.log | head -n 1 > setup.sh
 sed -n 's/^  rosrun /rosrun /p' run.log > node.sh
