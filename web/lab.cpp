@@ -167,7 +167,7 @@ class LabRun {
     end.set("bound", error.bound);
     end.set("resolved", error.isResolved());
     end.set("measuredUntil", error.measured_until);
-    end.set("energyError", largest_energy_error_);
+    end.set("energyError", run_.largestEnergyError());
     end.set("evaluations", static_cast<double>(run_.integrator().forceEvaluations()));
     end.set("report", run_.integrator().report());
     end.set("measurements", run_.measurements());
@@ -186,9 +186,6 @@ class LabRun {
                   {run_.time(), run_.isAtFrame() ? static_cast<double>(run_.frame()) : -1.0,
                    error.now, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
                    entry.dissipated.value_or(kNone), entry.relative_residual.value_or(kNone)});
-    if (entry.relative_residual) {
-      largest_energy_error_ = std::fmax(largest_energy_error_, std::abs(*entry.relative_residual));
-    }
     append(states_, run_.state(), 4);
     // A sample has 2 N numbers of the true motion if it is known, or none.
     if (const State* truth = run_.referenceState()) append(truths_, *truth, 2);
@@ -202,7 +199,6 @@ class LabRun {
   Run run_;
   RunFiles files_;
   std::vector<double> times_, states_, truths_;
-  double largest_energy_error_ = 0.0;
 };
 
 /// Returns the largest stable step size in s; 0: none, infinite: any.

@@ -120,7 +120,8 @@ export function sentences() {
     ...diverged.map(({run, track}) => `${nameOf(run)} diverges at t = ${short(track.end.time, 3)} s`),
     ...others.map(({run, track: {end}}) => (end.bad || meanings[end.kind] || !(end.bound >= 0) ?
       `${nameOf(run)} ends with the verdict "${end.kind}"${meanings[end.kind] ?? ''}` :
-      `${nameOf(run)} stays within ${short(end.bound)} m of the true motion`)),
+      `${nameOf(run)} stays within ${short(end.bound)} m of the true motion` +
+        (end.kind === 'ok' ? '' : ` until t = ${short(end.measuredUntil, 3)} s; later it was not measured`))),
   ].join('; ');
   return [`${what}.`, why(ended, diverged), remedy(ended)];
 }
@@ -128,14 +129,12 @@ export function sentences() {
 function why(ended, diverged) {
   const grown = ended.filter(({track}) => track.end.kind === 'gained energy');
   const blamed = diverged[0] ?? grown[0];
-  if (blamed && blamed.method.imaginaryLimit === 0) {
-    return `${blamed.method.name} multiplies every undamped swing by slightly more than 1 in each step, ` +
-      'so energy enters the chain that no force has put there, and the swing grows.';
+  if (blamed?.method.fixed && Number.isFinite(blamed.method.imaginaryLimit)) {
+    return `Where an hλ of the chain lies outside the stability region of ${blamed.method.name}, ` +
+      (blamed.method.imaginaryLimit === 0 ? 'which leaves out all undamped swings, ' : '') +
+      'that motion grows with every step: energy enters the chain that no force has put there.';
   }
-  if (blamed) {
-    return `The step of ${blamed.method.name} is too long for the fastest vibration of this chain: ` +
-      'hλ leaves the stability region, and the vibration grows with every step.';
-  }
+  if (blamed) return `Of ${blamed.method.name}, the library says: ${blamed.track.end.text}.`;
   const fixed = ended.filter(({method, track}) => method.fixed && track.end.largest > 0);
   if (fixed.length > 1) {
     const [best, worst] = [...fixed].sort((a, b) => a.track.end.largest - b.track.end.largest)
@@ -156,8 +155,9 @@ function remedy(ended) {
   const {run, method, track: {end}} = ended[0];
   if (end.kind === 'sensitive') return `Compare motions up to t = ${short(end.measuredUntil, 3)} s, not later ones.`;
   if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} only a few more evaluations: try it.`;
-  return `Half the step divides the error of ${method.name} (order ${method.order}) by about ${2 ** method.order} ` +
-    `and doubles its work: try ${short(Number(run.time_step) / 2, 6)} s.`;
+  return `${end.kind === 'ok' ? 'Half the step' : 'Once the step is small enough, half of it'} divides the error of ` +
+    `${method.name} (order ${method.order}) by about ${2 ** method.order} and doubles its work: ` +
+    `try ${short(Number(run.time_step) / 2, 6)} s.`;
 }
 
 export function start() {
