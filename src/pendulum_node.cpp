@@ -60,16 +60,14 @@ std::string helpText(const OptionSet& options) {
   return text;
 }
 
-/// Ends a program that a signal stops while it starts. While ROS waits for its master, only a shutdown
-/// of ROS ends the wait.
+/// Ends a program that a signal stops while it starts. Only this ends the wait of ROS for its master.
 void stopStarting() {
   if (!ros::isStarted()) std::_Exit(kDone);
   ros::requestShutdown();
 }
 
-/// Ends the run when the master asks for it. ROS itself would shut down at once, before the files are
-/// closed; and while topics are advertised, that aborts the program. Must be called before
-/// ROS starts: the first handler stays.
+/// Ends the run when the master asks for it. ROS itself would shut down before the files are closed, and
+/// abort while topics are advertised. Must be called before ROS starts: the first handler stays.
 void endWhenTheMasterAsks() {
   using XmlRpc::XmlRpcValue;
   const auto end = [asked = false](XmlRpcValue& call, XmlRpcValue& answer) mutable {
@@ -81,9 +79,8 @@ void endWhenTheMasterAsks() {
   ros::XMLRPCManager::instance()->bind("shutdown", end);
 }
 
-/// Checks the arguments and initialises ROS, which takes the arguments with ":=" away. From then on
-/// SIGINT ends the program even if it was ignored, as in a job that a script starts with `&`, and
-/// the log keeps UTF-8.
+/// Checks the arguments and initialises ROS, which takes those with ":=" away. From then on SIGINT ends the
+/// program even if it was ignored, as in a job that a script starts with `&`, and the log keeps UTF-8.
 /// \returns the text to print instead of a run: --help; else empty
 /// \throws InputError for wrong arguments, FileError if ROS cannot create its log folder
 std::string startRos(int argc, char** argv) {

@@ -47,8 +47,7 @@ int gives(const Action& action) {
   return 1;
 }
 
-/// Calls the public functions that take a scenario, with a chain of the scenario's springs.
-/// \returns the number of calls with a result
+/// Calls the public functions with a scenario and a chain of its springs. Returns how many have a result.
 int tryFunctions(const Scenario& scenario) {
   const test::Scene scene = test::horizontalChain("", 3, 1.0);
   const Scene particles{scene.chain.masses(), scene.start};
@@ -76,8 +75,7 @@ int describe(const Scenario& scenario) {
   });
 }
 
-/// Sets a numeric option.
-/// \returns false if the option is no number
+/// Sets a numeric option. Returns false if the option is no number.
 bool assign(const Option& option, double number, std::int64_t count) {
   const auto& variable = option.value.variable;
   if (option.is<double>()) *std::get<double*>(variable) = number;

@@ -189,7 +189,7 @@ TEST(Follower, StandsWhereTheSameMessageComesAgain) {
       const double stamp = std::min(now, 2.0), place = 0.8 * stamp;
       EXPECT_TRUE(follower.take({{place, 0.0}, {velocity, 0.0}, {}}, velocity > 0.0, stamp, now));
       const double x = follower.targetAt(now, {}, 0.03)->position.x;
-      if (now > 2.2) EXPECT_EQ(x, place) << now;
+      EXPECT_TRUE(now < 2.2 || x == place) << now;
     }
   }
 }
@@ -266,6 +266,8 @@ void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
       const int last = next - next % inputs.bundle + inputs.bundle - 1;
       if (time_of(last) + delayed > now) break;
       Target input = holder_at(time_of(next));
+      const double seconds = inputs.clock > 0.0 ? inputs.clock : 1.0;
+      input.velocity = {input.velocity.x / seconds, input.velocity.y / seconds};
       if (!inputs.have_velocity) input.velocity = {};
       for (int i = 0; i < inputs.copies; ++i)
         follower.take(input, inputs.have_velocity, inputs.clock * time_of(next),
@@ -293,13 +295,15 @@ TEST(Follower, IsWithItsHolderOnACircle) {
     follow(holder_at, inputs, [&](const auto& run, double distance) {
       if (run.time() > 4.0) largest = std::max(largest, distance);
       const double speed = std::hypot(run.state().vx()[5], run.state().vy()[5]);
-      EXPECT_TRUE(inputs.jitter > 0.0 || run.time() < 0.4 || speed < kSpeed + 1.1) << speed;
+      const double known = inputs.have_velocity && inputs.clock != 1.0 ? 2.1 : 0.4;  // the clock, s
+      EXPECT_TRUE(inputs.jitter > 0.0 || run.time() < known || speed < kSpeed + 1.1) << speed;
     });
     return largest;
   };
-  for (const double clock : {0.0, 0.5, 0.9, 1.0, 1.1, 2.0})  // 0.03 s if it is slower
-    EXPECT_LT(largest_distance({false, 30.0, clock}), clock > 0.0 && clock < 1.0 ? 0.07 : 2e-3);
-  EXPECT_LT(largest_distance({true, 30.0}), 2e-3);  // odometry
+  for (const bool is_odometry : {false, true})
+    for (const double clock : {0.0, 0.5, 0.8, 1.0, 1.2, 2.0})  // 0.03 s if it is slower
+      EXPECT_LT(largest_distance({is_odometry, 30.0, clock}),
+                clock > 0.0 && clock < 1.0 ? 0.07 : 2e-3);
   EXPECT_EQ(largest_distance({false, 8.0, 1.0, 0.0, 8.0, 1, 5}), largest_distance({false, 8.0}));
   EXPECT_LT(largest_distance({false, 30.0, 1.0, 0.01}), 5e-3);
   for (const double clock : {0.9, 1.0, 2.0})

@@ -42,8 +42,7 @@ class ExtrapolatedMotion {
   /// Continues with another drive.
   void drive(const Chain& chain) { chain_ = chain; }
 
-  /// \param most_work limit of the evaluations so far times particles
-  /// \returns whether that was enough
+  /// Returns whether `most_work`, the limit of the evaluations so far times particles, was enough.
   bool advance(double seconds, double most_work = HUGE_VAL) {
     for (Real left = seconds; left > 0;) {
       const bool last = step_ >= left;

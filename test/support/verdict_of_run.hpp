@@ -16,8 +16,7 @@ namespace spring_pendulum::test {
 
 /// Judges a run of `duration` s with a fixed step every 0.1 s, or every step if the step is longer.
 /// Ends when the verdict is `enough` or worse.
-/// \param with_energy whether drift is judged as well
-/// \returns `kOk` unless the energy is at fault
+/// Returns `kOk` unless the energy is at fault, with `with_energy` also if it drifts.
 inline Verdict verdictOfRun(const Scene& scene, const Method& method, double time_step,
                             double duration, bool with_energy,
                             VerdictKind enough = VerdictKind::kDiverged) {

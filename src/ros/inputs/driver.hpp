@@ -33,8 +33,7 @@ class Driver {
   /// Lets go of a particle, which keeps its velocity; P_1 stops where it is.
   std::string on(const Release& request);
 
-  /// Whether particles are held, or forces act or will act.
-  bool isActing() const { return !targets_.empty() || !forces_.empty(); }
+  bool isActing() const { return !targets_.empty() || !forces_.empty(); }  ///< now or later
   bool isHeld(std::ptrdiff_t particle) const { return targets_.count(particle) > 0; }
 
   /// Changes the run for the interval until `next_time` s, if anything has changed.

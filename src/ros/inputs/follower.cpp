@@ -12,9 +12,13 @@ constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its ho
 constexpr double kMet = 0.01;           // m, within which a particle is with its holder
 constexpr double kLost = 0.5;           // m, beyond which the log says that it is not
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
-constexpr double kCopied = 0.15;      // s, after which the same message says that its holder stands
-constexpr double kAtOnce = 3.0;       // seconds of stamps per second in a bundle of inputs
-constexpr double kForget = 0.002;     // share of the delay, for each message, as clocks drift
+constexpr double kCopied = 0.15;   // s, after which the same message says that its holder stands
+constexpr double kAtOnce = 3.0;    // seconds of stamps per second in a bundle of inputs
+constexpr double kForget = 0.002;  // share of the delay, for each message, as clocks drift
+constexpr double kMemory =
+    4.0;  // s, for which inputs are kept, twice as long as it takes to know their clock
+constexpr double kOtherClock =
+    0.1;  // share by which it differs from real time; less is taken for jitter
 constexpr double kLongestLead = 0.2;  // s, for which the motion of a holder is extrapolated
 constexpr double kSteepest = 5.0;     // m/s², largest acceleration of a slow holder
 constexpr double kBaseline = 0.03;    // s, least time between inputs whose difference is a velocity
@@ -76,7 +80,8 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   // Inputs that come at once were late, all but the last: they are spread from the one before them on.
   const Sample* last = nullptr;
   for (Sample& earlier : samples_) {
-    if (stamp - earlier.stamp <= kAtOnce * (now - earlier.arrival)) {
+    if (earlier.time < sample.time - kSilence ||
+        stamp - earlier.stamp <= kAtOnce * (now - earlier.arrival)) {
       last = &earlier;
     } else if (last != nullptr) {
       const double share = (earlier.stamp - last->stamp) / (stamp - last->stamp);
@@ -85,7 +90,7 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   }
   place_.reset();
   samples_.push_back(sample);
-  while (samples_.front().time < sample.time - kSilence) samples_.pop_front();
+  while (samples_.front().time < sample.time - kMemory) samples_.pop_front();
   estimateMotion(has_velocity);
   return true;
 }
@@ -113,6 +118,16 @@ void Follower::estimateMotion(bool has_velocity) {
     return std::hypot(v.x - u.x, v.y - u.y) > slower + kSteepest * h1;
   };
   if (has_velocity) {
+    // The seconds of this velocity are those of a clock, which may run at another rate than real time.
+    const auto rate = [](const Sample& from, const Sample& to) {
+      return (to.stamp - from.stamp) / (to.arrival - from.arrival);
+    };
+    const Sample &oldest = samples_.front(), &middle = samples_[samples_.size() / 2];
+    const auto [slow, fast] = std::minmax({rate(oldest, middle), rate(middle, samples_.back())});
+    if (samples_.back().arrival > oldest.arrival + 0.5 * kMemory && slow > 0.0 &&
+        (fast < 1.0 - kOtherClock || slow > 1.0 + kOtherClock))
+      for (double Vector::*axis : {&Vector::x, &Vector::y})
+        now.velocity.*axis *= rate(oldest, samples_.back());
     const Vector& earlier = first->holder.velocity;
     if (!is_step(earlier, now.velocity)) now.acceleration = slope(earlier, now.velocity, h1);
     return;

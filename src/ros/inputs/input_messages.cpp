@@ -125,7 +125,7 @@ Replay::Replay(const std::string& path) : path_(path) {
     throw FileError(fmt::format("{}: cannot be read as a bag: {}", path, error.what()));
   }
   if (places_.empty())
-    throw InputError(fmt::format("{}: has no inputs; record the topic inputs of a node", path));
+    throw InputError(path + ": has no inputs; record the topic inputs of a node");
   std::uint32_t number = 0;
   for (const auto& place : places_) {
     if (place.first == number++) continue;

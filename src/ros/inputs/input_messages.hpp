@@ -29,8 +29,7 @@ class InputLog {
   InputLog(double display_interval, ros::Time began, Sink sink)
       : display_interval_(display_interval), began_(began), sink_(std::move(sink)) {}
 
-  /// Must be called at the start of a run, and whenever it has gone to a frame.
-  /// \param time at which it did, s
+  /// Must be called at the start of a run, and whenever it has gone to a frame, with the time until then, s.
   void started(const Run& run, double time);
   /// Must be called after every Run::change.
   /// \param before the state until then

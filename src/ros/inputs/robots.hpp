@@ -28,9 +28,8 @@ using HolderFrame = std::pair<std::ptrdiff_t, std::string>;
 /// \throws InputError for a word that is no particle of the chain, or one given twice
 std::vector<HolderFrame> parseHeld(const std::string& text, std::ptrdiff_t particles);
 
-/// Turns the inputs of one holder into targets of its particle, and says each problem once. An input that
-/// is not believable is ignored, unless the next one confirms that the holder has jumped or that its clock
-/// has started again. The particle comes to its holder at a limited speed.
+/// Turns the inputs of a holder into targets of its particle, which comes to it at a limited speed. Says each
+/// problem once, and ignores unbelievable inputs until the next confirms a jump, or a clock that began again.
 class Follower {
  public:
   /// \param name    of the input, for warnings
@@ -39,20 +38,17 @@ class Follower {
   Follower(std::string name, double longest, std::function<void(const std::string&)> warn)
       : name_(std::move(name)), longest_(longest), warn_(std::move(warn)) {}
 
-  /// Takes an input that is believable.
+  /// Takes an input if it is believable, and returns whether it is.
   /// \param has_velocity otherwise, the velocity follows from earlier inputs
-  /// \param stamp        of the input, s; not compared with a clock
+  /// \param stamp        of the input, s; its clock may show any time
   /// \param now          present time of a steady clock, s
-  /// \returns whether it is
   bool take(const Target& input, bool has_velocity, double stamp, double now);
   /// Returns where the particle shall be at the present state, to be with its holder in the next one.
   /// \param here     position of the particle, m
   /// \param interval until the next state, s; 0: the particle is placed at its holder at once
   std::optional<Target> targetAt(double now, const PlaneVector<double>& here, double interval);
-  /// Whether no input came for half a second.
-  bool isSilent(double now) const;
-  /// Forgets the inputs, after a reset.
-  void restart() { *this = Follower(name_, longest_, warn_); }
+  bool isSilent(double now) const;  ///< whether no input came for half a second
+  void restart() { *this = Follower(name_, longest_, warn_); }  ///< after a reset
 
  private:
   struct Sample {
@@ -94,10 +90,8 @@ class Robots {
   /// \param real_time_factor simulated seconds per second; 0: unknown
   /// \param next_time        of the next state, s; the present time while the run is paused
   void follow(double real_time_factor, double next_time);
-  /// Publishes the forces on the holders.
-  void show(const std_msgs::Header& header);
-  /// Holds the particles where they are, after a reset.
-  void reset();
+  void show(const std_msgs::Header& header);  ///< publishes the forces on the holders
+  void reset();                               ///< holds the particles where they are, after a reset
 
  private:
   struct Robot {

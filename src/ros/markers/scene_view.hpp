@@ -12,8 +12,7 @@ struct SceneView {
   /// \param hangs whether only P_1 is held
   SceneView(const Run& run, bool hangs);
 
-  /// Widens the frame if the chain has left it.
-  /// \returns whether the frame changed
+  /// Widens the frame if the chain has left it, and returns whether it has.
   bool widenFor(const State& state);
 
   /// Size of the picture in m: the unit of line widths and text heights.

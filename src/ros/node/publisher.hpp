@@ -17,8 +17,7 @@ class Publisher {
 
   /// Number of subscribers of markers, state and status in nodes with these names; empty: in all.
   std::int64_t subscribers(const std::string& nodes) const;
-  /// Publishes the messages about the current state.
-  /// \returns their header; nothing if the state is not due
+  /// Publishes the messages about the current state, if it is due, and returns their header.
   std::optional<std_msgs::Header> publish(const Run& run, Showing showing);
   /// Publishes the status of a node that waits for subscribers.
   void publishWaiting(const std::string& text);

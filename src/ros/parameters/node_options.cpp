@@ -117,8 +117,7 @@ std::string parameterText(XmlRpcValue& value, const std::string& place) {
   if (type == XmlRpcValue::TypeInt) return fmt::format("{}", static_cast<int>(value));
   if (type == XmlRpcValue::TypeDouble) return numberText(static_cast<double>(value));
   if (type == XmlRpcValue::TypeString) return static_cast<std::string>(value);
-  throw InputError(
-      fmt::format("{}: must be a single value, got a list, a map or binary data", place));
+  throw InputError(place + ": must be a single value, got a list, a map or binary data");
 }
 
 NodeConfiguration readPrivateParameters() {
@@ -130,9 +129,8 @@ NodeConfiguration readPrivateParameters() {
   const bool answered = ros::master::execute("hasParam", request, response, exist, true) &&
                         (!static_cast<bool>(exist) || ros::param::get(node, parameters));
   if (!answered)
-    throw FileError(
-        fmt::format("{}: the ROS master at {} did not answer when the parameters were read", node,
-                    ros::master::getURI()));
+    throw FileError(node + ": the ROS master at " + ros::master::getURI() +
+                    " did not answer when the parameters were read");
   NodeConfiguration configuration;
   OptionSet options = nodeOptions(configuration);
   try {
