@@ -10,13 +10,13 @@ if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:
 signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
 
 import argparse
+import contextlib
 import csv
 import itertools
 import math
 import os
 import statistics
 import sys
-import tempfile
 import warnings
 
 from method_styles import METHODS
@@ -220,18 +220,16 @@ def save(figure, picture):
     # Whole or absent, as all outputs, and where a link leads to.
     picture = os.path.realpath(picture)
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGHUP, signal.SIGINT, signal.SIGTERM])  # until this program ends
+    unfinished = os.path.join(os.path.dirname(picture), '.plot.%s.tmp' % os.urandom(8).hex())
     try:
-        handle, unfinished = tempfile.mkstemp('.tmp', '.plot.', os.path.dirname(picture))
-        with open(handle, 'wb') as file:
-            try:
-                os.umask(mask := os.umask(0))
-                os.fchmod(handle, 0o666 & ~mask)
+        try:
+            with open(unfinished, 'xb') as file:
                 figure.savefig(file, format='png', dpi=100)
-                file.flush()
-                os.replace(unfinished, picture)
-            except BaseException:
+            os.replace(unfinished, picture)
+        except BaseException:
+            with contextlib.suppress(FileNotFoundError):
                 os.remove(unfinished)
-                raise
+            raise
     except OSError as error:
         sys.exit('%s: could not be drawn: %s' % (picture, error.strerror))
 

@@ -30,8 +30,7 @@ class CaseCounter {
 };
 
 /// Returns a counter for all ranks if the program was started as one of several processes; all construct one.
-/// \throws InputError if it is built without MPI, MPI does not know the others, or it does not support
-///   threads
+/// \throws InputError if it is built without MPI, MPI does not know the others or supports no threads
 std::unique_ptr<CaseCounter> makeCaseCounter();
 
 }  // namespace spring_pendulum::sweep

@@ -76,8 +76,7 @@ class Sweep {
         counter_(counter),
         rows_(static_cast<std::size_t>(study.cases())) {}
 
-  /// Finds out before the first case what would prevent the last line of the table, and the picture.
-  /// \returns the exit status
+  /// Finds out before the first case what would prevent the table or the picture. Returns the exit status.
   int prepare() {
     checkCases(study_, options_.threads);
     const int status = counter_.rank() == 0 ? tryOutputs() : kDone;
@@ -119,16 +118,15 @@ class Sweep {
     forEachCase(study_, options_.threads, next, run, meanwhile);
   }
 
-  /// Writes the table, or says why it is not complete.
+  /// Writes the table, or says why it is not complete, and returns the exit status.
   /// \param signal that has stopped a rank; 0: none
-  /// \returns the exit status
   int conclude(int signal) {
     // Shards that finish at the same moment conclude one after the other.
     if (!journal_->lock()) {
       if (!std::filesystem::exists(options_.output) || !isInTable())
         throw FileError(fullPath(journal_->path()) + ": was removed during the run");
       printOutput(fmt::format("another process has written {}\n", options_.output));
-      return kDone;
+      return options_.plot ? drawPicture() : kDone;
     }
     readJournal();
     const std::int64_t missing = std::count(rows_.begin(), rows_.end(), std::string());
@@ -163,9 +161,10 @@ class Sweep {
   int tryOutputs() const {
     // Shards may start at the same moment.
     const std::string shard = options_.shards > 1 ? fmt::format(".{}", options_.shard) : "";
-    OutputFile table(options_.output + shard);
+    const std::string path = OutputFile(options_.output + shard).path();
     if (!options_.plot) return kDone;
     const OutputFile picture(picturePath(options_.output) + shard);
+    OutputFile table(path + ".try");  // another process may write its table now
     writeRows(table);
     return drawPlot(study_, table.unfinishedPath(), picturePath(options_.output), true);
   }
@@ -184,10 +183,8 @@ class Sweep {
     std::string text = fmt::format("{}: {}, table {}", study_.name, counted(study_.cases(), "case"),
                                    options_.output);
     if (options_.plot) {
-      const std::string picture = picturePath(options_.output);
-      const int status = drawPlot(study_, options_.output, picture, false);
-      if (status != kDone) return status;
-      text += ", picture " + picture;
+      if (const int status = drawPicture(); status != kDone) return status;
+      text += ", picture " + picturePath(options_.output);
     }
     // After a kill before this, the same command draws the picture.
     std::error_code error;
@@ -197,6 +194,10 @@ class Sweep {
                                   fullPath(journal_->path()), error.message(), options_.output));
     printOutput(text + "\n");
     return kDone;
+  }
+
+  int drawPicture() const {
+    return drawPlot(study_, options_.output, picturePath(options_.output), false);
   }
 
   /// Writes the header and all rows, of which some may lack the columns.

@@ -1,8 +1,7 @@
 // A study: a base scenario, axes that vary it, random masses and starts, the columns wanted.
 //
 // Case i is a function of the study and i alone. The last axis varies fastest, the samples slowest.
-// Cases of one sample have the same random masses and starts, so methods are compared on the same
-// scenes.
+// Cases of one sample have the same random masses and starts: methods are compared on the same scenes.
 #pragma once
 
 #include "simulation/options/scenario_options.hpp"
