@@ -19,8 +19,7 @@ namespace spring_pendulum {
 Scene readScene(const Scenario& scenario, std::string_view argument = "--particles");
 
 /// Writes frames, energy balance and last state, as far as the scenario asks for them: no frames with
-/// `no_frames` or an empty `output`. Writes every frame once, because a run that is reset repeats its
-/// frames bit for bit.
+/// `no_frames` or an empty `output`. Writes every frame once, as a run that is reset repeats its frames.
 class RunFiles {
  public:
   /// Checks that no name has two uses, opens the files and removes the frames of an earlier run.

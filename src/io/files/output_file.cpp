@@ -178,9 +178,9 @@ bool OutputFile::copyEarlier() {
   return !error;
 }
 
-std::string OutputFile::earlierText() const {
+std::string OutputFile::earlierText(std::size_t most) const {
   const bool is_missing = ::access(target_.c_str(), F_OK) != 0 && errno == ENOENT;
-  return is_missing ? "" : readTextFile(target_);
+  return is_missing ? "" : readTextFile(target_, most);
 }
 
 std::string OutputFile::unfinishedPath() {

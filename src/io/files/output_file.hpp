@@ -70,8 +70,7 @@ class AtomicFile {
 };
 
 /// An output file of a run, as a user names it: the energy balance, a bag. A file of an earlier run is
-/// replaced only at the end, and keeps its permissions. If the path is a symbolic link, its target is
-/// replaced and the link stays.
+/// replaced only at the end, and keeps its permissions. Of a symbolic link, the target is replaced.
 class OutputFile {
  public:
   /// \param path checked with `checkTouchedFiles`
@@ -86,8 +85,8 @@ class OutputFile {
   /// \returns whether there is an earlier file
   /// \throws FileError naming the file
   bool copyEarlier();
-  /// Returns the text of an earlier file; empty: there is none. Throws as `readTextFile`.
-  std::string earlierText() const;
+  /// Returns the first bytes of an earlier file; empty: there is none. Throws as `readTextFile`.
+  std::string earlierText(std::size_t most = std::string::npos) const;
   /// Returns a path by which another program or library can open the unfinished file.
   std::string unfinishedPath();
   /// Returns the size of the unfinished file, bytes.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
@@ -54,18 +55,18 @@ FileDescriptor openTextFile(const std::string& path, std::int64_t& size) {
   return file;
 }
 
-std::string readTextFile(const std::string& path) {
+std::string readTextFile(const std::string& path, std::size_t most) {
   std::int64_t size = 0;
   const FileDescriptor file = openTextFile(path, size);
   // One byte more than the size: a short read then proves the end of the file.
-  std::string text(static_cast<std::size_t>(size) + 1, '\0');
+  std::string text(std::min(static_cast<std::size_t>(size) + 1, most), '\0');
   std::size_t length = 0;
   for (;;) {
     const ssize_t count = ::read(file.get(), text.data() + length, text.size() - length);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path);
-    if (count == 0) break;
     length += static_cast<std::size_t>(count);
+    if (count == 0 || length == most) break;
     if (length == text.size()) text.resize(2 * length);
   }
   text.resize(length);

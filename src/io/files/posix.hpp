@@ -52,8 +52,8 @@ class FileDescriptor {
 /// \throws FileError with the file and the reason
 FileDescriptor openTextFile(const std::string& path, std::int64_t& size);
 
-/// Returns the bytes of a file, opened in this way, without a leading UTF-8 byte order mark.
+/// Returns the first bytes of a file, opened in this way, without a leading UTF-8 byte order mark.
 /// \throws FileError with the file and the reason
-std::string readTextFile(const std::string& path);
+std::string readTextFile(const std::string& path, std::size_t most = std::string::npos);
 
 }  // namespace spring_pendulum

@@ -1,8 +1,7 @@
 // Frame files: the positions of the particles at the times t = 0, T, 2T, ...
 //
 // The files `frame_0000.txt`, `frame_0001.txt`, ... have a line `x y` (m) for each particle. Every
-// number is the shortest text that reads back as the same double. Indices above 9999 have more
-// digits.
+// number is the shortest text that reads back as the same double. Indices above 9999 are longer.
 #pragma once
 
 #include "io/files/frame_folder.hpp"

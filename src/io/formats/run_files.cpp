@@ -23,13 +23,18 @@ namespace {
 /// Begins the energy balance of a run as CSV: one row per frame. Every number is the shortest text that
 /// reads back as the same double; the position error is nan where it is not measured.
 /// \param first frame of the first row; rows of earlier frames that the file has stay in it
+/// \throws InputError for a file of another kind, or one that a spreadsheet has changed
 void beginEnergies(OutputFile& file, std::int64_t first) {
-  file.write(
+  const std::string titles =
       "frame,time [s],kinetic [J],gravity [J],spring [J],total [J],dissipated [J],residual [J],"
-      "residual/scale [1],position error [m]\n");
+      "residual/scale [1],position error [m]";
+  file.write(titles + '\n');
   std::istringstream earlier(first > 0 ? file.earlierText() : "");
-  for (std::string row; std::getline(earlier, row);) {
+  bool is_first = true;
+  for (std::string row; std::getline(earlier, row); is_first = false) {
     const auto frame = parseInteger(row.substr(0, row.find(',')));
+    if (is_first ? row != titles && row != titles + '\r' : !frame)
+      throw InputError(file.path() + ": is no energy file of this program; give another name");
     if (frame.value_or(first) < first) file.write(row + '\n');
   }
 }

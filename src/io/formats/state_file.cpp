@@ -11,13 +11,13 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 namespace spring_pendulum {
 namespace {
 
 constexpr std::string_view kHeader = "# state of ";
+constexpr std::size_t kLongestHead = 200;  // bytes
 
 /// Removes and returns the text before `end`; empty if there is no `end`.
 std::string_view takeUntil(std::string_view& text, std::string_view end) {
@@ -50,7 +50,8 @@ std::optional<StateHead> parseHead(std::string_view text) {
 
 Scene readStateFile(const Scenario& scenario) {
   const std::string& name = scenario.particles;
-  const std::string text = readTextFile(name);
+  const bool begins = parseHead(readTextFile(name, kLongestHead)).has_value();
+  const std::string text = begins ? readTextFile(name) : "";
   const std::optional<StateHead> head = parseHead(text);
   if (!head)
     throw InputError(fmt::format(
@@ -100,9 +101,8 @@ void writeState(OutputFile& file, const AlignedNumbers::ConstView& masses, const
 void writeStateFile(const std::string& path, const Chain& chain, const State& state,
                     std::int64_t frame, double time) {
   OutputFile file(path);
-  std::istringstream earlier(file.earlierText());
-  std::string line;
-  if (std::getline(earlier, line) && !parseHead(line))
+  const std::string earlier = file.earlierText(kLongestHead);
+  if (!earlier.empty() && !parseHead(earlier))
     throw InputError(fullPath(path) + ": is not a state but another file; give another name");
   writeState(file, chain.masses(), state, frame, time);
 }

@@ -58,12 +58,10 @@ void printClosingLine(const std::string& text);
 /// Prints what --check asks for. \returns the exit status of the program
 int printAdvice(const Run& run);
 
-/// Returns lines for standard error: a remark if the run needs much memory, a warning if its step size
-/// is too large.
+/// Returns lines for standard error: that the run needs much memory, that its step size is too large.
 std::string startLines(const Run& run);
 
-/// Prints the warnings on a run that has ended, or its divergence with a remedy.
-/// \returns the exit status of the program
+/// Prints the warnings on a run that has ended, or its divergence with a remedy, and returns the exit status.
 int conclude(const Run& run);
 
 }  // namespace spring_pendulum

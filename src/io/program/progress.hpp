@@ -1,5 +1,4 @@
-// The progress of a long computation on standard error:
-// "4711 of 100000 frames, 5 %, 9200 per second, 10 s left".
+// The progress of a long computation: "4711 of 100000 frames, 5 %, 9200 per second, 10 s left".
 #pragma once
 
 #include <chrono>
