@@ -97,11 +97,6 @@ TEST(Numbers, AreRoundedToAFewDigits) {
   for (const auto& [value, digits, text] : rows) EXPECT_EQ(roundedText(value, digits), text);
 }
 
-TEST(Numbers, AreCountedInSingularAndPlural) {
-  EXPECT_EQ(counted(1, "frame"), "1 frame");
-  EXPECT_EQ(counted(2, "switch", "es"), "2 switches");
-}
-
 TEST(Numbers, AreWrittenTheSameEverywhere) {
   std::mt19937_64 random(1);
   std::uint64_t hash = 14695981039346656037U;  // FNV-1a

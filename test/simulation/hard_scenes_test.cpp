@@ -24,8 +24,7 @@ TEST(HardScenes, AParticleExactlyAtItsNeighbourFeelsNoSpringAndMovesOn) {
     state.vx()[1] = 2.0;  // L = 0 at the start
     makeIntegrator(method, chain)->advance(state, 1e-3, 10);
     EXPECT_TRUE(state.values().allFinite()) << method.name;
-    // Without a force it would get to 0.02 m. The spring, compressed by 1 m, throws it further;
-    // Euler is 7e-4 m behind, Taylor series 1e-12 m.
+    // Without a force, it would get to 0.02 m. Euler is 7e-4 m behind, Taylor series 1e-12 m.
     EXPECT_NEAR(state.x()[1], kThrown, !method.hasFixedStep() ? 1e-5 : 1e-3) << method.name;
     EXPECT_EQ(state.y()[1], 0.0) << method.name;
   }

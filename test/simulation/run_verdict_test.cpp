@@ -146,6 +146,15 @@ TEST(Run, TheStartAloneIsNoMeasuredError) {
   EXPECT_THAT(run.measurements(), HasSubstr("position error not measured"));
 }
 
+TEST(Run, ASingleDrivenParticleHasNoReferenceRun) {
+  test::ProgramRun run(scenarioOf("Auto"), test::horizontalChain("one", 1, 1.0));
+  run.advance();
+  run.change(run.plan(), run.chain().constants(), {{{0, {0.5, 0.0}}}, {}}, run.state());
+  run.reset();
+  run.advanceTo(1.0);
+  EXPECT_EQ(run.verdict().kind, VerdictKind::kNotChecked) << run.verdict().text;
+}
+
 TEST(Run, NamesAFreeParticleThatDiverged) {
   Scenario scenario = scenarioOf("Runge-Kutta-2");
   scenario.time_step = 0.08;

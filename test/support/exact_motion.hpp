@@ -20,8 +20,7 @@ struct ExactMotion {
 };
 
 /// Returns the states at `interval`, ..., `outputs` x `interval` s, within 1e-11 m or 1e-12 m times the growth.
-/// \param budget approximate limit of the processor time, s
-/// \returns nothing if the budget does not suffice
+/// \param budget approximate limit of the processor time, s; if it does not suffice, nothing is returned
 std::optional<ExactMotion> exactMotion(const Scene& scene, double interval, int outputs,
                                        double budget);
 
