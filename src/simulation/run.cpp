@@ -45,11 +45,11 @@ double toleranceOf(const Plan& plan) {
 
 JudgeOptions judgeOptions(const Plan& plan, bool track) {
   const Method& method = plan.method;
-  const int order = method.name == "Velocity-Verlet" ? 2 : method.name == "Semi-Implicit-Euler";
-  return {track, method.symplectic ? plan.time_step : 0.0, toleranceOf(plan), order};
+  const bool is_known = method.name == "Velocity-Verlet" || method.name == "Semi-Implicit-Euler";
+  return {track, method.symplectic ? plan.time_step : 0.0, toleranceOf(plan),
+          is_known ? method.order : 0};
 }
 
-/// Number of states shown per frame.
 std::int64_t partsPerFrame(const Plan& plan, double display_interval) {
   // `sleep` is checked once per frame: states between the frames would not move.
   if (display_interval <= 0.0 || plan.sleep > 0.0) return 1;

@@ -18,7 +18,7 @@ namespace spring_pendulum {
 namespace {
 
 bool isFrame(std::string_view text) {
-  return text.empty() || (text.front() != '/' && text.find(' ') == std::string_view::npos);
+  return text.find_first_of(" \t\n") == std::string_view::npos && text.substr(0, 1) != "/";
 }
 
 bool isColor(std::string_view text) {
