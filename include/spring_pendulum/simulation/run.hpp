@@ -78,8 +78,7 @@ class Run {
 
   /// Whether no frame follows.
   bool isOver() const { return stopped_ || frame_ >= plan_.frames - 1 || !isShown(); }
-  /// Whether `RunOptions::stop` has stopped the run inside a frame. Only `reset` may follow.
-  bool wasStopped() const { return stopped_; }
+  bool wasStopped() const { return stopped_; }  ///< by `RunOptions::stop`; only `reset` may follow
   /// Whether the current frame may be shown: yes unless the motion has diverged; after a divergence
   /// only if `Plan::on_divergence` is `kContinue` and the energy is finite.
   bool isShown() const;
@@ -101,15 +100,12 @@ class Run {
   double nextFrameTime() const { return timeOfPart(parts_); }  ///< of the next frame, s
   bool isChanged() const { return changed_; }  ///< by `change`, since the start or the last reset
 
-  const Verdict& verdict() const;   ///< on the run so far
-  EnergyEntry energyEntry() const;  ///< the energy balance of the current state
-  /// The largest residual of the energy balance so far, in energy scales; NaN if it is unknown.
-  double largestEnergyError() const;
-  /// Position error of the current state, and the largest one at the frames so far.
-  PositionError positionError() const;
-  double referenceWork() const;  ///< of the reference run so far, s, see Integrator::work
-  /// The state of the reference run at `time()`; null if there is none or it has stopped.
-  const State* referenceState() const;
+  const Verdict& verdict() const;       ///< on the run so far
+  EnergyEntry energyEntry() const;      ///< the energy balance of the current state
+  double largestEnergyError() const;    ///< so far, in energy scales; NaN if it is unknown
+  PositionError positionError() const;  ///< now, and the largest at the frames so far
+  double referenceWork() const;         ///< of the reference run so far, s, see Integrator::work
+  const State* referenceState() const;  ///< that of the reference run; null if it is unknown
 
   /// One line: work, times, what was measured, verdict.
   /// \param output put after the time of integrating: ", 3.07 ms writing to /home/me/frames"
