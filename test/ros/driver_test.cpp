@@ -266,11 +266,12 @@ void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
       const int last = next - next % inputs.bundle + inputs.bundle - 1;
       if (time_of(last) + delayed > now) break;
       Target input = holder_at(time_of(next));
-      const double seconds = inputs.clock > 0.0 ? inputs.clock : 1.0;
-      input.velocity = {input.velocity.x / seconds, input.velocity.y / seconds};
-      if (!inputs.have_velocity) input.velocity = {};
+      const double rate =
+          inputs.have_velocity ? 1.0 / (inputs.clock > 0 ? inputs.clock : 1.0) : 0.0;
+      input.velocity = {rate * input.velocity.x, rate * input.velocity.y};
       for (int i = 0; i < inputs.copies; ++i)
-        follower.take(input, inputs.have_velocity, inputs.clock * time_of(next),
+        follower.take(input, inputs.have_velocity,  // the clock is set at 5 s
+                      inputs.clock * (time_of(next) + (time_of(next) > 5.0 ? 30.0 : 0.0)),
                       time_of(last) + delayed + i / inputs.rate / inputs.copies);
     }
     const State& state = live.run.state();

@@ -15,10 +15,8 @@ constexpr double kJitter = 0.03;        // s, largest delay of a message that is
 constexpr double kCopied = 0.15;   // s, after which the same message says that its holder stands
 constexpr double kAtOnce = 3.0;    // seconds of stamps per second in a bundle of inputs
 constexpr double kForget = 0.002;  // share of the delay, for each message, as clocks drift
-constexpr double kMemory =
-    4.0;  // s, for which inputs are kept, twice as long as it takes to know their clock
-constexpr double kOtherClock =
-    0.1;  // share by which it differs from real time; less is taken for jitter
+constexpr double kMemory = 4.0;    // s, for which inputs are kept; their clock is known after half
+constexpr double kOtherClock = 0.1;   // share by which a clock that is no real time differs from it
 constexpr double kLongestLead = 0.2;  // s, for which the motion of a holder is extrapolated
 constexpr double kSteepest = 5.0;     // m/s², largest acceleration of a slow holder
 constexpr double kBaseline = 0.03;    // s, least time between inputs whose difference is a velocity
@@ -57,7 +55,7 @@ bool Follower::isBelievable(const Sample& input) {
 }
 
 bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
-  Sample sample{input, stamp, now, now};
+  Sample sample{input, input.velocity, stamp, now, now};
   const bool is_copy = !isSilent(now) && stamp != 0.0 && stamp == samples_.back().stamp;
   if (is_copy && isNext(samples_.back(), sample, 0.0)) {
     if (now < samples_.back().arrival + kCopied) return true;
@@ -68,6 +66,11 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   if (now >= refused_at_ + kSilence && (says_refused_ || says_stopped_)) {
     says_refused_ = says_stopped_ = false;
     warn_(name_ + " is followed again");
+  }
+  if (samples_.size() > 1) {  // the clock may have been set
+    const double before = samples_.back().stamp, usual = before - samples_.rbegin()[1].stamp;
+    const double jump = stamp - before - usual > kSilence ? stamp - before - usual : 0.0;
+    for (Sample& earlier : samples_) earlier.stamp += jump;
   }
   if (isSilent(now)) {
     samples_.clear();
@@ -102,6 +105,18 @@ const Follower::Sample* Follower::before(double seconds) const {
   return found;
 }
 
+// Seconds of stamps per second, of both halves and the last inputs where it is nearest to 1; 1 if it nearly is.
+double Follower::clockRate() const {
+  const Sample &oldest = samples_.front(), &newest = samples_.back();
+  if (newest.arrival <= oldest.arrival + 0.5 * kMemory) return 1.0;
+  const Sample &middle = samples_[samples_.size() / 2], &recent = *before(kSilence);
+  const auto [slow, fast] =
+      std::minmax({oldest.rateTo(middle), middle.rateTo(newest), recent.rateTo(newest)});
+  const double excess = std::max(slow - 1.0, 0.0) + std::min(fast - 1.0, 0.0);
+  const double weight = std::clamp(std::abs(excess) / kOtherClock - 0.5, 0.0, 1.0);
+  return slow > 0.0 ? 1.0 + weight * excess : 1.0;
+}
+
 // Poses: the parabola through three inputs. Odometry: the change of the velocity between two. A step of
 // the input is neither a velocity nor an acceleration that lasts.
 void Follower::estimateMotion(bool has_velocity) {
@@ -118,17 +133,9 @@ void Follower::estimateMotion(bool has_velocity) {
     return std::hypot(v.x - u.x, v.y - u.y) > slower + kSteepest * h1;
   };
   if (has_velocity) {
-    // The seconds of this velocity are those of a clock, which may run at another rate than real time.
-    const auto rate = [](const Sample& from, const Sample& to) {
-      return (to.stamp - from.stamp) / (to.arrival - from.arrival);
-    };
-    const Sample &oldest = samples_.front(), &middle = samples_[samples_.size() / 2];
-    const auto [slow, fast] = std::minmax({rate(oldest, middle), rate(middle, samples_.back())});
-    if (samples_.back().arrival > oldest.arrival + 0.5 * kMemory && slow > 0.0 &&
-        (fast < 1.0 - kOtherClock || slow > 1.0 + kOtherClock))
-      for (double Vector::*axis : {&Vector::x, &Vector::y})
-        now.velocity.*axis *= rate(oldest, samples_.back());
-    const Vector& earlier = first->holder.velocity;
+    const double rate = clockRate();
+    now.velocity = {rate * now.velocity.x, rate * now.velocity.y};
+    const Vector earlier{rate * first->by_clock.x, rate * first->by_clock.y};
     if (!is_step(earlier, now.velocity)) now.acceleration = slope(earlier, now.velocity, h1);
     return;
   }

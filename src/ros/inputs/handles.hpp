@@ -27,8 +27,7 @@ class Handles {
   void releaseSilent();
   /// Whether the mouse drags a particle.
   bool isDragging() const { return !drags_.empty(); }
-  /// Moves the handles to the particles. Costs nothing without rviz.
-  void show();
+  void show();  ///< moves the handles to the particles; costs nothing without rviz
   /// Lets go of all particles.
   void reset() { drags_.clear(); }
 
@@ -40,8 +39,7 @@ class Handles {
   };
 
   geometry_msgs::Pose poseOf(std::ptrdiff_t particle) const;
-  /// Asks the node, and logs a refusal.
-  void ask(const Request& request);
+  void ask(const Request& request);  ///< asks the node, and logs a refusal
   void onFeedback(std::ptrdiff_t particle, const Feedback& feedback);
   /// Returns where the mouse is in the plane; nothing if it cannot be followed.
   std::optional<Target> targetOf(std::ptrdiff_t particle, const Feedback& feedback);

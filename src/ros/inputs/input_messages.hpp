@@ -35,8 +35,7 @@ class InputLog {
   /// \param before the state until then
   /// \param time   at it, s: another method may round it differently
   void changed(const Run& run, const State& before, double time);
-  /// Must be called at the end of the node.
-  void ended(const Run& run);
+  void ended(const Run& run);  ///< must be called at the end of the node
 
  private:
   PendulumInput messageOf(const Run& run, double time);
@@ -67,8 +66,7 @@ class Replay {
   bool isOver(const Run& run) const {
     return next_ && next_->end != 0 && next_->time <= run.time();
   }
-  /// A sentence if the last inputs may be missing; else empty.
-  std::string missing() const;
+  std::string missing() const;  ///< a sentence if the last inputs may be missing; else empty
   /// A sentence if the run ended before all inputs acted; else empty.
   std::string unreached() const;
 

@@ -53,15 +53,18 @@ class Follower {
  private:
   struct Sample {
     Target holder;
-    double stamp;    ///< s
-    double time;     ///< s, steady clock: when it was probably sent
-    double arrival;  ///< s, steady clock
+    PlaneVector<double> by_clock;  ///< m per second of the clock of the stamps
+    double stamp;                  ///< s
+    double time;                   ///< s, steady clock: when it was probably sent
+    double arrival;                ///< s, steady clock
+    double rateTo(const Sample& to) const { return (to.stamp - stamp) / (to.arrival - arrival); }
   };
   static bool isNext(const Sample& before, const Sample& input, double longest);
   bool isBelievable(const Sample& input);
   bool refuse(const std::string& why, double now);
   /// The last input that is at least this much older than the newest one; null: none.
   const Sample* before(double seconds) const;
+  double clockRate() const;
   void estimateMotion(bool has_velocity);
   void approach(Target& target, const PlaneVector<double>& here, double now);
 

@@ -85,8 +85,7 @@ constexpr std::uint32_t kDivergedColor = 0xff2fd0;  ///< of the whole chain
 void drawSprings(const Picture& picture, Marker& springs);
 /// From light ones in pale yellow to heavy ones in violet, on a logarithmic scale; held ones are grey.
 void drawParticles(const Picture& picture, Marker& particles);
-/// A square in front of P_1.
-void drawAnchor(const Picture& picture, Marker& anchor);
+void drawAnchor(const Picture& picture, Marker& anchor);  ///< a square in front of P_1
 /// Method, time, errors and verdict above the scene.
 void drawText(const Picture& picture, Marker& text);
 void drawGrid(const Picture& picture, Marker& grid);

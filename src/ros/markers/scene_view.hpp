@@ -15,12 +15,10 @@ struct SceneView {
   /// Widens the frame if the chain has left it, and returns whether it has.
   bool widenFor(const State& state);
 
-  /// Size of the picture in m: the unit of line widths and text heights.
-  double size() const;
+  double size() const;  ///< of the picture, m: the unit of line widths and text heights
   double textHeight() const { return 0.04 * size(); }
   double lineDistance() const { return 1.35 * textHeight(); }
-  /// Distance of the grid lines, m: 1, 2 or 5 times a power of ten.
-  double gridDistance() const;
+  double gridDistance() const;  ///< of the grid lines, m: 1, 2 or 5 times a power of ten
   /// Height of the axis of the camera, m.
   double cameraHeight() const { return box.center().y() + 0.5 * kTextLines * lineDistance(); }
   /// Distance of the camera from the plane, m, for the field of view of rviz, 45 degrees.

@@ -21,8 +21,7 @@ class Node {
   /// \param run, files must outlive the node
   Node(Scenario scenario, NodeOptions options, Run& run, RunFiles& files);
 
-  /// Runs until the end of the run, or a signal. \returns the exit status
-  int spin();
+  int spin();  ///< runs until the end of the run, or a signal, and returns the exit status
 
  private:
   /// What was logged since the start or the last reset.

@@ -15,8 +15,7 @@ class Pacer {
   Pacer(double factor, double display_rate)
       : factor_(factor), shown_interval_(display_rate > 0.0 ? factor / display_rate : 0.0) {}
 
-  /// Makes `simulated_time` due now.
-  void start(double simulated_time, ros::SteadyTime now);
+  void start(double simulated_time, ros::SteadyTime now);  ///< makes `simulated_time` due now
 
   ros::SteadyTime dueTime(double simulated_time) const;
   /// Must be called when `simulated_time` is reached.

@@ -25,8 +25,7 @@ class Publisher {
   bool isSending() const {
     return last_markers_.buf.use_count() > 1 || last_state_.buf.use_count() > 1;
   }
-  /// Removes the markers from rviz, which keeps them when the node has ended.
-  void clear();
+  void clear();  ///< removes the markers from rviz, which keeps them when the node has ended
   /// Returns for the closing line: "12 marker and 30 state messages built".
   std::string numbers() const;
 
