@@ -38,10 +38,11 @@ stride = best_stride
 # One pass over all frames: the anchor, the mean spring length of the first frame, and the box that
 # holds the motion. A motion that diverges would shrink everything else to a point, so the box ends
 # where the chain gets five times as long as usual in the first quarter of the run.
-particles = int(system("grep -c . " . frame_name(0)))
-measure = "xargs cat | LC_ALL=C awk -v n=" . particles . " -v frames=" . frames . " ' \
-  { i = (NR - 1) % n; f = int((NR - 1) / n); x = $1 + 0; y = $2 + 0 } \
-  NR == 1 { anchor_x = x; anchor_y = y } \
+particles = int(system("awk 'NF > 1 && !/^#/' " . frame_name(0) . " | wc -l"))
+measure = "xargs awk 1 | LC_ALL=C awk -v n=" . particles . " -v frames=" . frames . " ' \
+  NF < 2 || /^#/ { next } \
+  { i = rows % n; f = int(rows / n); x = $1 + 0; y = $2 + 0 } \
+  rows++ == 0 { anchor_x = x; anchor_y = y } \
   i == 0 { len[f] = 0; left[f] = right[f] = x; low[f] = high[f] = y } \
   i > 0 { len[f] += sqrt((x - last_x)^2 + (y - last_y)^2) } \
   { if (x < left[f]) left[f] = x; if (x > right[f]) right[f] = x; \

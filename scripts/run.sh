@@ -31,7 +31,7 @@ while [ $# -gt 0 ]; do
       case $option in
         --output) output=$(full_path "$value"); given+='output '; continue ;;
         --particles) particles=$(full_path "$value"); given+='particles '; continue ;;
-        --config) value=$(full_path "$value"); config=$value ;;
+        --config) config=$(full_path "$value"); options+=("$option" "$config"); continue ;;
         --energy) value=$(full_path "$value") ;;
         --save-state) value=$(full_path "$value"); state=$value; has_state=true ;;
       esac
@@ -48,12 +48,13 @@ while [ $# -gt 0 ]; do
   esac
   options+=("$option")
 done
+keys=''
 for key in method particles output; do
-  if [[ $given != *" $key "* ]] && sed 's/#.*//' "${config:-/dev/null}" 2> /dev/null |
-    grep -qE "(^|[{,[:space:]])[\"']?${key}[\"']?[[:space:]]*:"; then
-    die "$config sets $key: give it to scripts/run.sh [METHOD [FILE]] [--output FOLDER] as well"
-  fi
+  if [[ $given != *" $key "* ]] && sed -E 's/(^|[[:space:]])#.*//' "${config:-/dev/null}" 2> /dev/null |
+    grep -E "(^|[^[:alnum:]_#-])[\"']?${key}[\"']?[[:space:]]*:" > /dev/null; then keys+=" $key"; fi
 done
+[ -z "$keys" ] ||
+  die "$config sets$keys: give them to scripts/run.sh [METHOD [FILE]] [--output FOLDER] as well"
 
 "$project/scripts/setup.sh" core mpi python ros
 say "building into $build (a few minutes the first time)"
@@ -69,13 +70,14 @@ simulate=("$(program Exercise3)" "$method" --particles "$particles" --output "$o
 if $answers; then exec "${simulate[@]}"; fi
 own=$(mktemp -d)
 trap 'rm -rf "$own"' EXIT
+trap 'exit 130' INT  # also if a program that it interrupts says nothing of it
 if ! $has_state; then
   state=$own/state
   # If the configuration saves the state in a file of its own, a second run saves it here.
-  if [ -n "$config" ] && grep -qs save_state "$config"; then "${simulate[@]}" | tee "$own/closing"; simulate+=(--no-frames); fi
+  if [ -n "$config" ] && grep -qs save_state "$config"; then "${simulate[@]}" | tee -i "$own/closing"; simulate+=(--no-frames); fi
   simulate+=(--save-state "$state")
 fi
-"${simulate[@]}" | tee -a "$own/closing"
+"${simulate[@]}" | tee -ia "$own/closing"
 # Frames of an earlier run may lie there if this one writes none.
 has_frames=false
 if grep -q ' writing to ' "$own/closing"; then has_frames=true; say "frames: in $output"; fi
@@ -105,7 +107,7 @@ for parameter in "${parameters[@]}"; do
   value=${parameter#*=}
   pairs+=("${parameter%%=*}: '${value//\'/\'\'}'")
 done
-launch=("${run[@]}" "params:={$(IFS=,; printf '%s' "${pairs[*]}")}")
+launch=("${run[@]}" ${config:+"config:=$config"} "params:={$(IFS=,; printf '%s' "${pairs[*]}")}")
 setup=$(devel_of "$build")/setup.bash
 if [ -n "${DISPLAY:-}" ]; then
   "$project/scripts/setup.sh" rviz
@@ -120,4 +122,5 @@ say "completion of methods, options and files in bash:"
 printf '  source %q\n' "$project/scripts/completion.bash"
 say "the node alone (needs a running roscore):"
 printf '  source %q\n' "$setup"
+if [ -n "$config" ]; then printf '  rosparam load %q /pendulum_node\n' "$config"; fi
 printf '  rosrun spring_pendulum pendulum_node'; printf ' _%q' "${run[@]}" "${parameters[@]/=/:=}"; printf '\n'

@@ -194,7 +194,7 @@ int record(int argc, const char* const* argv) {
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
   printOutput(switches.answer);
   if (!switches.answer.empty()) return kDone;
-  if (!options.isGiven("output")) scenario.no_frames = true;
+  if (options.placeOf("output") != "--output") scenario.no_frames = true;
   checkNodeOptions(display);
   bag.config = switches.config;
   console_bridge::noOutputHandler();  // rosbag also throws what it prints of a damaged bag

@@ -21,7 +21,7 @@ check env LC_ALL=C grep -qaP '\x21\xf9\x04.\x05\x00' frames/pendulum.gif  # 0.05
 check test -s frames/pendulum.bag
 cp run.log first.log; echo '{no_frames: true, method: Euler}' > none.yaml; ! run --config none.yaml || exit 1
 check grep -q 'none.yaml sets method' run.log; run Euler --frames 5 --output frames --config none.yaml || exit 1
-check grep -q 'this run wrote no frames' run.log; mv first.log run.log
+check grep -q 'this run wrote no frames' run.log; check grep -q 'launch.*config:=.*none.yaml' run.log; mv first.log run.log
 sed -n 's/^  source /source /p' run.log | head -n 1 > setup.sh
 sed -n 's/^  rosrun /rosrun /p' run.log > node.sh
 sed -n 's/^  roslaunch /roslaunch /p' run.log > launch.sh
