@@ -135,7 +135,7 @@ function why(ended, diverged) {
       'that motion grows with every step: energy enters the chain that no force has put there.';
   }
   if (blamed) return `Of ${blamed.method.name}, the library says: ${blamed.track.end.text}.`;
-  const fixed = ended.filter(({method, track}) => method.fixed && track.end.largest > 0);
+  const fixed = ended.filter(({method, track}) => method.fixed && track.end.largest > 0 && track.end.resolved);
   if (fixed.length > 1) {
     const [best, worst] = [...fixed].sort((a, b) => a.track.end.largest - b.track.end.largest)
         .filter((_, i, all) => i === 0 || i === all.length - 1);
@@ -145,8 +145,8 @@ function why(ended, diverged) {
   const {method, track: {end}} = ended.find(({track}) => track.end.bad || track.end.kind === 'sensitive') ?? ended[0];
   if (end.kind === 'sensitive') return 'Every error grows with this motion, those of rounding, too: no method can follow it further.';
   if (end.bad) return `The errors of ${method.name} are too large with this ${method.fixed ? 'step' : 'tolerance'}.`;
-  return method.fixed ? 'No run gains energy; errors come from the truncated Taylor series.' :
-    'Error-controlled methods choose their steps so that the error stays near the tolerance.';
+  return method.fixed ? 'The errors come from the truncated Taylor series.' :
+    'Error-controlled methods choose their steps so that the error stays within ten tolerances.';
 }
 
 function remedy(ended) {
@@ -154,7 +154,8 @@ function remedy(ended) {
   if (advice) return `The library advises: ${advice.replace(/^warning: /, '').split('; ').slice(-2).join('; ')}.`;
   const {run, method, track: {end}} = ended[0];
   if (end.kind === 'sensitive') return `Compare motions up to t = ${short(end.measuredUntil, 3)} s, not later ones.`;
-  if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} only a few more evaluations: try it.`;
+  if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} more evaluations: try it.`;
+  if (end.bound >= 0 && !end.resolved) return 'Its error is below what the reference run resolves: a smaller step shows nothing.';
   return `${end.kind === 'ok' ? 'Half the step' : 'Once the step is small enough, half of it'} divides the error of ` +
     `${method.name} (order ${method.order}) by about ${2 ** method.order} and doubles its work: ` +
     `try ${short(Number(run.time_step) / 2, 6)} s.`;
