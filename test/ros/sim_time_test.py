@@ -67,8 +67,7 @@ class SimTime(NodeTest):
         with self.node(held='last=gripper') as node:
             hand = connected('handles/feedback', Feedback)
             wait_until(lambda: clock.get_num_connections() and tf.get_num_connections(), 'the subscribers')
-            # The jump to 4e9 s is longer than a duration of ROS. interactive_markers computes it for a handle that no
-            # client has pulled so far.
+            # The jump to 4e9 s is longer than a duration of ROS, which interactive_markers computes for a new handle.
             for second in (100, 101, 5, 1000000005, 1000, 3, 4000000000, 7):
                 clock.publish(Clock(rospy.Time(second)))
                 tf.publish(TFMessage([transform('gripper', stamp=rospy.Time())]))
