@@ -155,7 +155,7 @@ function remedy(ended) {
   const {run, method, track: {end}} = ended[0];
   if (end.kind === 'sensitive') return `Compare motions up to t = ${short(end.measuredUntil, 3)} s, not later ones.`;
   if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} more evaluations: try it.`;
-  if (end.bound >= 0 && !end.resolved) return 'Its error is below what the reference run resolves: a smaller step shows nothing.';
+  if (end.bound >= 0 && !end.resolved) return `The error of ${nameOf(run)} is below what the reference run resolves: a smaller step shows nothing.`;
   return `${end.kind === 'ok' ? 'Half the step' : 'Once the step is small enough, half of it'} divides the error of ` +
     `${method.name} (order ${method.order}) by about ${2 ** method.order} and doubles its work: ` +
     `try ${short(Number(run.time_step) / 2, 6)} s.`;
