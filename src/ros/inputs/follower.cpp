@@ -67,10 +67,12 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
     says_refused_ = says_stopped_ = false;
     warn_(name_ + " is followed again");
   }
-  if (samples_.size() > 1) {  // the clock may have been set
-    const double before = samples_.back().stamp, usual = before - samples_.rbegin()[1].stamp;
-    const double jump = stamp - before - usual > kSilence ? stamp - before - usual : 0.0;
-    for (Sample& earlier : samples_) earlier.stamp += jump;
+  if (samples_.size() > 1) {  // the clock of the stamps may have been set
+    const Sample& back = samples_.back();
+    const double step = stamp - back.stamp, usual = back.stamp - samples_.rbegin()[1].stamp;
+    const double lost = 1.5 * samples_.front().rateTo(back) * (now - back.arrival);
+    const bool is_set = step - std::max(usual, lost) > kSilence;
+    for (Sample& earlier : samples_) earlier.stamp += is_set ? step - usual : 0.0;
   }
   if (isSilent(now)) {
     samples_.clear();
@@ -110,11 +112,11 @@ double Follower::clockRate() const {
   const Sample &oldest = samples_.front(), &newest = samples_.back();
   if (newest.arrival <= oldest.arrival + 0.5 * kMemory) return 1.0;
   const Sample &middle = samples_[samples_.size() / 2], &recent = *before(kSilence);
-  const auto [slow, fast] =
-      std::minmax({oldest.rateTo(middle), middle.rateTo(newest), recent.rateTo(newest)});
+  const double early = oldest.rateTo(middle), late = middle.rateTo(newest);
+  const auto [slow, fast] = std::minmax({early, late, recent.rateTo(newest)});
   const double excess = std::max(slow - 1.0, 0.0) + std::min(fast - 1.0, 0.0);
   const double weight = std::clamp(std::abs(excess) / kOtherClock - 0.5, 0.0, 1.0);
-  return slow > 0.0 ? 1.0 + weight * excess : 1.0;
+  return std::min(early, late) > 0.0 ? 1.0 + weight * excess : 1.0;
 }
 
 // Poses: the parabola through three inputs. Odometry: the change of the velocity between two. A step of

@@ -87,8 +87,7 @@ class Robots {
   Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options, Driver& driver,
          Frames& frames);
 
-  /// Reads tf. Must be called often: a frame counts as received when it is read.
-  void lookUp();
+  void lookUp();  ///< reads tf; must be called often: a frame counts as received when it is read
   /// Moves the particles, and stops those whose input is silent. Must be called before every state.
   /// \param real_time_factor simulated seconds per second; 0: unknown
   /// \param next_time        of the next state, s; the present time while the run is paused

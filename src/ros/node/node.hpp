@@ -32,8 +32,7 @@ class Node {
   };
 
   std::vector<ros::ServiceServer> advertiseServices();
-  /// Acts on a request, see RequestHandler.
-  std::string take(const Request& request);
+  std::string take(const Request& request);  ///< acts on a request, see RequestHandler
   std::string on(const Pause& request);
   std::string on(const Step& request);
   std::string on(const Reset& request);
@@ -51,8 +50,7 @@ class Node {
   double nextTime() const;
   bool rests() const { return paused_ && steps_wanted_ == 0; }
   void serve();
-  /// Calls what has come in, or waits this number of seconds for it.
-  void callBack(double wait);
+  void callBack(double wait);  ///< calls what has come in, or waits this number of seconds for it
   void advance();
   void change(double next_time, bool paused);
   void goTo(const Scene* to);
