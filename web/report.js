@@ -134,7 +134,7 @@ function why(ended, diverged) {
       (blamed.method.imaginaryLimit === 0 ? 'which leaves out all undamped swings, ' : '') +
       'that motion grows with every step: energy enters the chain that no force has put there.';
   }
-  if (blamed) return `Of ${blamed.method.name}, the library says: ${blamed.track.end.text}.`;
+  if (blamed) return `The library says of ${blamed.method.name}: ${blamed.track.end.text}.`;
   const fixed = ended.filter(({method, track}) => method.fixed && track.end.largest > 0 && track.end.resolved);
   if (fixed.length > 1) {
     const [best, worst] = [...fixed].sort((a, b) => a.track.end.largest - b.track.end.largest)

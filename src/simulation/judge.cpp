@@ -198,12 +198,13 @@ Eigen::Array2d Judge::oscillationOf(const State& state) const {
   for (Eigen::Index i = 0; i + 1 < state.size(); ++i) {
     if (chain_.isHeld(i) && chain_.isHeld(i + 1)) continue;  // it has no energy, see computeEnergy
     const Eigen::RowVector4d z = state.values().row(i + 1) - state.values().row(i);
-    const double inverse = inverseLength(PlaneVector<double>{z[0], z[1]});
-    const double pull = k * chain_.spring().rest_length, speed = z.tail<2>().norm();
-    const double factor = k - pull * inverse, rate = inverse * z.head<2>().dot(z.tail<2>());
-    const double turning = pull * std::min(inverse, 1.0 / (h * speed));  // if it passes in a step
-    forces.row(i) += factor * z.head<2>().array();
-    forces.row(i + 1) -= factor * z.head<2>().array();
+    const PlaneVector<double> d{z[0], z[1]}, v{z[2], z[3]};
+    const double inverse = inverseLength(d), rate = elongationRate(d, v), speed = lengthOf(v);
+    const auto [x, y] = undampedSpringForce(chain_.spring(), d, inverse);
+    // Without this limit, particles that pass each other within a step would count without bound.
+    const double turning = k * chain_.spring().rest_length * std::min(inverse, 1.0 / (h * speed));
+    forces.row(i) += Eigen::Array2d(x, y).transpose();
+    forces.row(i + 1) -= Eigen::Array2d(x, y).transpose();
     second += (k - turning) * speed * speed + turning * rate * rate;
   }
   double work = 0.0;  // of the trapezoidal rule for the work of accelerated holders
@@ -242,7 +243,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied) {
     sums_ += errors;
     errors = sums_ / sums_[5];
   }
-  // The least error counts: of the energy, and of two modified ones, also if another method has left them.
+  // The least error counts, of the energy and of two modified ones, also of those that another method left.
   const Eigen::Array3d shifts(0.0, errors[3], errors[4]);
   const auto amount = [&](double joules, double share, std::string_view what) {
     if (options_.symplectic_step > 0.0)
