@@ -177,9 +177,8 @@ void Driver::apply(Run& run, double next_time, bool paused) {
     drive.held.push_back({i, {}});
   }
   jump_.reset();
-  // An anchor at rest needs no drive.
   if (numbersOf(drive) == std::vector{1.0, 0.0, 0.0, 0.0} && state.velocities().row(0).isZero(0.0))
-    drive = {};
+    drive = {};  // an anchor at rest needs no drive
   Scenario scenario = wanted_;
   const Method& method = run.plan().method;
   if (wanted_.method.get().hasFixedStep() != method.hasFixedStep() && !run.isAtFrame())

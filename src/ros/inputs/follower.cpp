@@ -12,10 +12,11 @@ constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its ho
 constexpr double kMet = 0.01;           // m, within which a particle is with its holder
 constexpr double kLost = 0.5;           // m, beyond which the log says that it is not
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
-constexpr double kCopied = 0.15;   // s, after which the same message says that its holder stands
-constexpr double kAtOnce = 3.0;    // seconds of stamps per second in a bundle of inputs
-constexpr double kForget = 0.002;  // share of the delay, for each message, as clocks drift
-constexpr double kMemory = 4.0;    // s, for which inputs are kept; their clock is known after half
+constexpr double kCopied = 0.15;  // s, after which the same message says that its holder stands
+constexpr double kAtOnce = 3.0;   // seconds of stamps per second in a bundle of inputs
+constexpr double kFastestClock = 20.0;  // seconds of stamps per second, of a clock not yet known
+constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
+constexpr double kMemory = 4.0;  // s, for which inputs are kept; their clock is known after half
 constexpr double kOtherClock = 0.1;   // share by which a clock that is no real time differs from it
 constexpr double kLongestLead = 0.2;  // s, for which the motion of a holder is extrapolated
 constexpr double kSteepest = 5.0;     // m/s², largest acceleration of a slow holder
@@ -67,10 +68,13 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
     says_refused_ = says_stopped_ = false;
     warn_(name_ + " is followed again");
   }
-  if (samples_.size() > 1) {  // the clock of the stamps may have been set
+  if (!samples_.empty()) {  // the clock of the stamps may have been set
     const Sample& back = samples_.back();
-    const double step = stamp - back.stamp, usual = back.stamp - samples_.rbegin()[1].stamp;
-    const double lost = 1.5 * samples_.front().rateTo(back) * (now - back.arrival);
+    const bool is_second = samples_.size() == 1;
+    const double step = stamp - back.stamp;
+    const double usual = is_second ? 0.0 : back.stamp - samples_.rbegin()[1].stamp;
+    const double rate = is_second ? kFastestClock : samples_.front().rateTo(back);
+    const double lost = 1.5 * rate * (now - back.arrival);
     const bool is_set = step - std::max(usual, lost) > kSilence;
     for (Sample& earlier : samples_) earlier.stamp += is_set ? step - usual : 0.0;
   }
@@ -78,8 +82,8 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
     samples_.clear();
     left_ = 0.0;
   } else if (const double step = stamp - samples_.back().stamp; step > 0.0) {
-    // Differences of stamps have no jitter, but their clock may be slower.
-    const double expected = samples_.back().time + step;
+    const double expected =
+        samples_.back().time + step;  // without jitter, but clocks may be slower
     sample.time = std::clamp(expected + kForget * (now - expected), now - kJitter, now);
   }
   // Inputs that come at once were late, all but the last: they are spread from the one before them on.
@@ -111,10 +115,10 @@ const Follower::Sample* Follower::before(double seconds) const {
 // It is taken as 1 until it is known and if it is off by less than 5 %, in full from 15 % on.
 double Follower::clockRate() const {
   const Sample &oldest = samples_.front(), &newest = samples_.back();
-  if (newest.arrival <= oldest.arrival + 0.5 * kMemory) return 1.0;
-  const Sample &middle = samples_[samples_.size() / 2], &recent = *before(kSilence);
+  const Sample *const recent = before(kSilence), &middle = samples_[samples_.size() / 2];
+  if (recent == nullptr || newest.arrival <= oldest.arrival + 0.5 * kMemory) return 1.0;
   const double early = oldest.rateTo(middle), late = middle.rateTo(newest);
-  const auto [slow, fast] = std::minmax({early, late, recent.rateTo(newest)});
+  const auto [slow, fast] = std::minmax({early, late, recent->rateTo(newest)});
   const double excess = std::max(slow - 1.0, 0.0) + std::min(fast - 1.0, 0.0);
   const double weight = std::clamp(std::abs(excess) / kOtherClock - 0.5, 0.0, 1.0);
   return std::min(early, late) > 0.0 ? 1.0 + weight * excess : 1.0;
@@ -169,8 +173,7 @@ std::optional<Target> Follower::targetAt(double now, const PlaneVector<double>& 
     if (!place_) place_ = interval == 0.0 ? target.position : here;  // it is seen late in a pause
     return Target{*place_, {}, {}};
   }
-  // The motion of a holder during a long interval is unknown.
-  if (interval > kSilence) target.velocity = target.acceleration = {};
+  if (interval > kSilence) target.velocity = target.acceleration = {};  // unknown for so long
   const double age = silence - interval;
   for (const auto axis : {&PlaneVector<double>::x, &PlaneVector<double>::y}) {
     target.position.*axis += age * (target.velocity.*axis + 0.5 * age * target.acceleration.*axis);

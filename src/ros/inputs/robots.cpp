@@ -141,8 +141,7 @@ void Robots::follow(double real_time_factor, double next_time) {
                                    run_.state().y()[robot.particle]};
     auto target = robot.follower.targetAt(now, here, interval);
     if (!target) continue;
-    // From seconds to simulated seconds.
-    if (share > 0.0) target->fastest *= share;
+    if (share > 0.0) target->fastest *= share;  // from seconds to simulated seconds
     target->velocity = {share * target->velocity.x, share * target->velocity.y};
     target->acceleration = {share * share * target->acceleration.x,
                             share * share * target->acceleration.y};
