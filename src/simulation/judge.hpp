@@ -31,10 +31,8 @@
 namespace spring_pendulum {
 
 struct JudgeOptions {
-  /// Whether the integrator has it set. If not, the residual is known only for a chain without damping.
-  bool track_dissipation = false;
-  /// Step size in s of a symplectic method, whose mean energy is judged; 0 for other methods.
-  double symplectic_step = 0.0;
+  bool track_dissipation = false;  ///< if not, the residual is known only without damping
+  double symplectic_step = 0.0;    ///< s, of a symplectic method, whose mean is judged; 0: another
   /// Tolerance in m of an error-controlled method; 0 for fixed steps. As position errors of ten tolerances
   /// are allowed, a spring may be 20 too long. That energy is no fault, even if it exceeds the scale.
   double tolerance = 0.0;
@@ -93,7 +91,7 @@ class Judge {
   /// it is not, but for terms of higher order, this plus h²/12 (f²/m + v·K v) with the stiffness matrix K.
   /// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., 2006, section IX.3.
   Eigen::Array2d oscillationOf(const State& state) const;
-  Verdict energyVerdict(double time, const State& state, double supplied);
+  Verdict energyVerdict(double time, const State& state, double supplied, bool is_measuring);
   Verdict positionVerdict(const ReferenceRun* reference) const;
 
   Chain chain_;

@@ -80,11 +80,6 @@ TEST(Verdict, RemembersTheWorstAndTheFirstTimeOfIt) {
   EXPECT_EQ(judge.worst().time, 1.0);
 }
 
-TEST(Verdict, IsOkForTheFixedParticleAlone) {
-  Judge judge(uniform(1, SpringLaw{}, 9.81), State(1), {false, 0.0, 1.7e308});
-  EXPECT_EQ(judge.judge(1.0, State(1), 0.0, nullptr).kind, VerdictKind::kNotChecked);
-}
-
 double scaleOf(const Chain& chain, const State& start) {
   return Judge(chain, start, {false}).scale(0.0);
 }

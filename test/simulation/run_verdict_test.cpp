@@ -121,6 +121,8 @@ TEST(Run, TheModifiedEnergyOfALinearChainIsConserved) {
         run.change(scenario, run.chain().constants(), {{{0, {}}, {1, {5.0, 0.0}}}, {}},
                    run.state());
         run.advanceTo(3.0 * time);
+        run.change(scenario, {{70.0, 0.5, 1.0}, 0.0}, {}, run.state());
+        run.advanceTo(4.0 * time);
         EXPECT_LE(run.verdict().kind, VerdictKind::kInaccurate) << rate << run.verdict().text;
       }
 }

@@ -271,9 +271,9 @@ Remarks remarksOn(const Run& run) {
 Outcome outcomeOf(const Run& run, const std::function<bool()>& stop) {
   const Verdict& verdict = run.verdict();
   if (verdict.kind == VerdictKind::kDiverged) {
-    const std::string remedy =
-        run.isChanged() ? "hands, forces or changes have driven the run"
-                        : remedyForDivergence(run.chain(), run.start(), run.plan(), stop);
+    std::string remedy = "hands, forces, changes or a loaded state have driven the run";
+    if (!run.isChanged() && !run.chain().isDriven())
+      remedy = remedyForDivergence(run.chain(), run.start(), run.plan(), stop);
     return {3, {verdict.text + (remedy.empty() ? "" : "; " + remedy)}};
   }
   Outcome outcome;
