@@ -148,14 +148,14 @@ async function run() {
     note.textContent = `A method named ${name} exists: choose another name.`;
     return;
   }
+  const isInTable = settings.runs.some((run) => run.method === name);
+  const runs = isInTable ? settings.runs : settings.runs.slice(0, MOST_RUNS - 1);
   const others = settings.own.filter((method) => method.name !== name);
-  if (others.length >= MOST_RUNS) others.shift();
+  const unused = others.findIndex((method) => !runs.some((run) => run.method === method.name));
+  if (others.length >= MOST_RUNS) others.splice(unused, 1);
   if (!await register([...others, {name, ...structuredClone(tableau)}], settings.own)) return;
   note.textContent = `${name} is in the table of runs.`;
-  if (!settings.runs.some((other) => other.method === name)) {
-    if (settings.runs.length === MOST_RUNS) settings.runs.pop();
-    settings.runs.push(newRun(name));
-  }
+  settings.runs = isInTable ? runs : [...runs, newRun(name)];
   tell('own');
   tell('settings');
 }

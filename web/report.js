@@ -1,4 +1,4 @@
-// The table of runs, and what happened in three sentences.
+// The table of runs, and sentences on what happened.
 import {cancelRuns, running, scene, tracks} from './runs.js';
 import {paragraph} from './step.js';
 import {MOST_RUNS, colorOf, described, keyOf, methodOf, nameOf, newRun, on, settings, tell} from './state.js';
@@ -102,14 +102,7 @@ export function showResults() {
   list.replaceChildren(...sentences().map((text) => paragraph(text, 'li')));
 }
 
-const meanings = {
-  sensitive: ': from some time on, small errors grow so much that nobody knows the true motion',
-  inaccurate: ': a particle is wrong by over 1 % of the length of the chain',
-  drift: ': energy and what the dampers took no longer add up to the energy at the start, by over 1 % of the energy scale',
-  'gained energy': ': the energy is above that at the start by over 1 % of the energy scale, which no force can do',
-};
-
-/** What happened, why, and what to do about it, from what the library measured. */
+/** What happened, why as far as that is measured, what the library says about it, and what to try next. */
 export function sentences() {
   const ended = settings.runs.map((run, i) => ({run, track: tracks[i], method: methodOf(run.method)}))
       .filter(({track, method}) => track?.end && method);
@@ -118,12 +111,15 @@ export function sentences() {
   const others = ended.filter(({track}) => !track.diverged);
   const what = [
     ...diverged.map(({run, track}) => `${nameOf(run)} diverges at t = ${short(track.end.time, 3)} s`),
-    ...others.map(({run, track: {end}}) => (end.bad || meanings[end.kind] || !(end.bound >= 0) ?
-      `${nameOf(run)} ends with the verdict "${end.kind}"${meanings[end.kind] ?? ''}` :
+    ...others.map(({run, track: {end}}) => (end.bad || end.kind === 'sensitive' || !(end.bound >= 0) ?
+      `${nameOf(run)} ends with the verdict "${end.kind}"` :
       `${nameOf(run)} stays within ${short(end.bound)} m of the true motion` +
         (end.kind === 'ok' ? '' : ` until t = ${short(end.measuredUntil, 3)} s; later it was not measured`))),
   ].join('; ');
-  return [`${what}.`, why(ended, diverged), remedy(ended)];
+  const said = ended.flatMap(({run, track: {failure, end}}) => [failure, ...end.messages].filter(Boolean)
+      .map((text) => `${nameOf(run)}: ${text}.`));
+  const next = others.find(({track}) => track.end.kind !== 'sensitive');
+  return [`${what}.`, why(ended, diverged), ...said, next ? remedy(next) : ''].filter(Boolean);
 }
 
 function why(ended, diverged) {
@@ -134,31 +130,20 @@ function why(ended, diverged) {
       (blamed.method.imaginaryLimit === 0 ? 'which leaves out all undamped swings, ' : '') +
       'that motion grows with every step: energy enters the chain that no force has put there.';
   }
-  if (blamed) return `The library says of ${blamed.method.name}: ${blamed.track.end.text}.`;
   const fixed = ended.filter(({method, track}) => method.fixed && track.end.largest > 0 && track.end.resolved);
-  if (fixed.length > 1) {
-    const [best, worst] = [...fixed].sort((a, b) => a.track.end.largest - b.track.end.largest)
-        .filter((_, i, all) => i === 0 || i === all.length - 1);
-    return `The largest error of ${nameOf(worst.run)} is ${short(worst.track.end.largest / best.track.end.largest)} ` +
-      `times that of ${nameOf(best.run)}: their orders are ${worst.method.order} and ${best.method.order}.`;
-  }
-  const {method, track: {end}} = ended.find(({track}) => track.end.bad || track.end.kind === 'sensitive') ?? ended[0];
-  if (end.kind === 'sensitive') return 'Every error grows with this motion, those of rounding, too: no method can follow it further.';
-  if (end.bad) return `The errors of ${method.name} are too large with this ${method.fixed ? 'step' : 'tolerance'}.`;
-  return method.fixed ? 'The errors come from the truncated Taylor series.' :
-    'Error-controlled methods choose their steps so that the error stays within ten tolerances.';
+  if (blamed || fixed.length < 2) return '';
+  fixed.sort((a, b) => a.track.end.largest - b.track.end.largest);
+  const best = fixed[0], worst = fixed.at(-1);
+  return `The largest error of ${nameOf(worst.run)} is ${short(worst.track.end.largest / best.track.end.largest)} ` +
+    `times that of ${nameOf(best.run)}` +
+    (worst.method === best.method ? '.' : `: their orders are ${worst.method.order} and ${best.method.order}.`);
 }
 
-function remedy(ended) {
-  const advice = ended.flatMap(({track}) => track.end.messages).find((line) => /largest stable step/.test(line));
-  if (advice) return `The library advises: ${advice.replace(/^warning: /, '').split('; ').slice(-2).join('; ')}.`;
-  const {run, method, track: {end}} = ended[0];
-  if (end.kind === 'sensitive') return `Compare motions up to t = ${short(end.measuredUntil, 3)} s, not later ones.`;
+function remedy({run, method, track: {end}}) {
   if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} more evaluations: try it.`;
   if (end.bound >= 0 && !end.resolved) return `The error of ${nameOf(run)} is below what the reference run resolves: a smaller step shows nothing.`;
-  return `${end.kind === 'ok' ? 'Half the step' : 'Once the step is small enough, half of it'} divides the error of ` +
-    `${method.name} (order ${method.order}) by about ${2 ** method.order} and doubles its work: ` +
-    `try ${short(Number(run.time_step) / 2, 6)} s.`;
+  return `Once the step is small enough, half of it divides the error of ${method.name} (order ${method.order}) by about ` +
+    `${2 ** method.order} and doubles its work: try ${short(Number(run.time_step) / 2, 6)} s.`;
 }
 
 export function start() {

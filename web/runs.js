@@ -4,6 +4,7 @@ import {MOST_RUNS, described, methodOf, on, optionsOf, settings, tell} from './s
 
 const COLUMNS = ['time', 'frame', 'error', 'kinetic', 'gravity', 'spring', 'dissipated', 'relativeResidual'];
 const MOST_BYTES = 3e8;  // of all runs
+const MOST_STEPS = 2e5;  // times particles, of a run of which each step is kept
 const LONG_CHAIN = 300;  // particles, from here on fewer pictures between the frames
 const VERY_LONG_CHAIN = 2000;
 
@@ -94,6 +95,7 @@ function intervalOf(options) {
   const size = scene.x.length;
   if (size > VERY_LONG_CHAIN) return 0;
   const step = methodOf(options.method)?.fixed ? Number(options.time_step) : 0;
+  if (step > 0 && options.frames * options.steps_per_frame * size <= MOST_STEPS) return step;
   return Math.max(step, size > LONG_CHAIN ? 1 / 30 : 1 / 120);
 }
 

@@ -5,7 +5,7 @@ import {short} from './report.js';
 import {paragraph} from './step.js';
 import {MOST_RUNS, colorOf, on, described, get, methodOf, optionsOf, newRun, settings, theme} from './state.js';
 
-const FRAME = 0.4;       // s; the largest step
+const FRAME = 0.5;       // s; about the largest step
 const HALVINGS = 9;
 const TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 const CHOSEN = ['Euler', 'Runge-Kutta-2', 'Runge-Kutta-4', 'Auto'];  // at the start
@@ -22,16 +22,17 @@ const tint = (i) => {
 };
 
 function jobsOf(duration) {
-  const frames = Math.max(1, Math.round(duration / FRAME)) + 1;
+  const intervals = Math.max(1, Math.round(duration / FRAME));
+  const interval = duration / intervals, frames = intervals + 1;
   const boxes = [...document.querySelectorAll('#study-methods input')];
   return boxes.filter((box) => box.checked).map(({value}) => methodOf(value)).filter(Boolean).map((method) => ({
     method,
     settings: method.fixed ?
       Array.from({length: HALVINGS + 1}, (_, n) => ({
-        time_step: String(FRAME / 2 ** n), steps_per_frame: String(2 ** n), frames: String(frames),
+        time_step: String(interval / 2 ** n), steps_per_frame: String(2 ** n), frames: String(frames),
       })) :
       TOLERANCES.map((tolerance) => ({
-        tolerance: String(tolerance), frame_interval: String(FRAME), frames: String(frames),
+        tolerance: String(tolerance), frame_interval: String(interval), frames: String(frames),
       })),
   }));
 }
@@ -51,8 +52,10 @@ async function measure() {
   rows = [];
   library = new Library();
   try {
-    for (const {method, settings: list} of jobs) await measureMethod(method, list, progress);
-    get('study-note').textContent = 'Done.';
+    for (const {method, settings: list} of jobs) await measureMethod(method, list, duration, progress);
+    const unmeasured = rows.reduce((sum, row) => sum + row.unmeasured, 0);
+    get('study-note').textContent = unmeasured === 0 ? 'Done.' :
+      `Done. Runs whose true motion is known for a part of the time only are left out: ${unmeasured}.`;
   } catch (error) {
     get('study-note').textContent = error instanceof Cancelled ? 'Cancelled.' : error.message;
   }
@@ -61,8 +64,8 @@ async function measure() {
   get('study').disabled = false;
 }
 
-async function measureMethod(method, list, progress) {
-  const row = {method, points: [], limit: NaN};
+async function measureMethod(method, list, duration, progress) {
+  const row = {method, points: [], limit: NaN, unmeasured: 0};
   rows.push(row);
   const {file} = settings;
   for (const sizes of list) {
@@ -70,7 +73,9 @@ async function measureMethod(method, list, progress) {
     const options = {...optionsOf(newRun(method.name)), ...sizes};
     try {
       const end = await library.call('measure', {settings: options, file});
-      const error = end.resolved ? end.largest : NaN;
+      const isShort = end.status !== 3 && end.measuredUntil < duration - 1e-6;
+      if (isShort) ++row.unmeasured;
+      const error = end.resolved && !isShort ? end.largest : NaN;
       if (end.status !== 3 && error > ENOUGH) {
         row.points.push({setting: Number(sizes.time_step ?? sizes.tolerance), error, evaluations: end.evaluations});
       }

@@ -458,11 +458,12 @@ class LabTest(unittest.TestCase):
     def test_two_own_methods_run_and_a_wrong_one_is_left_out(self):
         self.call('await pendulumLab.set({particles: "one_spring.txt", frames: 50, runs: [{method: "Runge-Kutta-4"}]})')
         self.tab('own')
-        for number, name in ((1, 'Heun'), (2, 'Ralston')):
+        for number, name in ((1, 'Heun'), (2, 'Ralston'), (3, 'Kutta-3'), (4, '3-8-rule'), (5, 'wrong-Runge-Kutta-4')):
             self.browser.find_element(By.CSS_SELECTOR, f'#own-preset option:nth-child({number})').click()
-            self.wait('return document.getElementById("own-note").textContent.includes("order 2")')
+            self.wait('return document.getElementById("own-note").textContent.includes("has order")')
             self.element('own-run').click()
-            self.wait(f'return pendulumLab.state().runs[{number}]?.end?.status === 0')
+            self.wait(f'return pendulumLab.state().settings.runs.some(({{method}}) => method === "{name}")')
+            self.wait('return pendulumLab.state().runs.every((run) => run?.end?.status === 0)')
             self.assertEqual(self.element('own-note').text, f'{name} is in the table of runs.')
         self.wait('return pendulumLab.state().runs.every((run) => run?.end?.status === 0)')
         self.type('own-name', 'Bad09')
