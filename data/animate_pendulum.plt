@@ -14,11 +14,13 @@ if (!exists("frame_interval")) frame_interval = 0.1
 if (!exists("trail")) trail = 1.5
 if (!exists("picture_size")) picture_size = 480
 
-# Frames are numbered without gaps, so their count is enough. The names sort by number.
-frame_name(n) = sprintf("frame_%04d.txt", n)
+# The names sort by number. A run that was resumed in another folder begins there with a later frame.
 list_frames = "ls | grep -E '^frame_[0-9]{4,}\\.txt$' | sort -t_ -k2n"
-frames = int(system(list_frames . " | wc -l"))
+numbers = system(list_frames . " | awk -F'[_.]' 'NR == 1 { first = $2 } END { print NR, first + 0, $2 + 0 }'")
+frames = int(word(numbers, 1)); begin = int(word(numbers, 2))
 if (frames < 1) exit error "no frame_0000.txt here: run gnuplot in the folder of the frames"
+if (begin + frames - 1 != int(word(numbers, 3))) exit error "frames between the first and the last one are missing"
+frame_name(n) = sprintf("frame_%04d.txt", begin + n)
 
 # A GIF shows each picture for a whole number of hundredths of a second, and viewers need at least
 # two. So only every `stride`-th frame is shown: the first stride that gives the true speed within
@@ -99,7 +101,7 @@ unset print
 kept = ceil(trail / (stride * frame_interval))
 
 set terminal gif animate delay delay(stride) loop 0 optimize size width, height font "sans,11"
-set output "pendulum.gif"
+set output ".pendulum.gif"
 set size ratio -1
 set xrange [middle_x - half_x : middle_x + half_x]
 set yrange [middle_y - half_y : middle_y + half_y]
@@ -111,7 +113,7 @@ set ylabel "y in m" offset 1.5, 0
 unset key
 shown = 0
 do for [n = 0 : frames - 1 : stride] {
-  set title sprintf("t = %.2f s", n * frame_interval) offset 0, -0.6
+  set title sprintf("t = %.2f s", (begin + n) * frame_interval) offset 0, -0.6
   first = larger(0, shown - kept)
   age(row) = 1.0 - (row + 1.0) / (shown - first + 1.0)
   from_x = from_y = NaN
@@ -130,3 +132,6 @@ do for [n = 0 : frames - 1 : stride] {
   shown = shown + 1
 }
 unset output
+# A whole GIF ends with a semicolon; one that is torn, on a full disk, does not replace an earlier one.
+put = "tail -c 1 .pendulum.gif | grep -q ';' && mv -f .pendulum.gif pendulum.gif && echo done || rm -f .pendulum.gif"
+if (system(put) ne "done") exit error "pendulum.gif could not be written"

@@ -101,6 +101,21 @@ TEST_F(Animation, ShowsTheMotionBeforeADivergence) {
   EXPECT_EQ(height, 240 + 75);
 }
 
+TEST_F(Animation, IsWholeOrLeavesTheEarlierOne) {
+  makeFrames(5);
+  std::filesystem::remove(folder_.path("frame_0000.txt"));
+  EXPECT_EQ(load().status, 0);
+  EXPECT_EQ(delays().size(), 4U);
+  const std::string earlier = read("pendulum.gif");
+  const std::string gnuplot = fmt::format("gnuplot -e 'load \"{}\"'", kScript);
+  const std::string limited = "trap '' XFSZ; ulimit -f 5; " + gnuplot;
+  Result result = run({{"bash", "-c", limited}, folder_.path()});
+  EXPECT_TRUE(result.status != 0 && read("pendulum.gif") == earlier);
+  EXPECT_THAT(result.errors, HasSubstr("could not be written"));
+  std::filesystem::remove(folder_.path("frame_0002.txt"));
+  EXPECT_THAT(load().errors, HasSubstr("are missing"));
+}
+
 TEST_F(Animation, TellsWhenThereAreNoFrames) {
   const Result result = load();
   EXPECT_NE(result.status, 0);
