@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStandardOutput = "> ";
+constexpr const char* kStandardError = "2> ";
 constexpr int kNoRedirection = 126;
 
 /// Where an input may lie: plain, like a frame, a hidden file, or an output whose name follows from another.
@@ -58,10 +59,10 @@ class TouchedFiles : public testing::Test {
     for (const std::string& word : program.command)
       command.arguments.push_back(word == input ? place : word);
     for (const auto& [option, value] : outputs) {
-      if (option == kStandardOutput) {
-        command.prepare = [file = value] {
+      if (option == kStandardOutput || option == kStandardError) {
+        command.prepare = [file = value, to = option == kStandardOutput ? 1 : 2] {
           const int stream = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
-          if (stream < 0 || dup2(stream, STDOUT_FILENO) < 0) _exit(kNoRedirection);
+          if (stream < 0 || dup2(stream, to) < 0) _exit(kNoRedirection);
         };
       } else {
         command.arguments.insert(command.arguments.end(), {option, value});
@@ -116,6 +117,8 @@ const Program kExercise3{{EXERCISE3, "Euler", "--particles", "in.txt", "--config
 
 TEST_F(TouchedFiles, OfExercise3AreNoInputs) {
   checkAgainstInputs(kExercise3);
+  for (const char* value : {"e", "soft", "hard"})
+    check(kExercise3, "in.txt", "e", {{kStandardError, value}});
   const std::string state = "# state of 2 particles at frame 0, t = 0 s\n0 0 1 0 0\n1 0 1 0 0\n";
   checkAgainstInputs({{EXERCISE3, "Euler", "in.txt", "--resume", "--frames", "3"},
                       {{"in.txt", state}},

@@ -37,9 +37,8 @@ std::string followLinks(const std::string& path) {
   constexpr int kMostLinks = 40;  // the limit of Linux
   std::filesystem::path target(path);
   std::error_code error;
-  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i)
     target = target.parent_path() / std::filesystem::read_symlink(target, error);
-  }
   return target.string();
 }
 

@@ -55,6 +55,8 @@ void checkPair(const Touched& a, const Touched& b) {
       a.use == Touched::kOutput && b.use >= Touched::kOutput && isInside(b.path, a.path);
   if (!areSame(a.path, b.path) && !is_folder) return;
   if (b.use == Touched::kInput) {
+    if (areSame(withoutLinks("/proc/self/fd/2"), b.path))
+      ::close(STDERR_FILENO);  // the message would change the input
     throw InputError(a.shown +
                      ": is an input of this run and would be overwritten; choose another file");
   }

@@ -95,9 +95,8 @@ void FrameWriter::writeNow(std::int64_t index, const State& state) {
   AtomicFile file(folder_, name, folder_.path() + "/" + name, AtomicFile::Lock::kNone);
   for (Eigen::Index first = 0; first < size; first += kLinesAtOnce) {
     char* end = text_.data();
-    for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i) {
+    for (Eigen::Index i = first; i < std::min(size, first + kLinesAtOnce); ++i)
       end = writeLine({x[i], y[i]}, end);
-    }
     file.write({text_.data(), static_cast<std::size_t>(end - text_.data())});
   }
   file.finish();
