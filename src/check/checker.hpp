@@ -20,15 +20,13 @@ enum class FrameVerdict { kEqual, kUndecided, kDifferent };
 
 struct FrameCheck {
   FrameVerdict verdict;
-  /// The verdict; for different frames where they depart, and the mistakes; notes.
-  std::vector<std::string> lines;
+  std::vector<std::string>
+      lines;  ///< verdict; where different frames depart, and the mistakes; notes
   std::optional<double> departure_time = {};  ///< s
 };
 
-/// Checks frames.
-/// \param scenario  the constants of the model, steps, tolerance and number of frames that the program
-///   should have
-/// \param particles the start
+/// Compares frames with those of a right program that starts with `particles`.
+/// \param scenario  constants of the model, steps, tolerance and number of frames of a right program
 /// \param frames    in any order, some may be missing
 /// \param method_is_given whether the frames must be those of `Scenario::method`. Otherwise they may be
 ///   those of any method but explicit Runge-Kutta methods of other courses.

@@ -170,6 +170,8 @@ const std::vector<Mistake>& knownMistakes() {
       {"time_step", kAny, "takes one step per frame, as long as all together", [](P& p) { p.time_step *= static_cast<double>(p.steps_per_frame); p.steps_per_frame = 1; }},
       {"time_step", kAny, "uses a tenth of the time step", [](P& p) { p.time_step /= 10; }},
       {"time_step", kAny, "takes ten times as many steps, each a tenth as long", [](P& p) { p.time_step /= 10; p.steps_per_frame *= 10; }},
+      {"time_step", kAny, "takes twice as many steps, each half as long", [](P& p) { p.time_step /= 2; p.steps_per_frame *= 2; }},
+      {"time_step", kAny, "takes half as many steps, each twice as long", [](P& p) { p.time_step *= 2; p.steps_per_frame /= 2; }},
       {"swapped", kAny, "writes y before x", [](P& p) { p.prints.push_back([](Numbers& z) { z.row(0).swap(z.row(1)); }); }},
       {"y_down", kAny, "writes -y instead of y", [](P& p) { p.prints.push_back([](Numbers& z) { z.row(1) *= -1; }); }},
       {"reversed", kAny, "writes the particles in reverse order", [](P& p) { p.prints.push_back([](Numbers& z) { z = z.rowwise().reverse().eval(); }); }},
