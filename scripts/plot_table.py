@@ -21,9 +21,9 @@ import warnings
 
 from method_styles import METHODS
 
+os.environ['MPLBACKEND'] = 'Agg'
 try:
     import matplotlib
-    matplotlib.use('Agg')
     from matplotlib import pyplot
     from matplotlib.colors import LogNorm, Normalize
 except ImportError:

@@ -91,12 +91,12 @@ std::deque<Method> builtInMethods() {
       {"Taylor-8", 8, 8, StepControl::kErrorControlled, kTaylor8RealStabilityLimit,
        3.3951402205749246,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
-       "the fastest for tolerances down to 1e-6 m, unless particles are very light", nullptr,
+       "where stability limits the step, as with light particles and coarse tolerances", nullptr,
        makeErrorControlled<TaylorStepper, 8>, false, 850},
       {"Taylor-12", 12, 12, StepControl::kErrorControlled, kTaylor12RealStabilityLimit,
        3.3793773141575327,
        "Å. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117, doi:10.1080/10586458.2005.10128904",
-       "the fastest for tighter tolerances, unless particles are very light", nullptr,
+       "usually the fastest, unless particles are very light", nullptr,
        makeErrorControlled<TaylorStepper, 12>, false, 880},
       {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
@@ -107,7 +107,7 @@ std::deque<Method> builtInMethods() {
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
-       "for light particles (k_d/m of 1e2/s to 1e5/s), the fastest there", nullptr,
+       "for light particles (k_d/m of 1e2/s to 1e4/s)", nullptr,
        makeErrorControlled<StabilizedTaylorStepper, 8>, false, 1050},
       {"Radau-9", 9, 5, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "

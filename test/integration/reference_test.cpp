@@ -54,12 +54,6 @@ TEST(KnownError, Agrees) {
   }
 }
 
-TEST(Euler, LosesHorizontal11WithinFiftySeconds) {
-  const Scene scene = referenceScene("horizontal_11");
-  const auto integrator = makeIntegrator("Euler", scene.chain);
-  EXPECT_FALSE(errorAfter(*integrator, scene, "horizontal_11", 50, 100) < 1e6);
-}
-
 /// log2 of the ratio of the errors with a step and with half of it.
 double slope(Integrator& integrator, const std::string& name, int seconds, int steps_per_second) {
   const Scene scene = referenceScene(name);
