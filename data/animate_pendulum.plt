@@ -101,6 +101,7 @@ unset print
 kept = ceil(trail / (stride * frame_interval))
 
 set terminal gif animate delay delay(stride) loop 0 optimize size width, height font "sans,11"
+system("rm -f .pendulum.gif")  # of a film that was stopped
 set output ".pendulum.gif"
 set size ratio -1
 set xrange [middle_x - half_x : middle_x + half_x]
@@ -133,5 +134,5 @@ do for [n = 0 : frames - 1 : stride] {
 }
 unset output
 # A whole GIF ends with a semicolon; one that is torn, on a full disk, does not replace an earlier one.
-put = "tail -c 1 .pendulum.gif | grep -q ';' && mv -f .pendulum.gif pendulum.gif && echo done || rm -f .pendulum.gif"
+put = "tail -c 1 .pendulum.gif | grep -q ';' && mv -fT .pendulum.gif pendulum.gif && echo done || rm -f .pendulum.gif"
 if (system(put) ne "done") exit error "pendulum.gif could not be written"
