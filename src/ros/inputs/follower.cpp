@@ -70,10 +70,9 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   }
   if (!samples_.empty()) {  // the clock of the stamps may have been set
     const Sample& back = samples_.back();
-    const bool is_second = samples_.size() == 1;
-    const double step = stamp - back.stamp;
-    const double usual = is_second ? 0.0 : back.stamp - samples_.rbegin()[1].stamp;
-    const double rate = is_second ? kFastestClock : samples_.front().rateTo(back);
+    const double step = stamp - back.stamp, known = back.stamp - samples_.front().stamp;
+    const double usual = samples_.size() > 1 ? back.stamp - samples_.rbegin()[1].stamp : 0.0;
+    const double rate = known > 0.0 ? samples_.front().rateTo(back) : kFastestClock;
     const double lost = 1.5 * rate * (now - back.arrival);
     const bool is_set = step - std::max(usual, lost) > kSilence;
     for (Sample& earlier : samples_) earlier.stamp += is_set ? step - usual : 0.0;
