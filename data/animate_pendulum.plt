@@ -101,7 +101,7 @@ unset print
 kept = ceil(trail / (stride * frame_interval))
 
 set terminal gif animate delay delay(stride) loop 0 optimize size width, height font "sans,11"
-system("rm -f .pendulum.gif")  # of a film that was stopped
+system("rm -f .pendulum.gif")  # left by a film that was stopped
 set output ".pendulum.gif"
 set size ratio -1
 set xrange [middle_x - half_x : middle_x + half_x]

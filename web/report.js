@@ -141,7 +141,7 @@ function why(ended, diverged) {
 }
 
 function remedy({run, method, track: {end}}) {
-  if (!method.fixed) return `A tolerance ten times smaller costs ${method.name} more evaluations: try it.`;
+  if (!method.fixed) return `Try a tolerance ten times smaller, and compare the evaluations of ${method.name}.`;
   if (end.bound >= 0 && !end.resolved) return `The error of ${nameOf(run)} is below what the reference run resolves: a smaller step shows nothing.`;
   return `Once the step is small enough, half of it divides the error of ${method.name} (order ${method.order}) by about ` +
     `${2 ** method.order} and doubles its work: try ${short(Number(run.time_step) / 2, 6)} s.`;

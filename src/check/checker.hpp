@@ -20,8 +20,8 @@ enum class FrameVerdict { kEqual, kUndecided, kDifferent };
 
 struct FrameCheck {
   FrameVerdict verdict;
-  std::vector<std::string>
-      lines;  ///< verdict; where different frames depart, and the mistakes; notes
+  /// The verdict; for different frames where they depart, and the mistakes; notes.
+  std::vector<std::string> lines;
   std::optional<double> departure_time = {};  ///< s
 };
 

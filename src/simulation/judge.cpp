@@ -243,7 +243,7 @@ Verdict Judge::energyVerdict(double time, const State& state, double supplied, b
     sums_ += errors;
     errors = sums_ / sums_[5];
   }
-  // The least error counts, of the energy and of two modified ones, also of those that another method left.
+  // Of the errors of the energy and of two modified ones, the least counts, also after a change of the method.
   const Eigen::Array3d shifts(0.0, errors[3], errors[4]);
   const auto amount = [&](double joules, double share, std::string_view what) {
     if (options_.symplectic_step > 0.0)

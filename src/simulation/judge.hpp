@@ -32,7 +32,7 @@ namespace spring_pendulum {
 
 struct JudgeOptions {
   bool track_dissipation = false;  ///< if not, the residual is known only without damping
-  double symplectic_step = 0.0;    ///< s, of a symplectic method, whose mean is judged; 0: another
+  double symplectic_step = 0.0;    ///< s; 0: not symplectic, else the mean energy is judged
   /// Tolerance in m of an error-controlled method; 0 for fixed steps. As position errors of ten tolerances
   /// are allowed, a spring may be 20 too long. That energy is no fault, even if it exceeds the scale.
   double tolerance = 0.0;

@@ -57,12 +57,12 @@ TEST(Oracle, MeasuresGrowthOfASmallChange) {
 }
 
 TEST(RandomScenes, KeepTheTolerance) {
-  int checked = 0;
+  std::set<std::string> checked;  // families
   for (unsigned seed = 1000; seed < 1031; ++seed) {
     const Scene scene = randomScene(seed);
     const auto exact = exactMotion(scene, kInterval, kOutputs, kBudget);
     if (!exact || exact->growth > kLargestGrowth) continue;
-    ++checked;
+    checked.insert(scene.name.substr(0, scene.name.rfind(' ')));
     for (const Method& method : methodTable()) {
       if (method.hasFixedStep()) continue;
       for (const double tolerance : {1e-3, 1e-6})
@@ -70,7 +70,7 @@ TEST(RandomScenes, KeepTheTolerance) {
             << method.name << ", " << tolerance << " m, " << scene.name;
     }
   }
-  EXPECT_GE(checked, 15);
+  EXPECT_GE(checked.size(), 15U);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class Integrator {
   virtual double dissipatedEnergy() const = 0;
 
   /// Energy in J that the holders of particles and the applied forces have supplied to the chain since
-  /// construction or the last restart. A method that keeps this 0 seems to drift if a drive supplies energy.
+  /// construction or the last restart. If a method leaves it 0, a run with a drive seems to gain energy or drift.
   virtual double suppliedEnergy() const { return 0.0; }
 
   /// One line on how the motion was integrated: the methods that `Auto` chose. Empty for all other

@@ -14,7 +14,7 @@ constexpr double kLost = 0.5;           // m, beyond which the log says that it 
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
 constexpr double kCopied = 0.15;  // s, after which the same message says that its holder stands
 constexpr double kAtOnce = 3.0;   // seconds of stamps per second in a bundle of inputs
-constexpr double kFastestClock = 20.0;  // seconds of stamps per second, of a clock not yet known
+constexpr double kFastestClock = 20.0;  // the same, largest of a clock that is not known yet
 constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
 constexpr double kMemory = 4.0;  // s, for which inputs are kept; their clock is known after half
 constexpr double kOtherClock = 0.1;   // share by which a clock that is no real time differs from it
@@ -81,8 +81,8 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
     samples_.clear();
     left_ = 0.0;
   } else if (const double step = stamp - samples_.back().stamp; step > 0.0) {
-    const double expected =
-        samples_.back().time + step;  // without jitter, but clocks may be slower
+    // Differences of stamps have no jitter, but their clock may be slower.
+    const double expected = samples_.back().time + step;
     sample.time = std::clamp(expected + kForget * (now - expected), now - kJitter, now);
   }
   // Inputs that come at once were late, all but the last: they are spread from the one before them on.

@@ -21,7 +21,7 @@ void drawGrid(const Picture& picture, Marker& grid) {
   const Eigen::Vector2d begin =
       distance * ((picture.view.box.min() - reach) / distance).array().floor();
   for (const int axis : {0, 1}) {
-    const double lines = (end[axis] - begin[axis]) / distance;  // far away, x + distance is x
+    const double lines = (end[axis] - begin[axis]) / distance;  // counted: x + distance may be x
     for (int line = 0; line <= (lines < kMostLines ? static_cast<int>(lines) : 0); ++line)
       for (Eigen::Vector2d point : {begin, end}) {
         point[axis] = begin[axis] + line * distance;

@@ -145,8 +145,8 @@ void RunMessages::draw(const Run& run, const std_msgs::Header& header, bool same
     kKinds[i].draw(picture, marker);
     if (run.verdict().kind == VerdictKind::kDiverged)
       std::fill(marker.colors.begin(), marker.colors.end(), colorOf(kDivergedColor));
-    const bool is_list =  // rviz reports an error for a list without points
-        marker.type == Marker::LINE_LIST || marker.type == Marker::SPHERE_LIST;
+    // rviz reports an error for a list without points
+    const bool is_list = marker.type == Marker::LINE_LIST || marker.type == Marker::SPHERE_LIST;
     marker.action = is_list && marker.points.size() < 2 ? Marker::DELETE : Marker::ADD;
   }
 }
