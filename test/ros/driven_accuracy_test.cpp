@@ -1,4 +1,4 @@
-// A cable whose ends follow odometry at 50 Hz: the node's way from inputs to accelerations, and the
+// A cable whose ends follow poses at 50 Hz: the node's way from inputs to accelerations, and the
 // motion against a solution with 113 bits under the same accelerations.
 #include "ros/inputs/driver.hpp"
 #include "ros/inputs/robots.hpp"
@@ -22,17 +22,14 @@ constexpr double kInputInterval = 0.02;   // s: 50 Hz
 constexpr double kStateInterval = 0.025;  // s: inputs are up to 0.02 s old when they act
 
 /// A hand that starts at rest at `from`, reaches out and moves about.
-Target handAt(double t, const PlaneVector<double>& from, double phase) {
-  const double start = 1.0 - std::exp(-4.0 * t * t), speed = 8.0 * t * std::exp(-4.0 * t * t);
+PlaneVector<double> handAt(double t, const PlaneVector<double>& from, double phase) {
+  const double start = 1.0 - std::exp(-4.0 * t * t);
   const double x = 0.35 * std::sin(2.1 * t + phase) + 0.08 * std::sin(7.3 * t);
   const double y = 0.45 * std::cos(1.7 * t - phase) + 0.05 * std::cos(9.1 * t);
-  const double vx = 0.735 * std::cos(2.1 * t + phase) + 0.584 * std::cos(7.3 * t);
-  const double vy = -0.765 * std::sin(1.7 * t - phase) - 0.455 * std::sin(9.1 * t);
-  return {{from.x + start * x, from.y + start * y},
-          {start * vx + speed * x, start * vy + speed * y}};
+  return {from.x + start * x, from.y + start * y};
 }
 
-/// A holder whose odometry has noise of 1 mm and 5 mm/s.
+/// A holder whose poses have noise of 1 mm.
 class Robot {
  public:
   Robot(std::ptrdiff_t particle, const State& start, double phase, unsigned seed)
@@ -40,16 +37,14 @@ class Robot {
         from_{start.x()[particle], start.y()[particle]},
         phase_(phase),
         random_(seed),
-        follower_("odom", 1.0, [](const std::string&) {}) {}
+        follower_("pose", 1.0, [](const std::string&) {}) {}
 
-  /// Sends the odometry until the present time, and holds the particle.
+  /// Sends the poses until the present time, and holds the particle.
   void follow(const Run& run, Driver& driver) {
     for (; next_ * kInputInterval <= run.nextTime() + 1e-9; ++next_) {
       const double stamp = next_ * kInputInterval;
-      Target seen = handAt(stamp, from_, phase_);
-      seen.position = {seen.position.x + noise(1e-3), seen.position.y + noise(1e-3)};
-      seen.velocity = {seen.velocity.x + noise(5e-3), seen.velocity.y + noise(5e-3)};
-      EXPECT_TRUE(follower_.take(seen, true, stamp, stamp));
+      const PlaneVector<double> hand = handAt(stamp, from_, phase_);
+      EXPECT_TRUE(follower_.take({hand.x + noise(1e-3), hand.y + noise(1e-3)}, stamp, stamp));
     }
     const PlaneVector<double> here{run.state().x()[particle_], run.state().y()[particle_]};
     const auto target = follower_.targetAt(run.nextTime(), here, run.nextTime() - run.time());
@@ -58,9 +53,8 @@ class Robot {
 
   /// Distance of the particle from its holder, m.
   double lag(const Run& run) const {
-    const Target hand = handAt(run.time(), from_, phase_);
-    return std::hypot(run.state().x()[particle_] - hand.position.x,
-                      run.state().y()[particle_] - hand.position.y);
+    const PlaneVector<double> hand = handAt(run.time(), from_, phase_);
+    return std::hypot(run.state().x()[particle_] - hand.x, run.state().y()[particle_] - hand.y);
   }
 
  private:

@@ -150,7 +150,7 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
   std::string said;
   Follower follower("odom", 1.0, [&said](const std::string& text) { said = text; });
   const auto takes = [&](double x, double stamp, double now) {
-    return follower.take({{x, 0.0}, {}, {}}, true, stamp, now);
+    return follower.take({x, 0.0}, stamp, now);
   };
   const std::string held = ": such inputs are ignored until they are steady";
   EXPECT_FALSE(follower.targetAt(0.0, {}, 0.03).has_value());
@@ -183,27 +183,23 @@ TEST(Follower, RefusesJumpsReversedTimeAndNumbersThatAreNot) {
 }
 
 TEST(Follower, StandsWhereTheSameMessageComesAgain) {
-  for (const double velocity : {0.0, 0.8}) {  // that the message tells
-    Follower follower("in", 3.0, [](auto&) {});
-    for (double now = 1.0; now < 4.0; now += 0.03) {
-      const double stamp = std::min(now, 2.0), place = 0.8 * stamp;
-      EXPECT_TRUE(follower.take({{place, 0.0}, {velocity, 0.0}, {}}, velocity > 0.0, stamp, now));
-      const double x = follower.targetAt(now, {}, 0.03)->position.x;
-      EXPECT_TRUE(now < 2.2 || x == place) << now;
-    }
+  Follower follower("in", 3.0, [](auto&) {});
+  for (double now = 1.0; now < 4.0; now += 0.03) {
+    const double stamp = std::min(now, 2.0), place = 0.8 * stamp;
+    EXPECT_TRUE(follower.take({place, 0.0}, stamp, now));
+    const double x = follower.targetAt(now, {}, 0.03)->position.x;
+    EXPECT_TRUE(now < 2.2 || x == place) << now;
   }
 }
 
 TEST(Follower, SaysOnceThatInputsContradictEachOther) {
-  for (const Target& other : {Target{{25.0, 0.0}, {}, {}}, Target{{std::nan(""), 0.0}, {}, {}},
-                              Target{{5.0, 0.0}, {1e3, 0.0}, {}}}) {
+  for (const double other : {25.0, std::nan("")}) {
     int said = 0;
     Follower follower("pose", 2.5, [&said](const std::string&) { ++said; });
     for (int i = 0; i < 340; ++i) {
       EXPECT_TRUE(i != 300 || said == 1) << said;
       const bool is_other = i % 2 == 1 && i < 300;
-      const Target holder = is_other ? other : Target{{5.0, 0.0}, {}, {}};
-      EXPECT_NE(follower.take(holder, true, i / 60.0, 1.0 + i / 60.0), is_other);
+      EXPECT_NE(follower.take({is_other ? other : 5.0, 0.0}, i / 60.0, 1.0 + i / 60.0), is_other);
     }
     EXPECT_EQ(said, 2);  // followed again
   }
@@ -213,7 +209,7 @@ TEST(Follower, SaysNothingOfAnApproachThatEndedInAPause) {
   std::string said;
   Follower follower("pose", 9.0, [&said](const std::string& text) { said = text; });
   for (double t = 0.0; t < 9.0; t += 0.1) {
-    follower.take({{2.0 + t, 0.0}, {}, {}}, false, t, t);
+    follower.take({2.0 + t, 0.0}, t, t);
     follower.targetAt(t, {}, t < 1.0 ? 0.1 : 0.0);
   }
   follower.targetAt(9.0, {10.8, 0.0}, 0.1);
@@ -230,19 +226,17 @@ TEST(Follower, FollowsASteadyInputAgain) {
     Follower follower("odom", 1.0, [](auto&) {});
     double now = 1.0;
     for (int i = 0; i < 20; ++i, now += 0.03)
-      follower.take({{draw(20.0), draw(20.0)}, {draw(30.0), 0.0}, {}}, true, draw(100.0), now);
+      follower.take({draw(20.0), draw(20.0)}, draw(100.0), now);
     bool follows = false;
     const double stamp = draw(100.0), start = now, moves = 0.1 * (round % 2);  // or the same again
     for (; now < start + 1.0; now += 0.03)
-      follows =
-          follower.take({{3.0, moves * (now - start)}, {}, {}}, true, stamp + moves * now, now);
+      follows = follower.take({3.0, moves * (now - start)}, stamp + moves * now, now);
     EXPECT_TRUE(follows && !follower.isSilent(now)) << round;
     EXPECT_NEAR(follower.targetAt(now, {3.0, 0.1}, 0.03)->position.x, 3.0, 1e-9) << round;
   }
 }
 
 struct Inputs {
-  bool have_velocity;
   double rate;          ///< 1/s
   double clock = 1.0;   ///< of the stamps, seconds per second
   double jitter = 0.0;  ///< s, of the time on the way
@@ -251,7 +245,7 @@ struct Inputs {
   int copies = 1;       ///< of each input, on the way to the next one
 };
 
-/// The tip of a chain follows a holder with a position and a velocity at each time.
+/// The tip of a chain follows a holder with a position at each time.
 template <typename Holder, typename Check>
 void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
   Live live;
@@ -265,12 +259,8 @@ void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
     for (; time_of(next) < inputs.end; ++next, delayed = delay(random)) {
       const int last = next - next % inputs.bundle + inputs.bundle - 1;
       if (time_of(last) + delayed > now) break;
-      Target input = holder_at(time_of(next));
-      const double rate =
-          inputs.have_velocity ? 1.0 / (inputs.clock > 0 ? inputs.clock : 1.0) : 0.0;
-      input.velocity = {rate * input.velocity.x, rate * input.velocity.y};
       for (int i = 0; i < inputs.copies; ++i)  // the clock is set after the first input and at 5 s
-        follower.take(input, inputs.have_velocity,
+        follower.take(holder_at(time_of(next)),
                       inputs.clock * (time_of(next) + 990 * (next > 0) + 30 * (time_of(next) > 5)),
                       time_of(last) + delayed + i / inputs.rate / inputs.copies);
     }
@@ -279,7 +269,7 @@ void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
     if (target) live.driver.on(Hold{5, *target});
     live.driver.apply(live.run, now, false);
     live.run.advancePart();
-    const PlaneVector<double> to = holder_at(live.run.time()).position;
+    const PlaneVector<double> to = holder_at(live.run.time());
     check(live.run, std::hypot(live.run.state().x()[5] - to.x, live.run.state().y()[5] - to.y));
   }
 }
@@ -287,40 +277,33 @@ void follow(const Holder& holder_at, const Inputs& inputs, const Check& check) {
 TEST(Follower, IsWithItsHolderOnACircle) {
   constexpr double kSpeed = 2.1;  // m/s, faster than a particle comes to its holder
   const auto holder_at = [](double t) {
-    return Target{{4.0 + std::cos(kSpeed * t), -1.0 + std::sin(kSpeed * t)},
-                  {-kSpeed * std::sin(kSpeed * t), kSpeed * std::cos(kSpeed * t)},
-                  {}};
+    return PlaneVector<double>{4.0 + std::cos(kSpeed * t), -1.0 + std::sin(kSpeed * t)};
   };
   const auto largest_distance = [&](const Inputs& inputs) {
     double largest = 0.0;
     follow(holder_at, inputs, [&](const auto& run, double distance) {
       if (run.time() > 4.0) largest = std::max(largest, distance);
       const double speed = std::hypot(run.state().vx()[5], run.state().vy()[5]);
-      const double known = inputs.have_velocity && inputs.clock != 1.0 ? 2.1 : 0.4;  // the clock, s
-      EXPECT_TRUE(inputs.jitter > 0.0 || run.time() < known || speed < kSpeed + 1.1) << speed;
+      EXPECT_TRUE(inputs.jitter > 0.0 || run.time() < 0.4 || speed < kSpeed + 1.1) << speed;
     });
     return largest;
   };
-  for (const bool is_odometry : {false, true})
-    for (const double clock : {0.0, 0.5, 0.8, 0.9, 1.0, 1.1, 1.2, 2.0, 20.0})  // slower: 0.03 s
-      EXPECT_LT(largest_distance({is_odometry, 30.0, clock}),
-                (clock > 0 && clock < 1 ? 0.07 : 2e-3) + (is_odometry && clock != 1 ? 4e-3 : 0.0));
-  EXPECT_EQ(largest_distance({false, 8.0, 1.0, 0.0, 8.0, 1, 5}), largest_distance({false, 8.0}));
-  EXPECT_LT(largest_distance({false, 30.0, 1.0, 0.01}), 5e-3);
+  for (const double clock : {0.0, 0.5, 0.8, 0.9, 1.0, 1.1, 1.2, 2.0, 20.0})  // slower: 0.03 s
+    EXPECT_LT(largest_distance({30.0, clock}), clock > 0 && clock < 1 ? 0.07 : 2e-3);
+  EXPECT_EQ(largest_distance({8.0, 1.0, 0.0, 8.0, 1, 5}), largest_distance({8.0}));
+  EXPECT_LT(largest_distance({30.0, 1.0, 0.01}), 5e-3);
   for (const double clock : {0.9, 1.0, 2.0})
     for (const int bundle : {2, 5, 10})
-      EXPECT_LT(largest_distance({false, 100.0, clock, 0.0, 8.0, bundle}),
-                clock < 1.0 ? 0.05 : 3e-3);
+      EXPECT_LT(largest_distance({100.0, clock, 0.0, 8.0, bundle}), clock < 1.0 ? 0.05 : 3e-3);
 }
 
 TEST(Follower, ComesSlowlyAfterAStepOfItsHolder) {
   for (const double rate : {5.0, 10.0, 30.0, 100.0, 500.0})
     for (const double step : {-2.8, -1.5, -0.3}) {
       const auto place = [=](double t) {  // the very first input is elsewhere
-        return Target{{t == 0.0 ? 3.0 : t < 2.0 ? 5.0 : 5.0 + step, 0.0}, {}, {}};
+        return PlaneVector<double>{t == 0.0 ? 3.0 : t < 2.0 ? 5.0 : 5.0 + step, 0.0};
       };
-      for (const Inputs& inputs :
-           {Inputs{true, rate}, {false, rate}, {false, rate, 1.0, 0.0, 2.0 + 1.5 / rate}}) {
+      for (const Inputs& inputs : {Inputs{rate}, {rate, 1.0, 0.0, 2.0 + 1.5 / rate}}) {
         follow(place, inputs, [&](const auto& run, double distance) {
           const double speed = std::hypot(run.state().vx()[5], run.state().vy()[5]);
           EXPECT_LT(speed, run.time() < 1.5 ? 2.1 : 1.6) << rate << " " << step;
@@ -329,9 +312,10 @@ TEST(Follower, ComesSlowlyAfterAStepOfItsHolder) {
         });
       }
       const auto two = [=](double t) {  // publishers in turn
-        return Target{{5.0 + step * static_cast<double>(std::lround(t * rate) % 2), 0.0}, {}, {}};
+        return PlaneVector<double>{5.0 + step * static_cast<double>(std::lround(t * rate) % 2),
+                                   0.0};
       };
-      follow(two, {false, rate}, [](const auto& run, double /*distance*/) {
+      follow(two, {rate}, [](const auto& run, double /*distance*/) {
         EXPECT_LT(std::abs(run.state().vx()[5]), 3.2) << run.time();
       });
     }
@@ -340,12 +324,12 @@ TEST(Follower, ComesSlowlyAfterAStepOfItsHolder) {
 TEST(Follower, ComesBackSlowlyAfterASilence) {
   std::string said;
   Follower follower("odom", 1e20, [&said](const std::string& text) { said = text; });
-  for (double t = 0.0; t < 1.0; t += 0.03) follower.take({{0.0, 0.0}, {}, {}}, true, t, t);
+  for (double t = 0.0; t < 1.0; t += 0.03) follower.take({0.0, 0.0}, t, t);
   EXPECT_LT(std::hypot(follower.targetAt(1.0, {0.0, 0.0}, 0.03)->position.x, 0.0), 1e-12);
-  follower.take({{4.0, 0.0}, {}, {}}, true, 3.0, 3.0);
+  follower.take({4.0, 0.0}, 3.0, 3.0);
   EXPECT_EQ(follower.targetAt(3.0, {0.0, 0.0}, 0.03)->fastest, 1.0);
   EXPECT_EQ(said, "odom: the particle comes to it from 4 m away");
-  follower.take({{1e17, 0.0}, {}, {}}, true, 3.1, 3.1);
+  follower.take({1e17, 0.0}, 3.1, 3.1);
   EXPECT_EQ(follower.targetAt(3.1, {0.0, 0.0}, 0.03)->fastest, 1.0);
   for (const double x : {0.5, 0.6})  // silent before the particle has come to it: it stays
     EXPECT_EQ(follower.targetAt(3.6, {x, 0.0}, 0.03)->position.x, 0.5);
@@ -354,7 +338,7 @@ TEST(Follower, ComesBackSlowlyAfterASilence) {
 TEST(Follower, DoesNotExtrapolateOverALongInterval) {
   Follower follower("odom", 9.0, [](auto&) {});
   for (double t = 0.0; t < 1.0; t += 0.03)
-    follower.take({{std::cos(2.0 * t), std::sin(2.0 * t)}, {}, {}}, false, t, t);
+    follower.take({std::cos(2.0 * t), std::sin(2.0 * t)}, t, t);
   const PlaneVector<double> target = follower.targetAt(1.0, {}, 2.0)->position;
   EXPECT_NEAR(std::hypot(target.x, target.y), 1.0, 0.01);
 }

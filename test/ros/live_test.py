@@ -125,8 +125,6 @@ class Robots(LiveTest):
         odometry.header.frame_id, odometry.header.stamp = 'world', now
         odometry.pose.pose.position.x, odometry.pose.pose.position.z = odom
         odometry.pose.pose.orientation.w = 1.0
-        odometry.twist.twist.linear.x = -self.SPEED * odom[1]
-        odometry.twist.twist.linear.z = self.SPEED * (odom[0] - 4.0)
         messages = TFMessage([transform('gripper', *gripper, now)]), odometry, pose(*end, stamp=now)
         for topic, message in zip(self.topics, messages):
             topic.publish(message)

@@ -12,16 +12,12 @@ constexpr double kApproachSpeed = 1.0;  // m/s, of a particle relative to its ho
 constexpr double kMet = 0.01;           // m, within which a particle is with its holder
 constexpr double kLost = 0.5;           // m, beyond which the log says that it is not
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
-constexpr double kCopied = 0.15;  // s, after which the same message says that its holder stands
-constexpr double kAtOnce = 3.0;   // seconds of stamps per second in a bundle of inputs
-constexpr double kFastestClock = 20.0;  // the same, largest of a clock that is not known yet
-constexpr double kForget = 0.002;       // share of the delay, for each message, as clocks drift
-constexpr double kMemory = 4.0;  // s, for which inputs are kept; their clock is known after half
-constexpr double kOtherClock = 0.1;   // share by which a clock that is no real time differs from it
+constexpr double kCopied = 0.15;      // s, after which the same message says that its holder stands
+constexpr double kAtOnce = 3.0;       // seconds of stamps per second in a bundle of inputs
+constexpr double kForget = 0.002;     // share of the delay, for each message, as clocks drift
 constexpr double kLongestLead = 0.2;  // s, for which the motion of a holder is extrapolated
 constexpr double kSteepest = 5.0;     // m/s², largest acceleration of a slow holder
 constexpr double kBaseline = 0.03;    // s, least time between inputs whose difference is a velocity
-constexpr double kJumpsPerSecond = 10.0;  // largest believable speed, in largest jumps per second
 
 bool Follower::refuse(const std::string& why, double now) {
   refused_at_ = now;
@@ -36,13 +32,9 @@ bool Follower::isNext(const Sample& before, const Sample& input, double longest)
 }
 
 bool Follower::isBelievable(const Sample& input) {
-  const PlaneVector<double>&position = input.holder.position, &velocity = input.holder.velocity;
   const double now = input.time;
-  if (!std::isfinite(position.x + position.y + velocity.x + velocity.y))
+  if (!std::isfinite(input.holder.position.x + input.holder.position.y))
     return refuse("has numbers that are not finite", now);
-  const double fastest = kJumpsPerSecond * longest_;
-  if (!(std::hypot(velocity.x, velocity.y) <= fastest))
-    return refuse(fmt::format("moves at more than {:.3g} m/s", fastest), now);
   const auto refused = std::exchange(refused_, std::nullopt);
   if (isSilent(now) || isNext(samples_.back(), input, longest_)) return true;
   if (refused && isNext(*refused, input, longest_)) {
@@ -55,27 +47,24 @@ bool Follower::isBelievable(const Sample& input) {
                 now);
 }
 
-bool Follower::take(const Target& input, bool has_velocity, double stamp, double now) {
-  Sample sample{input, input.velocity, stamp, now, now};
+bool Follower::take(const PlaneVector<double>& position, double stamp, double now) {
+  Sample sample{{position, {}, {}}, stamp, now, now};
   const bool is_copy = !isSilent(now) && stamp != 0.0 && stamp == samples_.back().stamp;
   if (is_copy && isNext(samples_.back(), sample, 0.0)) {
     if (now < samples_.back().arrival + kCopied) return true;
     samples_.clear();
-    sample.holder.velocity = {};
   }
   if (!isBelievable(sample)) return false;
   if (now >= refused_at_ + kSilence && (says_refused_ || says_stopped_)) {
     says_refused_ = says_stopped_ = false;
     warn_(name_ + " is followed again");
   }
-  if (!samples_.empty()) {  // the clock of the stamps may have been set
-    const Sample& back = samples_.back();
-    const double step = stamp - back.stamp, known = back.stamp - samples_.front().stamp;
-    const double usual = samples_.size() > 1 ? back.stamp - samples_.rbegin()[1].stamp : 0.0;
-    const double rate = known > 0.0 ? samples_.front().rateTo(back) : kFastestClock;
-    const double lost = 1.5 * rate * (now - back.arrival);
-    const bool is_set = step - std::max(usual, lost) > kSilence;
-    for (Sample& earlier : samples_) earlier.stamp += is_set ? step - usual : 0.0;
+  if (!samples_.empty()) {
+    const double step = stamp - samples_.back().stamp;
+    const double usual =
+        samples_.size() > 1 ? samples_.back().stamp - samples_.rbegin()[1].stamp : 0.0;
+    if (step > usual + kSilence)  // the clock of the stamps has been set
+      for (Sample& earlier : samples_) earlier.stamp += step - usual;
   }
   if (isSilent(now)) {
     samples_.clear();
@@ -88,8 +77,7 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   // Inputs that come at once were late, all but the last: they are spread from the one before them on.
   const Sample* last = nullptr;
   for (Sample& earlier : samples_) {
-    if (earlier.time < sample.time - kSilence ||
-        stamp - earlier.stamp <= kAtOnce * (now - earlier.arrival)) {
+    if (stamp - earlier.stamp <= kAtOnce * (now - earlier.arrival)) {
       last = &earlier;
     } else if (last != nullptr) {
       const double share = (earlier.stamp - last->stamp) / (stamp - last->stamp);
@@ -98,8 +86,8 @@ bool Follower::take(const Target& input, bool has_velocity, double stamp, double
   }
   place_.reset();
   samples_.push_back(sample);
-  while (samples_.front().time < sample.time - kMemory) samples_.pop_front();
-  estimateMotion(has_velocity);
+  while (samples_.front().time < sample.time - kSilence) samples_.pop_front();
+  estimateMotion();
   return true;
 }
 
@@ -110,22 +98,8 @@ const Follower::Sample* Follower::before(double seconds) const {
   return found;
 }
 
-// The rate of the clock of the stamps: of both halves of the inputs and the last ones, the rate nearest to 1.
-// It is taken as 1 until it is known and if it is off by less than 5 %, in full from 15 % on.
-double Follower::clockRate() const {
-  const Sample &oldest = samples_.front(), &newest = samples_.back();
-  const Sample *const recent = before(kSilence), &middle = samples_[samples_.size() / 2];
-  if (recent == nullptr || newest.arrival <= oldest.arrival + 0.5 * kMemory) return 1.0;
-  const double early = oldest.rateTo(middle), late = middle.rateTo(newest);
-  const auto [slow, fast] = std::minmax({early, late, recent->rateTo(newest)});
-  const double excess = std::max(slow - 1.0, 0.0) + std::min(fast - 1.0, 0.0);
-  const double weight = std::clamp(std::abs(excess) / kOtherClock - 0.5, 0.0, 1.0);
-  return std::min(early, late) > 0.0 ? 1.0 + weight * excess : 1.0;
-}
-
-// Poses: the parabola through three inputs. Odometry: the change of the velocity between two. A step of
-// the input is neither a velocity nor an acceleration that lasts.
-void Follower::estimateMotion(bool has_velocity) {
+// The parabola through three inputs. A step of the input is neither a velocity nor an acceleration that lasts.
+void Follower::estimateMotion() {
   using Vector = PlaneVector<double>;
   Target& now = samples_.back().holder;
   const Sample* const first = before(kBaseline);
@@ -138,13 +112,6 @@ void Follower::estimateMotion(bool has_velocity) {
     const double slower = std::min(std::hypot(u.x, u.y), std::hypot(v.x, v.y));
     return std::hypot(v.x - u.x, v.y - u.y) > slower + kSteepest * h1;
   };
-  if (has_velocity) {
-    const double rate = clockRate();
-    now.velocity = {rate * now.velocity.x, rate * now.velocity.y};
-    const Vector earlier{rate * first->by_clock.x, rate * first->by_clock.y};
-    if (!is_step(earlier, now.velocity)) now.acceleration = slope(earlier, now.velocity, h1);
-    return;
-  }
   const Sample* const second = before(h1 + kBaseline);
   if (second == nullptr) return;
   now.velocity = slope(first->holder.position, now.position, h1);

@@ -24,12 +24,13 @@ std::string withoutSlash(const std::string& frame) {
   return frame.substr(frame.rfind('/', 0) == 0 ? 1 : 0);
 }
 
-}  // namespace
-
+/// Returns a rotation by a quaternion of any length; 0 does not rotate.
 tf2::Matrix3x3 rotation(const geometry_msgs::Quaternion& quaternion) {
   tf2::Quaternion q(quaternion.x, quaternion.y, quaternion.z, quaternion.w);
   return q.length2() == 0.0 ? tf2::Matrix3x3::getIdentity() : tf2::Matrix3x3(q);
 }
+
+}  // namespace
 
 void Frames::listen() {
   if (!moving_.getTopic().empty()) return;

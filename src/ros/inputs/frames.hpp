@@ -17,9 +17,6 @@
 
 namespace spring_pendulum {
 
-/// Returns a rotation by a quaternion of any length; 0 does not rotate.
-tf2::Matrix3x3 rotation(const geometry_msgs::Quaternion& quaternion);
-
 /// A transform into the frame of the chain.
 struct StampedTransform {
   tf2::Transform transform = tf2::Transform::getIdentity();

@@ -70,13 +70,11 @@ Robots::Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options
     if (!frame.empty()) continue;
     robot.odometry = node.subscribe<nav_msgs::Odometry>(
         name + "/odom", 10, [this, &robot](const nav_msgs::Odometry::ConstPtr& message) {
-          const auto& [pose, twist] = std::tie(message->pose.pose, message->twist.twist.linear);
-          receive(robot, message->header, pose.position,
-                  rotation(pose.orientation) * tf2::Vector3(twist.x, twist.y, twist.z));
+          receive(robot, message->header, message->pose.pose.position);
         });
     robot.pose = node.subscribe<geometry_msgs::PoseStamped>(
         name + "/pose", 10, [this, &robot](const geometry_msgs::PoseStamped::ConstPtr& message) {
-          receive(robot, message->header, message->pose.position, std::nullopt);
+          receive(robot, message->header, message->pose.position);
         });
   }
   if (!robots_.empty()) frames_.listen();
@@ -91,10 +89,9 @@ void Robots::reset() {
 }
 
 void Robots::receive(Robot& robot, const std_msgs::Header& header,
-                     const geometry_msgs::Point& point,
-                     const std::optional<tf2::Vector3>& velocity) {
+                     const geometry_msgs::Point& point) {
   try {
-    take(robot, {frames_.from(header.frame_id).transform, header.stamp.toSec()}, point, velocity,
+    take(robot, {frames_.from(header.frame_id).transform, header.stamp.toSec()}, point,
          ros::SteadyTime::now().toSec());
   } catch (const InputError& error) {
     if (robot.warnings.isDue()) ROS_WARN_STREAM(robot.name << ": " << error.what());
@@ -102,11 +99,9 @@ void Robots::receive(Robot& robot, const std_msgs::Header& header,
 }
 
 void Robots::take(Robot& robot, const StampedTransform& frame, const geometry_msgs::Point& point,
-                  const std::optional<tf2::Vector3>& velocity, double now) {
+                  double now) {
   const tf2::Vector3 at = frame.transform * tf2::Vector3(point.x, point.y, point.z);
-  const tf2::Vector3 speed = frame.transform.getBasis() * velocity.value_or(tf2::Vector3(0, 0, 0));
-  const bool accepted = robot.follower.take({{at.x(), at.z()}, {speed.x(), speed.z()}, {}},
-                                            velocity.has_value(), frame.stamp, now);
+  const bool accepted = robot.follower.take({at.x(), at.z()}, frame.stamp, now);
   if (accepted && !robot.warned && !(std::abs(at.y()) <= kOutOfPlane)) {
     robot.warned = true;
     ROS_WARN_STREAM(robot.name << ": the input is " << std::abs(at.y())
@@ -122,7 +117,7 @@ void Robots::lookUp() {
       const StampedTransform found = frames_.from(robot.frame);
       if (found.stamp == robot.stamp && found.stamp != 0.0) continue;
       robot.stamp = found.stamp;
-      take(robot, found, {}, std::nullopt, now);
+      take(robot, found, {}, now);
     } catch (const InputError& error) {
       if (robot.follower.isSilent(now) && robot.warnings.isDue())
         ROS_WARN_STREAM(robot.name << ": " << error.what());

@@ -39,10 +39,10 @@ class Follower {
       : name_(std::move(name)), longest_(longest), warn_(std::move(warn)) {}
 
   /// Takes an input if it is believable, and returns whether it is.
-  /// \param has_velocity otherwise, the velocity follows from earlier inputs
-  /// \param stamp        of the input, s; its clock may show any time
-  /// \param now          present time of a steady clock, s
-  bool take(const Target& input, bool has_velocity, double stamp, double now);
+  /// \param position of the holder, m
+  /// \param stamp    of the input, s; its clock may show any time
+  /// \param now      present time of a steady clock, s
+  bool take(const PlaneVector<double>& position, double stamp, double now);
   /// Returns where the particle shall be at the present state, to be with its holder in the next one.
   /// \param here     position of the particle, m
   /// \param interval until the next state, s; 0: the particle is placed at its holder at once
@@ -53,19 +53,16 @@ class Follower {
  private:
   struct Sample {
     Target holder;
-    PlaneVector<double> by_clock;  ///< m per second of the clock of the stamps
-    double stamp;                  ///< s
-    double time;                   ///< s, steady clock: when it was probably sent
-    double arrival;                ///< s, steady clock
-    double rateTo(const Sample& to) const { return (to.stamp - stamp) / (to.arrival - arrival); }
+    double stamp;    ///< s
+    double time;     ///< s, steady clock: when it was probably sent
+    double arrival;  ///< s, steady clock
   };
   static bool isNext(const Sample& before, const Sample& input, double longest);
   bool isBelievable(const Sample& input);
   bool refuse(const std::string& why, double now);
   /// The last input that is at least this much older than the newest one; null: none.
   const Sample* before(double seconds) const;
-  double clockRate() const;
-  void estimateMotion(bool has_velocity);
+  void estimateMotion();
   void approach(Target& target, const PlaneVector<double>& here, double now);
 
   std::string name_;
@@ -109,9 +106,8 @@ class Robots {
   };
 
   static void take(Robot& robot, const StampedTransform& frame, const geometry_msgs::Point& point,
-                   const std::optional<tf2::Vector3>& velocity, double now);
-  void receive(Robot& robot, const std_msgs::Header& header, const geometry_msgs::Point& point,
-               const std::optional<tf2::Vector3>& velocity);
+                   double now);
+  void receive(Robot& robot, const std_msgs::Header& header, const geometry_msgs::Point& point);
 
   const Run& run_;
   Driver& driver_;
