@@ -14,10 +14,11 @@ constexpr double kLost = 0.5;           // m, beyond which the log says that it 
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
 constexpr double kCopied = 0.15;      // s, after which the same message says that its holder stands
 constexpr double kAtOnce = 3.0;       // seconds of stamps per second in a bundle of inputs
+constexpr double kSet = 0.1;          // s, by which a clock goes ahead that has been set
 constexpr double kForget = 0.002;     // share of the delay, for each message, as clocks drift
 constexpr double kLongestLead = 0.2;  // s, for which the motion of a holder is extrapolated
 constexpr double kSteepest = 5.0;     // m/s², largest acceleration of a slow holder
-constexpr double kBaseline = 0.03;    // s, least time between inputs whose difference is a velocity
+constexpr double kBaseline = 0.06;    // s, least time between inputs whose difference is a velocity
 
 bool Follower::refuse(const std::string& why, double now) {
   refused_at_ = now;
@@ -26,9 +27,13 @@ bool Follower::refuse(const std::string& why, double now) {
   return false;
 }
 
+double Follower::distance(const Sample& from, const Sample& to) {
+  return std::hypot(to.holder.position.x - from.holder.position.x,
+                    to.holder.position.y - from.holder.position.y);
+}
+
 bool Follower::isNext(const Sample& before, const Sample& input, double longest) {
-  const PlaneVector<double>&from = before.holder.position, &to = input.holder.position;
-  return input.stamp >= before.stamp && std::hypot(to.x - from.x, to.y - from.y) <= longest;
+  return input.stamp >= before.stamp && distance(before, input) <= longest;
 }
 
 bool Follower::isBelievable(const Sample& input) {
@@ -38,7 +43,7 @@ bool Follower::isBelievable(const Sample& input) {
   const auto refused = std::exchange(refused_, std::nullopt);
   if (isSilent(now) || isNext(samples_.back(), input, longest_)) return true;
   if (refused && isNext(*refused, input, longest_)) {
-    samples_.clear();
+    if (distance(samples_.back(), input) > longest_) samples_.clear();
     return true;
   }
   refused_ = input;
@@ -60,11 +65,12 @@ bool Follower::take(const PlaneVector<double>& position, double stamp, double no
     warn_(name_ + " is followed again");
   }
   if (!samples_.empty()) {
-    const double step = stamp - samples_.back().stamp;
+    const double step = stamp - samples_.back().stamp, gap = now - samples_.back().arrival;
     const double usual =
         samples_.size() > 1 ? samples_.back().stamp - samples_.rbegin()[1].stamp : 0.0;
-    if (step > usual + kSilence)  // the clock of the stamps has been set
-      for (Sample& earlier : samples_) earlier.stamp += step - usual;
+    if (step < 0.0 ||
+        step > gap + usual + kSet)  // the clock has been set; back: one input is missing
+      for (Sample& earlier : samples_) earlier.stamp += step - (step < 0.0 ? gap : usual);
   }
   if (isSilent(now)) {
     samples_.clear();
@@ -77,7 +83,8 @@ bool Follower::take(const PlaneVector<double>& position, double stamp, double no
   // Inputs that come at once were late, all but the last: they are spread from the one before them on.
   const Sample* last = nullptr;
   for (Sample& earlier : samples_) {
-    if (stamp - earlier.stamp <= kAtOnce * (now - earlier.arrival)) {
+    if (earlier.time < sample.time - kSilence ||
+        stamp - earlier.stamp <= kAtOnce * (now - earlier.arrival)) {
       last = &earlier;
     } else if (last != nullptr) {
       const double share = (earlier.stamp - last->stamp) / (stamp - last->stamp);
@@ -86,7 +93,7 @@ bool Follower::take(const PlaneVector<double>& position, double stamp, double no
   }
   place_.reset();
   samples_.push_back(sample);
-  while (samples_.front().time < sample.time - kSilence) samples_.pop_front();
+  while (samples_.front().time < sample.time - 2.0 * kSilence) samples_.pop_front();
   estimateMotion();
   return true;
 }

@@ -57,6 +57,7 @@ class Follower {
     double time;     ///< s, steady clock: when it was probably sent
     double arrival;  ///< s, steady clock
   };
+  static double distance(const Sample& from, const Sample& to);  ///< m
   static bool isNext(const Sample& before, const Sample& input, double longest);
   bool isBelievable(const Sample& input);
   bool refuse(const std::string& why, double now);
