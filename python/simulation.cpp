@@ -152,11 +152,11 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
 py::tuple check(const py::object& particles, const py::dict& options) {
   Scenario scenario = scenarioOf(options);
   const Scene scene = sceneOf(particles, scenario);
-  scenario.frames -= scene.frame;  // a trial counts them from the start
   Interruption interruption;
   const StabilityReport report = [&] {
     const Computation computation;
-    return checkStability(scene.chain(), scene.state, scenario, [&] { return interruption(); });
+    return checkStability(scene.chain(), scene.state, scenario.from(scene.frame),
+                          [&] { return interruption(); });
   }();
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();
   return py::make_tuple(report.text, report.verdict ? tupleOf(*report.verdict) : py::tuple(),

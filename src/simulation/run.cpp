@@ -98,8 +98,9 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
       start_(scene.state),
       first_frame_(scene.frame),
       state_(start_),
-      track_dissipation_(chain_.isDissipative() &&
-                         (options.track_dissipation || dissipationIsCheap(chain_, plan))) {
+      track_dissipation_(
+          chain_.isDissipative() &&
+          (options.track_dissipation || dissipationIsCheap(chain_, plan.from(first_frame_)))) {
   checkPlan(plan);
   checkMemory(plan, chain_.size());
   if (!(options.display_interval >= 0.0)) throw InputError("display_interval must be at least 0 s");

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <sstream>
+#include <utility>
 
 #include "process/exercise3.hpp"
 
@@ -66,6 +67,23 @@ TEST_F(Exercise3State, OutputsOfTwoFixedStepRunsAreThoseOfOne) {
             << text;
       }
     }
+  }
+}
+
+TEST_F(Exercise3State, AdviceAndBalanceAreForTheFramesThatAreLeft) {
+  std::string said;
+  for (const int frame : {10, 1000000}) {
+    folder_.write("state.txt", "# state of 2 particles at frame " + std::to_string(frame) +
+                                   ", t = " + std::to_string(frame / 10) +
+                                   " s\n0 0 1 0 0\n1 0 1 0 0\n");
+    const std::string frames =
+        " state.txt --resume --no-frames --frames " + std::to_string(frame + 20);
+    const Result stiff = runWith("Euler --stiffness 2000" + frames);
+    EXPECT_EQ(stiff.status, 3);
+    EXPECT_THAT(runWith("Backward-Euler --damping 1" + frames).output,
+                Not(HasSubstr("not checked")));
+    const std::string advice = stiff.errors.substr(stiff.errors.find("largest stable step"));
+    EXPECT_EQ(std::exchange(said, advice), frame == 10 ? "" : advice);
   }
 }
 

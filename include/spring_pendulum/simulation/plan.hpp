@@ -39,6 +39,12 @@ struct Plan {
   double timeOfFrame(std::int64_t frame) const {
     return static_cast<double>(frame * steps()) * step();
   }
+  /// Returns the plan of the frames from this one on.
+  Plan from(std::int64_t frame) const {
+    Plan rest = *this;
+    rest.frames -= frame;
+    return rest;
+  }
 };
 
 }  // namespace spring_pendulum

@@ -118,9 +118,7 @@ void printClosingLine(const std::string& text) {
 
 int printAdvice(const Run& run) {
   printError(noteLines(remarksOn(run)));
-  Plan plan = run.plan();
-  plan.frames -= run.firstFrame();  // a trial counts them from the start
-  printOutput(checkStability(run.chain(), run.start(), plan).text);
+  printOutput(checkStability(run.chain(), run.start(), run.plan().from(run.firstFrame())).text);
   return kDone;
 }
 

@@ -264,7 +264,7 @@ Remarks remarksOn(const Run& run) {
   if (const double gravity = run.chain().gravity(); gravity < 0.0)
     remarks.notes.push_back(
         fmt::format("gravity of {} m/s² points up: the chain falls upwards", numberText(gravity)));
-  remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan());
+  remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan().from(run.firstFrame()));
   return remarks;
 }
 
@@ -273,7 +273,8 @@ Outcome outcomeOf(const Run& run, const std::function<bool()>& stop) {
   if (verdict.kind == VerdictKind::kDiverged) {
     std::string remedy = "hands, forces, changes or a loaded state have driven the run";
     if (!run.isChanged() && !run.chain().isDriven())
-      remedy = remedyForDivergence(run.chain(), run.start(), run.plan(), stop);
+      remedy =
+          remedyForDivergence(run.chain(), run.start(), run.plan().from(run.firstFrame()), stop);
     return {3, {verdict.text + (remedy.empty() ? "" : "; " + remedy)}};
   }
   Outcome outcome;
