@@ -65,12 +65,13 @@ std::string_view companionMethod(const Chain& chain) {
 }
 
 /// Returns the state with every particle but the first moved by `change` m, each in another
-/// direction. A chain on a vertical line stays on it, as does one on a horizontal line without
-/// gravity: no error of a method leaves the line.
+/// direction. Without a drive, a chain on a vertical line stays on it, as does one on a horizontal line
+/// without gravity: no error of a method leaves the line.
 State moved(const Chain& chain, const State& state, double change) {
-  const bool vertical =
-      (state.x().array() == state.x()[0]).all() && (state.vx().array() == 0.0).all();
-  const bool horizontal = chain.gravity() == 0.0 && (state.y().array() == state.y()[0]).all() &&
+  const bool vertical = !chain.isDriven() && (state.x().array() == state.x()[0]).all() &&
+                        (state.vx().array() == 0.0).all();
+  const bool horizontal = !chain.isDriven() && chain.gravity() == 0.0 &&
+                          (state.y().array() == state.y()[0]).all() &&
                           (state.vy().array() == 0.0).all();
   State result = state;
   double cosine = 1.0, sine = 0.0;  // of a direction that turns by 53 degrees per particle
