@@ -290,10 +290,10 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
     if (index < frame->index) continue;  // missing
     const double error = motion->share() * rounding + motion->tolerance();
     agreement.departure = departureOf(*frame, positions, scale, error);
-    // Programs that use angles leave a straight line: cos(π/2) is no 0.
-    if (agreement.departure && !off_line && offsets.colwise().maxCoeff().minCoeff() == 0.0)
-      return compare(frames, make, limit, true);
-    if (agreement.departure) return agreement;
+    // Programs that use angles leave a straight line: cos(π/2) is no 0, also in particle files.
+    const bool is_line = offsets.colwise().maxCoeff().minCoeff() <= 1e-5 * extent;
+    if (agreement.departure)
+      return is_line && !off_line ? compare(frames, make, limit, true) : agreement;
     ++agreement.frames;
     agreement.roundings.push_back(rounding);
     agreement.last_frame = index;

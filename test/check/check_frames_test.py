@@ -92,9 +92,10 @@ def random_scene(rng, is_vertical):
     """A chain of springs stretched or compressed a little, vertical ones much, with masses of 0.3 to 2 kg."""
     p = [np.array([0.0, 0.0])]
     for _ in range(rng.randint(2, 9)):
-        angle, length = (-np.pi / 2, 0.5) if is_vertical else (rng.uniform(-np.pi, 0.5), rng.uniform(0.8, 1.2))
+        angle, length = (np.pi / 2, 0.5) if is_vertical else (rng.uniform(-np.pi, 0.5), rng.uniform(0.8, 1.2))
         p.append(p[-1] + length * np.array([np.cos(angle), np.sin(angle)]))
-    return np.array([[round(x, 6), round(y, 6), round(rng.uniform(0.3, 2), 2)] for x, y in p])
+    digits = 20 if is_vertical else 6  # cos(π/2) is no 0
+    return np.array([[round(x, digits), round(y, 6), round(rng.uniform(0.3, 2), 2)] for x, y in p])
 
 
 class Lab:
@@ -173,7 +174,7 @@ def try_right(lab, frames, number):
     """Half of the programs are those of student.py, half are Exercise3 with every method."""
     listed = subprocess.run([lab.exercise, '--list-methods'], stdout=subprocess.PIPE, check=True).stdout.decode()
     methods = [line.split()[0] for line in listed.splitlines() if line.startswith('  ') and line[2] != ' ']
-    scenes = sorted(path.stem for path in (PROJECT / 'data').glob('*.txt')) + ['random', 'vertical', 'random']
+    scenes = ['random', *3 * ['vertical'], *sorted(path.stem for path in (PROJECT / 'data').glob('*.txt'))]
     accused = 0
     for i in range(number):
         scene_name, form = scenes[i // 2 % len(scenes)], lab.rng.choice(FORMS)
