@@ -98,17 +98,15 @@ class BagRecorder {
 /// Records until the end of the run or a signal, also the status of a run that diverged.
 void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files) {
   for (bool goes_on = true; goes_on;) {
+    const bool was_shown = run.isShown();
     goes_on = run.advancePart();
-    if (goes_on) {
-      recorder.write(run);
-      files.write(run);
-    }
+    if (goes_on || (was_shown && !run.isShown())) recorder.write(run);
+    if (goes_on) files.write(run);
     if (replay == nullptr || run.wasStopped()) continue;
     // A run that is over may go back.
     goes_on = replay->apply(run) || (goes_on && !replay->isOver(run));
     files.write(run);  // its state may be another now
   }
-  if (!run.isShown()) recorder.write(run);
 }
 
 /// Whether ROS accepts a topic or namespace of this name; it may be empty.
