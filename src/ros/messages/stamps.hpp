@@ -17,7 +17,7 @@ class Stamps {
  private:
   bool simulated_;
   double last_simulated_time_ = 0.0;
-  ros::Time played_{1, 0};  ///< simulated time without the jumps back; 0 is not a valid stamp
+  double played_ = 1.0;  ///< simulated time without the jumps back, s; 0 is not a valid stamp
   ros::Time last_;
 };
 
