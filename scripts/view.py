@@ -12,6 +12,7 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while Python starts is no
 import contextlib
 import math
 import os
+import re
 import sys
 
 import rosbag
@@ -109,7 +110,9 @@ def adapted(path, bag_path):
         set_displays(config, topics, keep=bag_path == 'none')
         if view:
             set_view(config, *view)
-    copy = os.path.join(rospkg.get_ros_home(), 'spring_pendulum.rviz')
+    # Each rviz has its own.
+    node = os.environ.get('ROS_MASTER_URI', '') + os.environ.get('ROS_NAMESPACE', '')
+    copy = os.path.join(rospkg.get_ros_home(), 'spring_pendulum_%s.rviz' % re.sub(r'\W+', '_', node))
     os.makedirs(os.path.dirname(copy), exist_ok=True)
     with open(copy, 'w') as file:
         yaml.safe_dump(config, file, sort_keys=False)
