@@ -80,7 +80,7 @@ async function check(frames) {
   const interval = method?.fixed ? Number(options.steps_per_frame) * Number(options.time_step) : Number(options.frame_interval);
   drawOver(frames, interval);
   if (result.time === undefined) return;
-  note.append(paragraph('The frames are drawn dashed over the motion; the page shows the time where they depart.'));
+  note.append(paragraph('The frames are drawn dashed over the motion.'));
   seek(result.time);
 }
 

@@ -141,7 +141,7 @@ function drawRun(index) {
     color, width: 2.2, dash: broken && !alone ? [3, 6] : dashes[index], dots: 3.4 * devicePixelRatio,
   });
   context.fillStyle = color;
-  context.fillText(nameOf(run) + (broken ? `: diverged at ${track.lastTime.toPrecision(4)} s` : ''),
+  context.fillText(nameOf(run) + (broken ? `: diverged at ${track.end.time.toPrecision(4)} s` : ''),
                    10, 20 * devicePixelRatio * (index + 1));
 }
 

@@ -85,7 +85,7 @@ export function showResults() {
   [...body.rows].forEach((row, index) => {
     const track = tracks[index];
     const texts = ['', '', '', ''];
-    if (track?.end) {
+    if (track?.end && !track.failure) {
       const {end} = track;
       texts[0] = end.kind;
       texts[1] = errorText(end);
@@ -105,7 +105,7 @@ export function showResults() {
 /** What happened, why as far as that is measured, what the library says about it, and what to try next. */
 export function sentences() {
   const ended = settings.runs.map((run, i) => ({run, track: tracks[i], method: methodOf(run.method)}))
-      .filter(({track, method}) => track?.end && method);
+      .filter(({track, method}) => track?.end && !track.failure && method);
   if (ended.length === 0 || scene.failure) return [];
   const diverged = ended.filter(({track}) => track.diverged);
   const others = ended.filter(({track}) => !track.diverged);
@@ -116,7 +116,7 @@ export function sentences() {
       `${nameOf(run)} stays within ${short(end.bound)} m of the true motion` +
         (end.kind === 'ok' ? '' : ` until t = ${short(end.measuredUntil, 3)} s; later it was not measured`))),
   ].join('; ');
-  const said = ended.flatMap(({run, track: {failure, end}}) => [failure, ...end.messages].filter(Boolean)
+  const said = ended.flatMap(({run, track: {end}}) => end.messages
       .map((text) => `${nameOf(run)}: ${text}.`));
   const hopeful = others.filter(({track: {end}}) => ![end.kind, ...end.messages].some((text) => /sensitive/.test(text)));
   const next = hopeful.find(({track}) => track.end.bad) ?? hopeful[0];

@@ -69,7 +69,7 @@ export class Track {
 }
 
 export const tools = new Library();  // for short questions
-export const scene = {x: [], y: [], m: [], vx: [], vy: [], failure: ''};
+export const scene = {x: [], y: [], m: [], vx: [], vy: [], failure: '', file: null};  // file: that was read
 export const tracks = [];
 const workers = Array.from({length: MOST_RUNS}, () => new Library());
 
@@ -105,12 +105,12 @@ async function compute(run, index) {
   track.progress = 'starts';
   const options = optionsOf(run);
   const began = performance.now();
-  const report = ({samples, frame}) => {
+  const report = ({samples, frame, ends}) => {
     if (tracks[index] !== track) return;
     if (samples) track.add(samples);
     const done = frame ?? Math.max(...track.columns.frame.slice(-200));
     const seconds = Math.round((performance.now() - began) / 1000);
-    track.progress = `frame ${Math.max(0, done) + 1} of ${options.frames}, ${seconds} s`;
+    track.progress = ends ? 'looks for a stable step' : `frame ${Math.max(0, done) + 1} of ${options.frames}, ${seconds} s`;
     tell(track.times.length > 0 ? 'samples' : 'progress', index);
   };
   if (workers[index].busy) workers[index].cancel();
@@ -144,7 +144,7 @@ export async function restart() {
   let read = null;
   let failure = '';
   try {
-    read = await tools.call('scene', {file, interval: settings.interval});
+    read = {...await tools.call('scene', {file, interval: settings.interval}), file};
   } catch (error) {
     if (error instanceof Cancelled) return;
     failure = error.message;

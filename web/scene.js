@@ -51,9 +51,11 @@ function write() {
   const moves = [...vx, ...vy].some((value) => value !== 0);
   const lines = Array.from(x, (_, i) => `${x[i]} ${y[i]} ${m[i]}${moves ? ` ${vx[i]} ${vy[i]}` : ''}`);
   setFile(presets[settings.file.name] ? 'particle.txt' : settings.file.name, `${lines.join('\n')}\n`);
+  scene.file = settings.file;
 }
 
 function replace(change) {
+  if (scene.file !== settings.file) return;  // what is typed cannot be read, or has not been read yet
   for (const key of COLUMNS) scene[key] = Array.from(scene[key]);
   change(scene);
   write();
@@ -69,8 +71,8 @@ function add() {
     m.push(m[last] > 0 ? m[last] : 1);
     vx.push(0);
     vy.push(0);
+    select(last + 1);
   });
-  select(last + 1);
 }
 
 function remove() {

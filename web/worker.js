@@ -94,6 +94,7 @@ const calls = {
         report({samples});
         full = room <= 0;
       }
+      report({ends: true});  // advice after a divergence takes up to minutes
       const end = {...run.finish(), full, messages: printed.slice()};
       if (!texts) return end;
       const frames = options.no_frames ? [] : takeFrames('/frames');

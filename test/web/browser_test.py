@@ -354,6 +354,11 @@ class LabTest(unittest.TestCase):
         self.wait('return pendulumLab.state().scene.x.length === 4')
         self.element('remove').click()
         self.wait('return pendulumLab.state().scene.x.length === 3')
+        self.element('particles').send_keys('4 x 5')  # an error that is being typed stays to be mended
+        self.wait('return pendulumLab.state().problem.includes("is not a number")')
+        self.element('add').click()
+        self.assertTrue(self.element('particles').get_attribute('value').endswith('4 x 5'))
+        self.call('await pendulumLab.set({particles: given[0]})', text)
         # The restart after the change clears messages.
         self.call('await new Promise((done) => setTimeout(done, 500)); await pendulumLab.set()')
         self.element('motion').send_keys(']' + Keys.DELETE)  # the first particle
