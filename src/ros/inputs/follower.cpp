@@ -14,7 +14,7 @@ constexpr double kLost = 0.5;           // m, beyond which the log says that it 
 constexpr double kJitter = 0.03;        // s, largest delay of a message that is made good
 constexpr double kCopied = 0.15;      // s, after which the same message says that its holder stands
 constexpr double kAtOnce = 3.0;       // seconds of stamps per second in a bundle of inputs
-constexpr double kSet = 0.1;          // s, by which a clock goes ahead that has been set
+constexpr double kSet = 0.1;          // s, least time by which a clock counts as set ahead
 constexpr double kForget = 0.002;     // share of the delay, for each message, as clocks drift
 constexpr double kLongestLead = 0.2;  // s, for which the motion of a holder is extrapolated
 constexpr double kSteepest = 5.0;     // m/s², largest acceleration of a slow holder
@@ -68,8 +68,8 @@ bool Follower::take(const PlaneVector<double>& position, double stamp, double no
     const double step = stamp - samples_.back().stamp, gap = now - samples_.back().arrival;
     const double usual =
         samples_.size() > 1 ? samples_.back().stamp - samples_.rbegin()[1].stamp : 0.0;
-    if (step < 0.0 ||
-        step > gap + usual + kSet)  // the clock has been set; back: one input is missing
+    // The clock of the stamps has been set: back if an input was refused, so that one is missing, or ahead.
+    if (step < 0.0 || step > gap + usual + kSet)
       for (Sample& earlier : samples_) earlier.stamp += step - (step < 0.0 ? gap : usual);
   }
   if (isSilent(now)) {
