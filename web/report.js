@@ -116,8 +116,7 @@ export function sentences() {
       `${nameOf(run)} stays within ${short(end.bound)} m of the true motion` +
         (end.kind === 'ok' ? '' : ` until t = ${short(end.measuredUntil, 3)} s; later it was not measured`))),
   ].join('; ');
-  const said = ended.flatMap(({run, track: {end}}) => end.messages
-      .map((text) => `${nameOf(run)}: ${text}.`));
+  const said = ended.flatMap(({run, track: {end}}) => end.messages.map((text) => `${nameOf(run)}: ${text}.`));
   const hopeful = others.filter(({track: {end}}) => ![end.kind, ...end.messages].some((text) => /sensitive/.test(text)));
   const next = hopeful.find(({track}) => track.end.bad) ?? hopeful[0];
   return [`${what}.`, why(ended, diverged), ...said, next ? remedy(next) : ''].filter(Boolean);

@@ -38,6 +38,7 @@ export async function openFile(file) {
   const reader = new Library();  // of its own, so that a broken file leaves the scene as it is
   try {
     await reader.call('scene', {file: {name: file.name, text}, interval: settings.interval});
+    area.blur();  // else the text there stays, and the next key puts it back
     setFile(file.name, text);
   } catch (error) {
     say(error.message);

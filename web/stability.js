@@ -124,10 +124,12 @@ function describe(method, points, growth, small) {
   const far = points.reduce((a, b) => (Math.hypot(a.x, a.y) > Math.hypot(b.x, b.y) ? a : b));
   const growing = points.filter(({x}) => x > 1e-6).length;
   const isKnown = ({y}) => !method.symplectic || y !== 0;
+  const known = points.filter(isKnown).length;
   const outside = points.filter((point, i) => isKnown(point) && point.x <= 1e-6 && growth[i] > 1e-9).length;
-  const kind = method.symplectic ? ' The region of a symplectic method is that of an oscillator: points on the real axis are not counted.' :
+  const unknown = known < points.length ? `; it does not tell whether the ${points.length - known} points on the real axis grow` : '';
+  const kind = method.symplectic ? ` The region of a symplectic method is that of an oscillator${unknown}.` :
     Number.isFinite(method.realLimit) ? '' : ' This method is stable wherever the motion itself decays.';
-  return `${outside} of ${points.filter(isKnown).length} points are outside. The farthest point hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
+  return `${outside} of ${known} points are outside. The farthest point hλ is at ${short(far.x, 3)} ${far.y < 0 ? '−' : '+'} ` +
     `${short(Math.abs(far.y), 3)} i; half the step halves its distance from 0. Points inside the region decay or keep ` +
     'their size, points outside grow with every step.' +
     (growing ? ` ${growing} points lie right of the axis: there the motion itself, not the method, spreads apart.` : '') +

@@ -14,6 +14,7 @@ const styles = ['circle', 'triangle', 'rect', 'star', 'cross', 'rectRot', 'cross
 let library = null;
 let order, cost;
 let rows = [];   // {method, points: [{setting, error, evaluations}], limit}
+let changed = false;  // the scene, since the measurement began
 /** The colour of the run with the method of a row, or one that no run has. */
 const tint = (i) => {
   const names = [...settings.runs.map(({method}) => method), ...rows.map(({method}) => method.name)];
@@ -27,13 +28,10 @@ function jobsOf(duration) {
   const boxes = [...document.querySelectorAll('#study-methods input')];
   return boxes.filter((box) => box.checked).map(({value}) => methodOf(value)).filter(Boolean).map((method) => ({
     method,
-    settings: method.fixed ?
-      Array.from({length: HALVINGS + 1}, (_, n) => ({
-        time_step: String(interval / 2 ** n), steps_per_frame: String(2 ** n), frames: String(frames),
-      })) :
-      TOLERANCES.map((tolerance) => ({
-        tolerance: String(tolerance), frame_interval: String(interval), frames: String(frames),
-      })),
+    settings: (method.fixed ?
+      Array.from({length: HALVINGS + 1}, (_, n) => ({time_step: String(interval / 2 ** n), steps_per_frame: String(2 ** n)})) :
+      TOLERANCES.map((tolerance) => ({tolerance: String(tolerance), frame_interval: String(interval)})))
+        .map((sizes) => ({...optionsOf(newRun(method.name)), ...sizes, frames: String(frames)})),
   }));
 }
 
@@ -50,12 +48,14 @@ async function measure() {
   get('study').disabled = true;
   get('study-cancel').hidden = false;
   rows = [];
+  changed = false;
+  const {file} = settings;
   library = new Library();
   try {
-    for (const {method, settings: list} of jobs) await measureMethod(method, list, duration, progress);
+    for (const {method, settings: list} of jobs) await measureMethod(method, list, file, duration, progress);
     const unmeasured = rows.reduce((sum, row) => sum + row.unmeasured, 0);
-    get('study-note').textContent = unmeasured === 0 ? 'Done.' :
-      `Done. Runs whose true motion is known for a part of the time only are left out: ${unmeasured}.`;
+    get('study-note').textContent = (changed ? 'Measured before the last change.' : 'Done.') + (unmeasured === 0 ? '' :
+      ` Runs whose true motion is known for a part of the time only are left out: ${unmeasured}.`);
   } catch (error) {
     get('study-note').textContent = error instanceof Cancelled ? 'Cancelled.' : error.message;
   }
@@ -64,30 +64,29 @@ async function measure() {
   get('study').disabled = false;
 }
 
-async function measureMethod(method, list, duration, progress) {
+async function measureMethod(method, list, file, duration, progress) {
   const row = {method, points: [], limit: NaN, unmeasured: 0};
   rows.push(row);
-  const {file} = settings;
-  for (const sizes of list) {
-    get('study-note').textContent = `${method.name} ${sizes.time_step ?? sizes.tolerance}`;
-    const options = {...optionsOf(newRun(method.name)), ...sizes};
+  for (const options of list) {
+    const setting = method.fixed ? options.time_step : options.tolerance;
+    get('study-note').textContent = `${method.name} ${setting}`;
     try {
       const end = await library.call('measure', {settings: options, file});
       const isShort = end.status !== 3 && end.measuredUntil < duration - 1e-6;
       if (isShort) ++row.unmeasured;
       const error = end.resolved && !isShort ? end.largest : NaN;
       if (end.status !== 3 && error > ENOUGH) {
-        row.points.push({setting: Number(sizes.time_step ?? sizes.tolerance), error, evaluations: end.evaluations});
+        row.points.push({setting: Number(setting), error, evaluations: end.evaluations});
       }
     } catch (error) {  // a tolerance below the rounding errors, for example
       if (error instanceof Cancelled) throw error;
-      if (row.points.length === 0 && sizes === list[0]) row.failure = error.message;
+      if (row.points.length === 0 && options === list[0]) row.failure = error.message;
     }
     ++progress.value;
     show();
   }
   if (!method.fixed) return;
-  row.limit = await library.call('stableStep', {settings: {...optionsOf(newRun(method.name)), ...list[5]}, file});
+  row.limit = await library.call('stableStep', {settings: list[5], file});
   show();
 }
 
@@ -156,4 +155,8 @@ export function start() {
   get('study').addEventListener('click', measure);
   get('study-cancel').addEventListener('click', () => library?.cancel());
   for (const event of ['theme', 'runs']) on(event, show);
+  on('scene', () => {
+    changed = true;
+    if (rows.length > 0 && !get('study').disabled) get('study-note').textContent = 'Measured before the last change.';
+  });
 }
