@@ -194,8 +194,7 @@ int run(int argc, const char* const* argv) {
   } catch (const std::exception& error) {  // a failure of one rank ends all of them
     const Failure failure = failureOf(error);
     printError(failure.message + "\n");
-    counter->abort(failure.status);
-    return failure.status;
+    return counter->abort(failure.status);
   }
 }
 

@@ -62,7 +62,7 @@ class MpiCounter : public CaseCounter {
     MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     return value;
   }
-  void abort(int status) const override { MPI_Abort(MPI_COMM_WORLD, status); }
+  int abort(int status) const override { return MPI_Abort(MPI_COMM_WORLD, status); }
 
  private:
   int threads_ = 0;

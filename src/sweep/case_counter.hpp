@@ -22,8 +22,8 @@ class CaseCounter {
   virtual void poll() {}
   /// Waits for all ranks to call this function. \returns the largest of their values
   virtual int largest(int value) { return value; }
-  /// Ends all ranks with an exit status, if there are several.
-  virtual void abort(int /*status*/) const {}
+  /// Ends all ranks with an exit status, if there are several. \returns the status
+  virtual int abort(int status) const { return status; }
 
  private:
   std::atomic<std::int64_t> next_{0};

@@ -161,12 +161,11 @@ class Sweep {
   int tryOutputs() const {
     // Shards may start at the same moment.
     const std::string shard = options_.shards > 1 ? fmt::format(".{}", options_.shard) : "";
-    const std::string path = OutputFile(options_.output + shard).path();
+    static_cast<void>(OutputFile(options_.output + shard).path());
     if (!options_.plot) return kDone;
-    const OutputFile picture(picturePath(options_.output) + shard);
-    OutputFile table(path + ".try");  // another process may write its table now
-    writeRows(table);
-    return drawPlot(study_, table.unfinishedPath(), picturePath(options_.output), true);
+    OutputFile picture(picturePath(options_.output) + shard);
+    writeRows(picture);  // not to the table, which another process may write now
+    return drawPlot(study_, picture.unfinishedPath(), picturePath(options_.output), true);
   }
 
   /// Takes over what this and other processes have finished.
@@ -234,10 +233,13 @@ void checkCases(const Study& study, std::int64_t threads) {
 
 int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter) {
   catchInterruptions();
+  if (options.shard > study.cases()) {
+    printOutput(fmt::format("shard {} has no case\n", options.shard));
+    return kDone;
+  }
   Sweep sweep(study, options, counter);
   const int status = sweep.prepare();
-  if (status != kDone) counter.abort(status);
-  if (status != kDone) return status;
+  if (status != kDone) return counter.abort(status);
   if (counter.rank() == 0) counter.largest(0);  // the others may begin
   sweep.work();
   const int signal = counter.largest(interruption());
