@@ -54,6 +54,7 @@ TEST(Misuse, RunsFromStatesOfAnotherSizeAndTimes) {
     EXPECT_THROW(checkStability(chain(), wrong, Scenario{}), InputError) << size;
     EXPECT_THROW(largestStableStep(chain(), wrong, Scenario{}), InputError) << size;
   }
+  EXPECT_THROW(checkStability(chain().drivenBy({{{1, {5, 0}}}, {}}), horizontal(), {}), InputError);
   EXPECT_THROW(reference.advance(kNan, 1), InputError);
   EXPECT_THROW(reference.advance(0.1, -1), InputError);
   for (const double time : {0.0, -1.0, kNan, kInfinity})

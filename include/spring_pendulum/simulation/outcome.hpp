@@ -58,7 +58,7 @@ double linearStepLimit(const Method& method, const Chain& chain, double duration
 
 /// Returns the largest stable step size of a run, from trial runs as long as that with `Plan::time_step`.
 /// \param stop asked during the trials; when it returns true, the result is not valid
-/// \throws InputError for a value of the plan out of its range, as the functions below
+/// \throws InputError for a value of the plan out of its range or a driven chain, as the functions below
 StableStep largestStableStep(const Chain& chain, const State& start, const Plan& plan,
                              const std::function<bool()>& stop = {});
 

@@ -55,6 +55,7 @@ class Trials {
   Trials(const Chain& chain, const State& start, const Plan& plan, std::function<bool()> stop)
       : plan_(plan), scene_{chain.masses(), start, 0, chain.constants()}, stop_(std::move(stop)) {
     requireSize(chain.size(), start.size());
+    if (chain.isDriven()) throw InputError("there is no advice for a driven chain");
     checkPlan(plan);
     const Method& method = plan.method;
     const bool has_kernel = method.tableau != nullptr && chain.isPlain() &&
@@ -137,8 +138,7 @@ class Trials {
                          : std::isinf(failed) ? std::min(ratio * low, most)
                                               : std::sqrt(low * failed));
     }
-    if (found >= top) return kInfinity;
-    return found;
+    return found >= top ? kInfinity : found;
   }
 
   const std::string& until() const { return until_; }  ///< when the found motion becomes sensitive
@@ -264,7 +264,8 @@ Remarks remarksOn(const Run& run) {
   if (const double gravity = run.chain().gravity(); gravity < 0.0)
     remarks.notes.push_back(
         fmt::format("gravity of {} m/s² points up: the chain falls upwards", numberText(gravity)));
-  remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan().from(run.firstFrame()));
+  remarks.warning =
+      stabilityWarning(run.chain().drivenBy({}), run.start(), run.plan().from(run.firstFrame()));
   return remarks;
 }
 
