@@ -139,7 +139,7 @@ class Checker {
     StudentProgram in_float = right.with(table_.back());
     if (level < 2) tryChanges(right, 0, level == 1);  // perhaps it prints floats only
     if (level == 0 && frames_.are_floats && explains(in_float)) return tryChanges(right, 0, true);
-    in_float.sentences.back() += " (or has errors as small as those of float)";
+    in_float.sentences.back() += " (or has errors of up to some 50 times those of float)";
     if (frames_.are_floats) right = in_float;
     for (int i = 0; i < 2 && level == 2 && frames_.are_floats; ++i) tryChanges(right, 0, i == 1);
     const bool may_be_float = !frames_.are_floats && frames_.digits < 9;  // which show it

@@ -56,8 +56,7 @@ class ProgramMotion : public Motion {
     }
     // A mistake must explain the frames clearly better than rounding errors do, also in more steps.
     const double more = static_cast<double>(plan_.steps()) / program.right_steps;
-    if (program.mistakes.size() > (program.single_precision ? 1 : 0))
-      share_ = 0.5 / std::sqrt(std::max(1.0, more));
+    if (!program.mistakes.empty()) share_ = 0.5 / std::sqrt(std::max(1.0, more));
     const AlignedNumbers& masses = particles.masses;
     const Eigen::Index last = masses.size() - 1;
     for (Eigen::Index i = 0; i <= last; ++i) {

@@ -289,7 +289,7 @@ def other_courses_are_judged(lab):
         (dict(method='Euler', h=0.16), 's', 0, ('Euler', '--time-step', '0.16'), 5, []),  # explodes
         (single, 's', 1, ('Runge-Kutta-4',), 4, ['single_precision']), (dict(g=9.8, method='Euler'), 's', 0, ('Euler',), 4, ['gravity_9.8']),
         (dict(single, method='Euler', h=0.04), '6f', 0, ('Euler', '--time-step', '0.04'), 4, ['single_precision']),
-        # Errors as small as those of float, in double: nothing that has been tried.
+        # Errors hardly larger than those of float, in double: nothing that has been tried.
         (dict(g=9.81 * (1 + 1e-6)), '9g', 0, ('Runge-Kutta-4',), 4, []),
         # The fewest mistakes first: Runge-Kutta-4 with two mistakes reproduces these frames, too.
         (dict(single, method='Runge-Kutta-2'), '8g', 0, (None,), 4, ['single_precision']),
