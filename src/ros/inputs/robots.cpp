@@ -66,7 +66,7 @@ Robots::Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options
     const std::string of_frame = frame.empty() ? "" : fmt::format(" (frame {})", frame);
     const Follower follower(name + of_frame, longest, warn);
     Robot& robot = robots_.emplace_back(Robot{particle, name, frame, follower});
-    robot.wrench = node.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", 100);
+    robot.wrench = node.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", 1000);
     if (!frame.empty()) continue;
     robot.odometry = node.subscribe<nav_msgs::Odometry>(
         name + "/odom", 10, [this, &robot](const nav_msgs::Odometry::ConstPtr& message) {
