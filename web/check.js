@@ -9,24 +9,18 @@ const note = get('check-note');
 const MOST_BYTES = 1e8;
 const NAME = /^frame_(\d+)\.txt$/;
 let library = null;
-
-const frameOf = (path) => {
-  const found = NAME.exec(path);
-  return found && {name: path, index: Number(found[1])};
-};
+let report = [];
 
 function say(...lines) {
   note.replaceChildren(...lines.map((line) => paragraph(line)));
 }
 
-const tooMuch = (bytes) => `${(bytes / 1e6).toFixed(0)} MB of frames are too much for this page: use check_frames`;
-
 async function readFiles(files) {
   const named = files.filter((file) => file.webkitRelativePath.split('/').length < 3)  // of the folder itself
-    .map((file) => ({file, frame: frameOf(file.name)})).filter(({frame}) => frame);
+    .map((file) => ({file, found: NAME.exec(file.name)})).filter(({found}) => found);
   const bytes = named.reduce((sum, {file}) => sum + file.size, 0);
-  if (bytes > MOST_BYTES) throw new Error(tooMuch(bytes));
-  return Promise.all(named.map(async ({file, frame}) => ({...frame, text: await file.text()})));
+  if (bytes > MOST_BYTES) throw new Error(`${(bytes / 1e6).toFixed(0)} MB of frames are too much for this page: use check_frames`);
+  return Promise.all(named.map(async ({file, found: [name, index]}) => ({name, index: Number(index), text: await file.text()})));
 }
 
 /** Numbers of a frame in the order of drawing: all x, then all y. */
@@ -49,6 +43,7 @@ function drawOver(frames, interval) {
 /** Checks the files of a folder. */
 export async function take(files) {
   showFrames(null);
+  report = [];
   library?.cancel();
   library = new Library();
   try {
@@ -75,7 +70,8 @@ async function check(frames) {
   const result = await library.call('check', {
     settings: options, file: settings.file, given: get('check-method').checked, frames,
   }, () => say(`Searching for the mistake, ${Math.round((performance.now() - began) / 1000)} s …`));
-  say(...result.report);
+  report = result.report;
+  say(...report);
   const method = methodOf(run.method);
   const interval = method?.fixed ? Number(options.steps_per_frame) * Number(options.time_step) : Number(options.frame_interval);
   drawOver(frames, interval);
@@ -88,4 +84,10 @@ export function start() {
   get('check-folder').addEventListener('change', ({target}) => { take([...target.files]); target.value = ''; });
   get('check-cancel').addEventListener('click', () => { library?.cancel(); say('Cancelled.'); });
   on('tab', (tab) => { if (tab !== 'check') showFrames(null); });
+  on('scene', () => {
+    showFrames(null);
+    library?.cancel();
+    if (!get('check-cancel').hidden) say('Cancelled: the scene or a method has changed.');
+    else if (report.length > 0) say(...report, 'Checked before the last change.');
+  });
 }

@@ -2,7 +2,7 @@
 import {drawRegion, makeRegionChart} from './stability.js';
 import {formula, fraction} from './step.js';
 import {tools, useOwnMethods} from './runs.js';
-import {MOST_RUNS, MOST_STAGES, described, get, newRun, on, settings, tell} from './state.js';
+import {MOST_RUNS, MOST_STAGES, get, newRun, on, settings, tell} from './state.js';
 
 const kept = {
   'Heun': {a: [[], ['1']], b: ['1/2', '1/2']},
@@ -138,16 +138,13 @@ export async function register(methods, before = []) {
     await useOwnMethods(numbered(before));
     settings.own = before;
     note.textContent = error.message;
+    tell('settings');  // the runs were cancelled
     return false;
   }
 }
 
 async function run() {
   const name = get('own-name').value.trim().replace(/\s+/g, '-') || 'Own';
-  if (described.methods.some((method) => method.name === name && !method.own)) {
-    note.textContent = `A method named ${name} exists: choose another name.`;
-    return;
-  }
   const isInTable = settings.runs.some((run) => run.method === name);
   const runs = isInTable ? settings.runs : settings.runs.slice(0, MOST_RUNS - 1);
   const others = settings.own.filter((method) => method.name !== name);

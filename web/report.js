@@ -135,8 +135,7 @@ function why(ended, diverged) {
   fixed.sort((a, b) => a.track.end.largest - b.track.end.largest);
   const best = fixed[0], worst = fixed.at(-1);
   return `The largest error of ${nameOf(worst.run)} is ${short(worst.track.end.largest / best.track.end.largest)} ` +
-    `times that of ${nameOf(best.run)}` +
-    (worst.method === best.method ? '.' : `: their orders are ${worst.method.order} and ${best.method.order}.`);
+    `times that of ${nameOf(best.run)}.`;
 }
 
 function remedy({run, method, track: {end}}) {

@@ -34,9 +34,9 @@ export async function openFile(file) {
         `which reads particle files of at most ${LARGEST_FILE / 1e6} MB`);
     return;
   }
-  const text = await file.text();
   const reader = new Library();  // of its own, so that a broken file leaves the scene as it is
   try {
+    const text = await file.text();
     await reader.call('scene', {file: {name: file.name, text}, interval: settings.interval});
     area.blur();  // else the text there stays, and the next key puts it back
     setFile(file.name, text);

@@ -47,7 +47,7 @@ export function optionsOf(run) {
   const duration = interval * (Number(settings.frames) - 1);
   const frames = Math.floor(duration / (steps * step) + 1e-9) + 1;
   const counted = Number.isSafeInteger(steps) && Number.isSafeInteger(frames) &&
-                  /^\d+$/.test(settings.frames);
+                  /^\+?\d+$/.test(settings.frames);
   return {
     ...options,
     time_step: run.time_step,
@@ -71,9 +71,9 @@ export function toAddress() {
   const words = new URLSearchParams();
   const {file} = settings;
   if (presets[file.name] === file.text) words.set('scene', file.name);
-  else if (file.text.length <= LONGEST_ADDRESS) {
+  else {
     words.set('name', file.name);
-    words.set('particles', file.text);
+    words.set('particles', file.text.slice(0, LONGEST_ADDRESS + 1));  // one too many: it was cut
   }
   for (const key of [...constants, 'frames', 'interval', 'reference', 'tab']) {
     words.set(key, settings[key]);
