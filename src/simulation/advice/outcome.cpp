@@ -138,7 +138,8 @@ class Trials {
                          : std::isinf(failed) ? std::min(ratio * low, most)
                                               : std::sqrt(low * failed));
     }
-    return found >= top ? kInfinity : found;
+    if (found >= top) return kInfinity;
+    return found;
   }
 
   const std::string& until() const { return until_; }  ///< when the found motion becomes sensitive
@@ -227,7 +228,7 @@ StabilityReport checkStability(const Chain& chain, const State& start, const Pla
 
 std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan) {
   const Method& method = plan.method;
-  if (!method.hasFixedStep() || plan.frames < 2) return {};
+  if (!method.hasFixedStep() || plan.frames < 2 || chain.isDriven()) return {};
   checkPlan(plan);
   if (!isClearlyUnstable(method, chain, plan.time_step, durationOf(plan))) return {};
   return fmt::format("{} may be unstable with a time step of {} s; {}", method.name,
@@ -264,8 +265,7 @@ Remarks remarksOn(const Run& run) {
   if (const double gravity = run.chain().gravity(); gravity < 0.0)
     remarks.notes.push_back(
         fmt::format("gravity of {} m/s² points up: the chain falls upwards", numberText(gravity)));
-  remarks.warning =
-      stabilityWarning(run.chain().drivenBy({}), run.start(), run.plan().from(run.firstFrame()));
+  remarks.warning = stabilityWarning(run.chain(), run.start(), run.plan().from(run.firstFrame()));
   return remarks;
 }
 
