@@ -36,7 +36,7 @@ export async function openFile(file) {
   }
   const reader = new Library();  // of its own, so that a broken file leaves the scene as it is
   try {
-    const text = await file.text();
+    const text = await file.text().catch(() => { throw new Error(`${file.name}: is a folder or cannot be read`); });
     await reader.call('scene', {file: {name: file.name, text}, interval: settings.interval});
     area.blur();  // else the text there stays, and the next key puts it back
     setFile(file.name, text);
