@@ -77,7 +77,6 @@ Robots::Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options
           receive(robot, message->header, message->pose.position);
         });
   }
-  if (!robots_.empty()) frames_.listen();
   reset();
 }
 
