@@ -187,6 +187,8 @@ void Replay::check(const PendulumInput& input) const {
       complete = complete && input.placed[i] == i + 1;
   }
   if (!complete) refuse(input, "is not complete");
+  if (input.number == 0 && input.held.size() + input.pushed.size() > 0)
+    refuse(input, "nothing can act on the start itself: it needs an input of its own");
 }
 
 Scene Replay::begin(Scenario& scenario) const {
