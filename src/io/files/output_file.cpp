@@ -32,15 +32,12 @@ std::string targetOf(const std::string& path) {
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT)
     throw FileError(fmt::format("{}: could not be written: {}", fullPath(path), messageForErrno()));
-  if (name.empty() || (exists && !S_ISREG(status.st_mode))) {
+  if (name.empty() || (exists && !S_ISREG(status.st_mode)))
     throw FileError(fullPath(path) + ": is a folder, a pipe or a device; give a regular file");
-  }
-  if (isFrameName(name)) {
+  if (isFrameName(name))
     throw InputError(fullPath(path) + ": is the name of a frame file; give another name");
-  }
-  if (exists && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) {
+  if (exists && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
     throw FileError(fmt::format("{}: could not be written: {}", fullPath(path), messageForErrno()));
-  }
   return target;
 }
 
@@ -90,9 +87,8 @@ void AtomicFile::open(int flags) {
   if (file_.isOpen()) return;
   const std::string reason = messageForErrno();
   struct stat taken {};
-  if (::fstatat(folder_.descriptor(), hidden_.c_str(), &taken, AT_SYMLINK_NOFOLLOW) == 0) {
+  if (::fstatat(folder_.descriptor(), hidden_.c_str(), &taken, AT_SYMLINK_NOFOLLOW) == 0)
     refuseTaken();
-  }
   refuse("could not be written: " + reason);
 }
 
@@ -155,7 +151,13 @@ OutputFile::OutputFile(const std::string& path)
       file_(folder_, fs::path(target_).filename().string(), fullPath(path),
             AtomicFile::Lock::kOneWriter) {
   struct stat earlier {};
+  struct stat folder {};
   const bool exists = ::stat(target_.c_str(), &earlier) == 0;
+  ::fstat(folder_.descriptor(), &folder);
+  const uid_t user = ::geteuid();
+  const bool is_own = user == 0 || user == earlier.st_uid || user == folder.st_uid;
+  if (exists && !is_own && (folder.st_mode & S_ISVTX) != 0)
+    file_.refuse("belongs to another user, so it can't be replaced in this folder");
   if (exists) ::fchmod(file_.descriptor(), earlier.st_mode & 0777U);  // not all file systems can
 }
 
