@@ -96,6 +96,7 @@ class Checker {
     Methods written;
     for (const Method* method : wanted_)  // the best first
       if (kindOf(*method) != 0) written.insert(written.begin(), method);
+    if (written.empty()) frames_.notes.emplace_back("no mistakes in the wanted method are known");
     Programs found = findMistakes(written, 1);
     if (!found.empty()) return found;
     compareWith(others_);
