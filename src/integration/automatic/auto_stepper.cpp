@@ -158,8 +158,7 @@ double AutoStepper::step() {
   work_before_race_ -= work;
   recent_.time += last_step_;
   ++recent_steps_;
-  ++steps_;
-  candidate.covered += last_step_;
+  ++candidate.steps;
   return last_step_;
 }
 
@@ -216,9 +215,12 @@ void AutoStepper::change(std::size_t to) {
 }
 
 StepStatistics AutoStepper::statistics() const {
-  std::int64_t evaluations = 0;
-  for (const Candidate& candidate : candidates_) evaluations += evaluationsOf(candidate);
-  return {evaluations, steps_, last_step_};
+  StepStatistics all{0, 0, last_step_};
+  for (const Candidate& candidate : candidates_) {
+    all.force_evaluations += evaluationsOf(candidate);
+    all.accepted += candidate.steps;
+  }
+  return all;
 }
 
 double AutoStepper::workPerEvaluation() const {
@@ -227,13 +229,11 @@ double AutoStepper::workPerEvaluation() const {
   return work / static_cast<double>(std::max<std::int64_t>(1, statistics().force_evaluations));
 }
 
-std::string AutoStepper::report(double ahead) const {
+std::string AutoStepper::report() const {
   std::string text;
-  for (const Candidate& candidate : candidates_) {
-    const double covered = candidate.covered - (&candidate == &active() ? ahead : 0.0);
-    if (!(covered > 0.0)) continue;
-    text += fmt::format("{} for {:.4g} s, ", candidate.name, covered);
-  }
+  for (const Candidate& candidate : candidates_)
+    if (candidate.steps > 0)
+      text += fmt::format("{} for {}, ", candidate.name, counted(candidate.steps, "step"));
   return text + counted(switches_, "switch", "es");
 }
 

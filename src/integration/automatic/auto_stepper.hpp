@@ -45,8 +45,8 @@ class AutoStepper final : public DenseOutputStepper {
   StepStatistics statistics() const override;
   double workPerEvaluation() const override;
 
-  /// "Taylor-8 for 0.4 s, Stabilized-Taylor-8 for 4.6 s, 1 switch"
-  std::string report(double ahead) const override;
+  /// "Taylor-8 for 40 steps, Stabilized-Taylor-8 for 46 steps, 1 switch"
+  std::string report() const override;
 
   /// Name of the active method.
   std::string_view method() const { return active().name; }
@@ -57,7 +57,7 @@ class AutoStepper final : public DenseOutputStepper {
     double work_per_evaluation;  ///< in force evaluations of Taylor-8
     std::unique_ptr<DenseOutputStepper> (*make)(const Chain& chain, double tolerance);
     std::unique_ptr<DenseOutputStepper> stepper{};  ///< constructed when used
-    double covered = 0.0;                           ///< time integrated with it, s
+    std::int64_t steps = 0;                         ///< accepted while it was active
     std::int64_t earlier = 0;                       ///< evaluations of released steppers
   };
   /// Simulated time and the work spent on it.
@@ -97,7 +97,6 @@ class AutoStepper final : public DenseOutputStepper {
   std::int64_t recent_steps_ = 0;
   double race_work_ = 0.0;         ///< of the last race
   double work_before_race_ = 0.0;  ///< until the next race
-  std::int64_t steps_ = 0;
   int switches_ = 0;
   double last_step_ = 0.0;
   State state_;

@@ -33,10 +33,7 @@ class DenseOutputIntegrator final : public Integrator {
   double dissipatedEnergy() const override { return before_step_.dissipated + in_step_.dissipated; }
   double suppliedEnergy() const override { return before_step_.supplied + in_step_.supplied; }
   void restart() override;
-  std::string report() const override {
-    const double output_time = output_origin_ + static_cast<double>(outputs_) * output_step_;
-    return stepper_->report(std::max(0.0, step_end_ - output_time));
-  }
+  std::string report() const override { return stepper_->report(); }
 
   StepStatistics statistics() const { return stepper_->statistics(); }
 

@@ -53,8 +53,7 @@ class DenseOutputStepper {
   virtual double workPerEvaluation() const { return 1.0; }
 
   /// See Integrator::report.
-  /// \param ahead time in s from the last output to the end of the last step
-  virtual std::string report(double /*ahead*/) const { return {}; }
+  virtual std::string report() const { return {}; }
 
  protected:
   DenseOutputStepper() = default;
