@@ -117,6 +117,15 @@ TEST(Driver, GiveTheImpulseOfAForce) {
   }
 }
 
+TEST(Driver, ComeToRestUnderTheForcesThatLast) {
+  Live live;
+  live.driver.on(ApplyForceTo{4, {30.0, 0.0}, 0.0, 0.003});
+  EXPECT_EQ(live.driver.on(ComeToRest{}),
+            "the chain hangs at rest from the next state on, until a force begins or ends");
+  live.driver.apply(live.run, live.run.nextTime(), false);
+  EXPECT_NEAR(live.run.state().x()[4], 0.0, 1e-12);
+}
+
 TEST(Driver, BringAParticleSmoothlyIfIntervalsAreShort) {
   Live live;
   Driver driver(live.run, nullptr, 0.2);

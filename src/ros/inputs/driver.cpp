@@ -111,9 +111,18 @@ std::string Driver::on(const ComeToRest& /*request*/) {
   if (run_.isOver()) throw InputError("the run is over; call ~reset to start it again");
   const Chain wanted = Chain(run_.chain().masses(), wanted_.constants);
   State state = run_.state();
-  const Drive drive = driveUntil(run_.nextTime(), state);  // that of the run may be out of date
+  Drive drive = driveUntil(run_.nextTime(), state);  // that of the run may be out of date
+  drive.forces.clear();
+  bool lasts = true;
+  for (const ApplyForceTo& force : forces_) {
+    if (!isHeld(force.particle) && force.start_time <= run_.time() &&
+        force.start_time + force.duration >= run_.nextTime())
+      drive.forces.push_back({force.particle, force.force});
+    lasts = lasts && force.start_time <= run_.time() && std::isinf(force.duration);
+  }
   jump_ = std::make_unique<State>(equilibrium(wanted.drivenBy(drive), state));
-  return "the chain hangs at rest from the next state on";
+  return std::string("the chain hangs at rest from the next state on") +
+         (lasts ? "" : ", until a force begins or ends");
 }
 
 std::string Driver::on(const Hold& request) {
