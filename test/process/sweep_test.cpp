@@ -362,7 +362,7 @@ TEST_F(Sweep, AnEarlierTableIsNotItsOwn) {
                 "base: {particles: chain.txt, duration: 4}\naxes: {time_step: [1e-9, 0.1]}\n");
   folder_.write("t.csv", "case,x\n0,1\n");
   EXPECT_THAT(run(shard).errors, HasSubstr("t.csv: exists; remove it to run its shards anew"));
-  EXPECT_EQ(run(sweep({"-o", "t.csv", "--shard", "3/3"})).output, "shard 3 has no case\n");
+  EXPECT_EQ(run(sweep({"-o", "t.csv", "--shard", "3/3"}, 2)).output, "shard 3 has no case\n");
   Process process(sweep({"-o", "t.csv", "--threads", "1"}));
   process.waitForFile(folder_.path("t.csv.journal"));
   run(shard);
