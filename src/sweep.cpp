@@ -39,7 +39,7 @@ std::vector<Option> optionsOf(CommandLine& line) {
       {"threads", Count{&line.sweep.threads, Range::between(1, 1024)}, "",
        "number of threads; the table does not depend on it [one per core]"},
       {"shard", Text{&line.shard, "I/N", "I/N"}, "",
-       "run only part I of N, counted from 1; the last part writes the table"},
+       "run only part I of N, counted from 1; the last to finish writes the table"},
       {"plot", Flag{&line.sweep.plot}, "", "draw the table as PNG with matplotlib"},
   };
 }
