@@ -45,7 +45,7 @@ class Hands(LiveTest):
 
     def test_a_hand_pulls_and_releases(self):
         with self.start(method='Auto') as node:
-            connected('/tf', TFMessage)  # later, subscribing would block while there is no master
+            self.drag(11, 6.0, 1.0)
             self.drag(11, 5.0, -1.0)
             self.check_energy()
             self.assertGreater(abs(self.last().supplied_energy), 1.0)

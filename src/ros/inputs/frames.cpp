@@ -15,7 +15,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr double kFirstWait = 0.5;      // s from the start on, for the first transforms
+constexpr double kFirstWait = 0.5;      // s, for the first transforms
 constexpr double kRestart = 0.5;        // s, the least jump back of a clock that starts again
 constexpr double kForgetting = 1.0;     // s, at least: a frame of two sources jumps all the time
 constexpr std::size_t kMostKept = 200;  // transforms of a frame, for common times with other frames
@@ -32,7 +32,8 @@ tf2::Matrix3x3 rotation(const geometry_msgs::Quaternion& quaternion) {
 
 }  // namespace
 
-Frames::Frames(std::string frame_id) : frame_id_(std::move(frame_id)) {
+void Frames::listen() {
+  if (!moving_.getTopic().empty()) return;
   ros::NodeHandle node;
   node.setCallbackQueue(&queue_);
   const auto subscribe = [&](const char* topic, bool is_static) {
@@ -93,8 +94,10 @@ void Frames::renew(const std::string& frame) {
 StampedTransform Frames::from(const std::string& name) {
   const std::string frame = withoutSlash(name);
   if (frame.empty() || frame == frame_id_) return {};
-  // Wait on the wall clock: ROS time may stand still.
-  const ros::SteadyTime end = start_ + ros::WallDuration(kFirstWait);
+  // The first time, wait on the wall clock: ROS time may stand still.
+  const ros::WallDuration longest(moving_.getTopic().empty() ? kFirstWait : 0.0);
+  const ros::SteadyTime end = ros::SteadyTime::now() + longest;
+  listen();
   for (double wait = 0.0;; wait = 0.01) {
     receive(wait);
     renew(frame);

@@ -23,14 +23,15 @@ struct StampedTransform {
   double stamp = 0.0;  ///< s; 0: it does not change
 };
 
-/// Listens to tf, always: later, subscribing would block while there is no master. Unlike
+/// Listens to tf from the first frame on that is not the frame of the chain. Unlike
 /// tf2_ros::TransformListener, it needs no thread, where an exception of tf2 would end the program.
 class Frames {
  public:
   /// \param frame_id frame of the chain
-  explicit Frames(std::string frame_id);
+  explicit Frames(std::string frame_id) : frame_id_(std::move(frame_id)) {}
+  void listen();
   /// Returns the latest transform from a frame; an empty name means the frame of the chain, and a
-  /// leading '/' does not count. Within half a second from the start on, waits for it.
+  /// leading '/' does not count. Waits for half a second the first time.
   /// \throws InputError if there is no transform
   StampedTransform from(const std::string& name);
   /// Takes what has come in, or waits this number of seconds for it. Must be called often.
@@ -54,7 +55,6 @@ class Frames {
   std::unique_ptr<tf2::BufferCore> transforms_ = std::make_unique<tf2::BufferCore>();
   ros::CallbackQueue queue_;  ///< served by `receive`
   ros::Subscriber moving_, fixed_;
-  const ros::SteadyTime start_ = ros::SteadyTime::now();
   std::map<std::string, Edge> edges_;  ///< by child
   Throttle warnings_;
   std::map<std::string, Throttle> renewals_;  ///< by outdated child

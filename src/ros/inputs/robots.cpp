@@ -77,6 +77,7 @@ Robots::Robots(ros::NodeHandle& node, const Run& run, const NodeOptions& options
           receive(robot, message->header, message->pose.position);
         });
   }
+  if (!robots_.empty()) frames_.listen();
   reset();
 }
 
