@@ -1,6 +1,6 @@
 // What repeats the runs elsewhere: commands and a link.
 import {scene} from './runs.js';
-import {defaultOf, get, nameOf, on, optionsOf, presets, settings, toAddress} from './state.js';
+import {LONGEST_ADDRESS, defaultOf, get, nameOf, on, optionsOf, presets, settings, toAddress} from './state.js';
 import {paragraph} from './step.js';
 
 const note = get('share-note');
@@ -67,7 +67,7 @@ function show() {
 
 export function start() {
   get('link').addEventListener('click', () => {
-    const long = !toAddress().includes('scene=') && !toAddress().includes('particles=');
+    const long = toAddress().includes('particles=') && settings.file.text.length > LONGEST_ADDRESS;
     copy(`${location.href.replace(/#.*/, '')}${toAddress()}`, long ?
       'The link is on the clipboard, without the particle file, which is too long for a link.' :
       'The link is on the clipboard.');

@@ -5,7 +5,7 @@ export const MOST_STAGES = 16;  // of a method of the user
 export const get = (id) => document.getElementById(id);
 export const presets = Object.assign(Object.create(null), JSON.parse(get('scenes').textContent));
 export const constants = ['stiffness', 'damping', 'rest_length', 'gravity'];
-const LONGEST_ADDRESS = 8000;  // characters of a particle file
+export const LONGEST_ADDRESS = 8000;  // characters of a particle file
 
 export const described = {methods: [], options: []};  // filled by the library at the start
 export const methodOf = (name) => described.methods.find((method) => method.name === name);

@@ -173,6 +173,7 @@ class Repeated(NodeTest):
                                   ('input 0: is not complete', start(placed=[1, 1, 3])),
                                   ('input 1: particle 9', start(), change(1, 0.5, held=[9], accelerations=[0.0, 0.0])),
                                   ('input 0: nothing can act on the start', start(held=[2], accelerations=[1.0, 0.0])),
+                                  ('input 2: comes after the end', start(), change(1, 0.5, end=True), change(2, 0.5)),
                                   ('input 2: comes after the end', start(), change(1, 0.5, end=True),
                                    change(2, 0.5, end=True))):
                 write_inputs(path, *inputs)

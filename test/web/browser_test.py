@@ -504,9 +504,14 @@ class LabTest(unittest.TestCase):
         run, = self.state()['settings']['runs']
         self.assertEqual((run['method'], run['time_step'], run['tolerance']), ('Auto', '0.02', '1e-06'))
         self.call('await pendulumLab.set({particles: given[0]})', ''.join(f'{i} 0 1\n' for i in range(2000)))
+        self.browser.execute_script('document.getElementById("link").click()')
+        self.wait('return document.getElementById("share-note").textContent.includes("too long for a link")')
         self.wait('return location.hash.includes("particles=")')
         self.open(self.browser.execute_script('return location.hash'))
         self.assertIn('A link holds at most 8000 characters', self.state()['settings']['file']['text'])
+        self.assertIn('is not a number', self.state()['problem'])
+        self.open('#run=Euler+0.01&stiffness=nan')
+        self.assertRegex(self.state()['runs'][0]['failure'], '^stiffness: must be a number')
 
     def test_measured_orders_are_those_of_the_methods(self):
         self.call('await pendulumLab.set({particles: "one_spring.txt", frames: 20, runs: [{method: "Euler"}]})')

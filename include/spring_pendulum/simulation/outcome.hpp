@@ -66,7 +66,7 @@ StableStep largestStableStep(const Chain& chain, const State& start, const Plan&
 StabilityReport checkStability(const Chain& chain, const State& start, const Plan& plan,
                                const std::function<bool()>& stop = {});
 
-/// Returns one line if the step is clearly above the limit of a chain that is not driven, else an empty string.
+/// Returns one line if the step is clearly above the stability limit; else, and if driven, an empty string.
 std::string stabilityWarning(const Chain& chain, const State& start, const Plan& plan);
 
 /// Returns one line with a remedy for a motion that diverged; empty if it was stopped.

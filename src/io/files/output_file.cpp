@@ -154,7 +154,7 @@ OutputFile::OutputFile(const std::string& path)
   struct stat folder {};
   const bool exists = ::stat(target_.c_str(), &earlier) == 0;
   ::fstat(folder_.descriptor(), &folder);
-  const uid_t user = ::geteuid();
+  const uid_t user = ::geteuid();  // in a sticky folder, rename() replaces own files only
   const bool is_own = user == 0 || user == earlier.st_uid || user == folder.st_uid;
   if (exists && !is_own && (folder.st_mode & S_ISVTX) != 0)
     file_.refuse("belongs to another user, so it can't be replaced in this folder");
