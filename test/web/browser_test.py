@@ -470,13 +470,13 @@ class LabTest(unittest.TestCase):
             self.wait(f'return pendulumLab.state().settings.runs.some(({{method}}) => method === "{name}")')
             self.wait('return pendulumLab.state().runs.every((run) => run?.end?.status === 0)')
             self.assertEqual(self.element('own-note').text, f'{name} is in the table of runs.')
+        self.call('pendulumLab.set({frames: 1000000}); return 0')
         self.type('own-name', 'euler')
-        self.element('own-run').click()
+        self.element('own-run').click()  # the runs under way go on
         self.wait('return document.getElementById("own-note").textContent.includes("exists")')
-        self.wait('return pendulumLab.state().runs.every((run) => run?.end?.status === 0)')
+        self.wait('return pendulumLab.state().runs.every((run) => /^frame/.test(run.progress))')
         self.tab('share')
-        commands = [button.get_attribute('title')
-                    for button in self.browser.find_elements(By.CSS_SELECTOR, '#commands button')]
+        commands = self.browser.execute_script('return [...document.querySelectorAll("#commands button")].map(({title}) => title)')
         self.assertIn('sp.register_method("Heun", a=[[], [1]], b=[1/2, 1/2])', commands[2])
         # A link may hold a method that the library refuses, and one of any size.
         for own in ('{"name":"Bad09","a":[[],["1"]],"b":["0.4","0.5"]}',
