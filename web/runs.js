@@ -138,8 +138,11 @@ export function cancelRuns() {
   for (const worker of workers) if (worker.busy) worker.cancel();
 }
 
+let timer = 0;
+
 /** Reads the particle file and computes all runs. */
 export async function restart() {
+  clearTimeout(timer);  // what was to restart soon starts now
   const {file} = settings;
   let read = null;
   let failure = '';
@@ -159,7 +162,6 @@ export async function restart() {
   tell('done');
 }
 
-let timer = 0;
 /** Restarts soon; many changes at once restart only once. */
 export function restartSoon() {
   clearTimeout(timer);
