@@ -1,4 +1,5 @@
 // A Butcher tableau of one's own: order conditions, stability region, and a run with it.
+import {Cancelled} from './library.js';
 import {drawRegion, makeRegionChart} from './stability.js';
 import {formula, fraction} from './step.js';
 import {tools, useOwnMethods} from './runs.js';
@@ -135,6 +136,7 @@ export async function register(methods, before = []) {
     settings.own = methods;
     return true;
   } catch (error) {
+    if (error instanceof Cancelled) return false;  // other methods have replaced these
     await useOwnMethods(numbered(before));
     settings.own = before;
     note.textContent = error.message;

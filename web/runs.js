@@ -72,6 +72,7 @@ export const tools = new Library();  // for short questions
 export const scene = {x: [], y: [], m: [], vx: [], vy: [], failure: '', file: null};  // file: that was read
 export const tracks = [];
 const workers = Array.from({length: MOST_RUNS}, () => new Library());
+let timer = 0;  // of a restart
 
 /** Replaces the methods of the user; the library is loaded anew. */
 export async function useOwnMethods(methods) {
@@ -137,8 +138,6 @@ async function compute(run, index) {
 export function cancelRuns() {
   for (const worker of workers) if (worker.busy) worker.cancel();
 }
-
-let timer = 0;
 
 /** Reads the particle file and computes all runs. */
 export async function restart() {

@@ -466,7 +466,7 @@ class LabTest(unittest.TestCase):
         for number, name in ((1, 'Heun'), (2, 'Ralston'), (3, 'Kutta-3'), (4, '3-8-rule'), (5, 'wrong-Runge-Kutta-4')):
             self.browser.find_element(By.CSS_SELECTOR, f'#own-preset option:nth-child({number})').click()
             self.wait('return document.getElementById("own-note").textContent.includes("has order")')
-            self.element('own-run').click()
+            ActionChains(self.browser).double_click(self.element('own-run')).perform()
             self.wait(f'return pendulumLab.state().settings.runs.some(({{method}}) => method === "{name}")')
             self.wait('return pendulumLab.state().runs.every((run) => run?.end?.status === 0)')
             self.assertEqual(self.element('own-note').text, f'{name} is in the table of runs.')
