@@ -178,7 +178,7 @@ export function start() {
       const {name, ...texts} = settings.own.at(-1);
       tableau = structuredClone(texts);
       get('own-name').value = name;
-      show();
+      resize(tableau.b.length);  // a link may leave out rows of a
     } else choose();
   });
   on('theme', judge);
