@@ -182,10 +182,10 @@ void Run::judgeFrame(double work) {
 
 void Run::goTo(std::int64_t frame, const State& state) {
   begin(frame, state);
-  changed_ = frame != first_frame_ || state.values() != start_.values();
+  changed_ = frame != first_frame_ || state_.values() != start_.values();
 }
 
-void Run::begin(std::int64_t frame, const State& state) {
+void Run::begin(std::int64_t frame, State state) {  // a copy: it may be that of the reference run
   checkFirstFrame(plan_, frame);
   checkState(state);
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
@@ -194,7 +194,7 @@ void Run::begin(std::int64_t frame, const State& state) {
     reference_ = std::make_unique<ReferenceRun>(chain_, state, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);
   integrator_->restart();
-  state_ = state;
+  state_ = std::move(state);
   frame_ = frame;
   part_ = 0;
   started_ = stopped_ = asleep_ = false;

@@ -132,7 +132,12 @@ TEST(Misuse, StartsOfRuns) {
   };
   for (const double s : {kNan, -1.0})
     EXPECT_EQ(messageOf([&] { start(horizontal(), s); }), "display_interval must be at least 0 s");
-  spring_pendulum::Run run({chain().masses(), horizontal()}, Plan{});
+  Scenario dear;  // its energy balance is
+  dear.frames = 1000000;
+  dear.energy = "never written";
+  spring_pendulum::Run run({chain().masses(), horizontal()}, dear);
+  EXPECT_EQ(messageOf([&] { RunFiles(run, dear); }),
+            "energy: the run must have RunOptions::track_dissipation");
   EXPECT_EQ(messageOf([&] { run.goTo(-1, horizontal()); }), "frame: must be at least 0, got -1");
   for (const double value : {kNan, kInfinity}) {
     State wrong = horizontal();

@@ -39,26 +39,22 @@ NO_MASTER = {'ROS_MASTER_URI': 'http://127.0.0.1:1'}
 def wait_until(condition, what, patience=PATIENCE):
     """Polls until the result is true, and returns it."""
     end = time.monotonic() + patience
-    while True:
-        answer = condition()
-        if answer:
-            return answer
+    while not (answer := condition()):
         if time.monotonic() > end:
             raise AssertionError('never happened: ' + what)
         time.sleep(0.02)
+    return answer
 
 
 def computing_time(pid):
     """The computing time of a process so far, s."""
     with open('/proc/%d/stat' % pid) as status:
-        fields = status.read().rpartition(')')[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+        return sum(map(int, status.read().rpartition(')')[2].split()[11:13])) / os.sysconf('SC_CLK_TCK')
 
 
 def total_computing_time():
     """The computing time of all ended children, s."""
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
+    return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
 
 
 @contextlib.contextmanager
@@ -84,15 +80,12 @@ def running(*command, end=signal.SIGKILL, **options):
 class PendulumNode:
     """A pendulum_node: with PendulumNode('/name', frames=3) as node."""
 
-    DEFAULTS = {'output': '', 'at_end': 'exit', 'real_time_factor': 0.0}
+    DEFAULTS = {'output': '', 'at_end': 'exit', 'real_time_factor': 0.0, 'particles': SCENE}
 
     def __init__(self, name='/pendulum', arguments=(), cwd='/', env=None, preexec=None, **parameters):
         self.name = name
-        self.parameters = dict(self.DEFAULTS, particles=SCENE)
-        self.parameters.update(parameters)
-        self.parameters = {k: v for k, v in self.parameters.items() if v is not None}
-        master = rosgraph.Master('/test')
-        master.setParam(name, self.parameters)  # replaces all that were there
+        self.parameters = {k: v for k, v in {**self.DEFAULTS, **parameters}.items() if v is not None}
+        rosgraph.Master('/test').setParam(name, self.parameters)  # replaces all that were there
         self.log = tempfile.TemporaryFile(mode='w+')
         namespace, _, base = name.rpartition('/')
         self.process = subprocess.Popen(
@@ -177,9 +170,8 @@ class Listener:
         return self.messages
 
     def wait_for_any(self, condition, patience=PATIENCE):
-        def first():
-            return next((m for m in list(self.messages) if condition(m)), None)
-        return wait_until(first, 'the message on ' + self.subscriber.resolved_name, patience)
+        return wait_until(lambda: next((m for m in list(self.messages) if condition(m)), None),
+                          'the message on ' + self.subscriber.resolved_name, patience)
 
     def close(self):
         self.subscriber.unregister()

@@ -107,6 +107,9 @@ TEST(Run, MeasuresThePositionErrorAlsoBetweenFrames) {
   EXPECT_GT(shown.positionError().largest, 1e-3);
   EXPECT_EQ(shown.positionError().largest, plain.positionError().largest);
   EXPECT_EQ(shown.verdict().kind, plain.verdict().kind);
+  const State truth = *shown.referenceState();
+  shown.goTo(0, *shown.referenceState());  // which a new one replaces
+  EXPECT_EQ(shown.state().values(), truth.values());
   scenario.reference = ReferenceUse::kNever;
   const test::ProgramRun unmeasured(scenario, scene(), {true, 0.0});
   EXPECT_EQ(unmeasured.referenceState(), nullptr);

@@ -24,7 +24,7 @@ class RunFiles {
  public:
   /// Checks that no name has two uses, opens the files and removes the frames of an earlier run.
   /// \param config configuration file of the run, which must not be overwritten; empty: none
-  /// \throws InputError, FileError naming the file
+  /// \throws InputError, also for energies of a run without `track_dissipation`, FileError naming the file
   RunFiles(const Run& run, const Scenario& scenario, const std::string& config = "");
   ~RunFiles();
 

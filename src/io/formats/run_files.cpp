@@ -44,9 +44,8 @@ std::string energyRow(std::int64_t frame, const EnergyEntry& entry, double posit
   for (const double value :
        {entry.time, entry.energy.kinetic, entry.energy.gravity, entry.energy.spring,
         entry.energy.total(), entry.dissipated.value(), entry.residual.value(),
-        entry.relative_residual.value(), position_error}) {
+        entry.relative_residual.value(), position_error})
     row += ',' + numberText(value);
-  }
   return row + '\n';
 }
 
@@ -56,10 +55,9 @@ Scene readScene(const Scenario& scenario, std::string_view argument) {
   namespace fs = std::filesystem;
   std::error_code error;  // other errors are left to the reader
   const bool is_missing = fs::status(scenario.particles, error).type() == fs::file_type::not_found;
-  if (is_missing && scenario.particles == Scenario{}.particles) {
+  if (is_missing && scenario.particles == Scenario{}.particles)
     throw FileError(fmt::format("{}: no such file; give a particle file with {}",
                                 fullPath(scenario.particles), argument));
-  }
   return makeScene(
       scenario, scenario.resume ? readStateFile(scenario) : readParticleFile(scenario.particles));
 }
@@ -98,6 +96,8 @@ RunFiles::RunFiles(const Run& run, const Scenario& scenario, const std::string& 
   files_->missing[run.firstFrame()] = std::numeric_limits<std::int64_t>::max();
   const TouchedFiles touched = touchedFiles(scenario, config);
   checkTouchedFiles(touched);
+  const bool has_energies = scenario.energy.empty() || run.energyEntry().dissipated;
+  if (!has_energies) throw InputError("energy: the run must have RunOptions::track_dissipation");
   if (!scenario.energy.empty())
     beginEnergies(files_->energy.emplace(scenario.energy), run.firstFrame());
   if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);
@@ -128,9 +128,8 @@ void RunFiles::finish() {
   files_->finished = true;
   if (files_->energy) files_->energy->finish();
   const Scene& last = files_->last;
-  if (last.masses.size() > 0) {  // else no frame was reached
+  if (last.masses.size() > 0)  // else no frame was reached
     writeState(*files_->state, last.masses.view(), last.state, last.frame, files_->last_time);
-  }
   if (files_->frames) files_->frames->finish();
 }
 
