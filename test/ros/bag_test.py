@@ -4,6 +4,7 @@ import math
 import os
 import subprocess
 import unittest
+from pathlib import Path
 
 import rosbag
 from spring_pendulum.msg import PendulumState, PendulumStatus
@@ -31,8 +32,7 @@ class Bag(unittest.TestCase):
         with Folder() as folder:
             one, _ = record(folder, 'one.bag')
             two, _ = record(folder, 'two.bag')
-            with open(one, 'rb') as a, open(two, 'rb') as b:
-                self.assertTrue(a.read() == b.read())
+            self.assertTrue(Path(one).read_bytes() == Path(two).read_bytes())
             self.assertEqual(sorted(os.listdir(folder)), ['one.bag', 'two.bag'])
 
     def test_holds_the_500_frames_of_the_exercise(self):
@@ -83,15 +83,12 @@ class Bag(unittest.TestCase):
     def test_appends_only_to_a_complete_bag(self):
         with Folder() as folder:
             path, _ = record(folder, 'one.bag', '--frames', '2')
-            with open(path, 'rb') as file:
-                whole = file.read()
+            whole = Path(path).read_bytes()
             for text in (b'', b'no bag', whole[:5000], whole[:-100]):
-                with open(path, 'wb') as file:
-                    file.write(text)
+                Path(path).write_bytes(text)
                 _, output = record(folder, 'one.bag', '--append', '--time-step', '0.5', status=1)
                 self.assertEqual(output, path + ': is not a complete bag, so nothing can be appended to it\n')
-                with open(path, 'rb') as file:
-                    self.assertEqual(file.read(), text)
+                self.assertEqual(Path(path).read_bytes(), text)
 
     def test_rosbag_info_and_play(self):
         with Folder() as folder:
@@ -122,8 +119,7 @@ class Bag(unittest.TestCase):
                                '--damping', '0', method='Euler')
             self.assertEqual(sorted(os.listdir(folder)), ['energy.csv', 'frames', 'one.bag'])
             self.assertEqual(read_frames(folder + '/frames'), expected)
-            with open(folder + '/energy.csv') as ours, open(expected_folder + '/energy.csv') as theirs:
-                self.assertEqual(ours.read(), theirs.read())
+            self.assertEqual(*(Path(name, 'energy.csv').read_text() for name in (folder, expected_folder)))
 
     def test_energy_tracking_can_be_switched_off_where_it_costs(self):
         for steps, tracked in (('10', True), ('1000000', False)):

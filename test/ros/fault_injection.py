@@ -1,6 +1,7 @@
 """Programs with failing system calls; see ../support/fault_injection.cpp."""
 import os
 import signal
+from pathlib import Path
 
 from pendulum_process import SCENE, Folder, case, files_in
 
@@ -10,11 +11,8 @@ CLEANS_UP = {'unlinkat', 'fstatat', 'fstat'}  # calls that remove the unfinished
 
 def fill(folder, **files):
     """Writes the particle file and others with this content."""
-    with open(SCENE, 'rb') as scene:
-        files = dict(files, particle_txt=scene.read())
-    for name, content in files.items():
-        with open('%s/%s' % (folder, name.replace('_', '.')), 'wb') as file:
-            file.write(content)
+    for name, content in dict(files, particle_txt=Path(SCENE).read_bytes()).items():
+        Path(folder, name.replace('_', '.')).write_bytes(content)
 
 
 def injection(folder, report, call, kind):
@@ -28,8 +26,7 @@ def disturbed_runs(test, kind, run, files):
     with Folder() as outside, Folder() as folder:
         fill(folder, **files)
         run(folder, injection(folder, outside + '/calls', 0, 'list'))
-        with open(outside + '/calls') as report:
-            names = [''] + report.read().split('\n')
+        names = [''] + Path(outside, 'calls').read_text().split('\n')
     begins = [k for k in range(1, len(names)) if names[k] != names[k - 1]]
     calls = sorted({call for first, end in zip(begins, begins[1:]) for call in (first, (first + end - 1) // 2, end - 1)})
     test.assertGreater(len(calls), 10)
@@ -39,8 +36,7 @@ def disturbed_runs(test, kind, run, files):
             result = run(folder, injection(folder, outside + '/call', call, kind))
             name = ''
             if os.path.exists(outside + '/call'):  # a program with threads does not always make as many
-                with open(outside + '/call') as report:
-                    name = report.read()
+                name = Path(outside, 'call').read_text()
             if name:
                 yield name, result, folder
 

@@ -3,6 +3,7 @@ import os
 import random
 import signal
 import subprocess
+from pathlib import Path
 
 import rosbag
 import rospy
@@ -183,17 +184,14 @@ class Repeated(NodeTest):
         with Folder() as folder:
             path = os.path.join(folder, 'inputs.bag')
             write_inputs(path, start(), change(1, 0.5), change(2, 0.5, end=True))
-            with open(path, 'rb') as file:
-                whole = file.read()
+            whole = Path(path).read_bytes()
             at = whole.index(b'air_drag=0') - 4  # the length of a text
             header = whole.rindex(b'message_definition=') - 4  # of the index
             for place in (at, header):
-                with open(path, 'wb') as file:
-                    file.write(whole[:place] + b'\xff\xff\xff\x0f' + whole[place + 4:])
+                Path(path).write_bytes(whole[:place] + b'\xff\xff\xff\x0f' + whole[place + 4:])
                 self.check_refused(folder, path, 'cannot be read as a bag', 1)
             for length in range(100, len(whole), 400):
-                with open(path, 'wb') as file:
-                    file.write(whole[:length])
+                Path(path).write_bytes(whole[:length])
                 self.check_refused(folder, path, 'cannot be read as a bag', 1)
 
     def test_repeats_a_run_that_continues_after_a_divergence(self):

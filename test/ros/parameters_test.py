@@ -3,6 +3,7 @@ import os
 import re
 import subprocess
 import unittest
+from pathlib import Path
 
 import rosgraph
 import yaml
@@ -21,8 +22,7 @@ EXTRA = {'on_divergence': {'time_step': 0.5}}
 class Parameters(unittest.TestCase):
 
     def test_each_bad_one_ends_the_node_with_one_clear_line(self):
-        with open(project('test/ros/bad_parameters.yaml')) as collection:
-            cases = yaml.safe_load(collection)
+        cases = yaml.safe_load(Path(project('test/ros/bad_parameters.yaml')).read_text())
         self.assertGreater(len(cases), 30)
         for case in cases:
             with PendulumNode(**case['parameters']) as node:
@@ -65,12 +65,10 @@ class Parameters(unittest.TestCase):
             write(folder + '/frame_0000.txt', '1 2\n')
             node = ended_node(2, output=folder, frames=4, time_step=1e9, steps_per_frame=1, publish_clock=True)
             self.assertIn('simulated time 3e+09 s is too large', node.lines('FATAL')[0])
-            with open(folder + '/frame_0000.txt') as earlier:
-                self.assertEqual(earlier.read(), '1 2\n')
+            self.assertEqual(Path(folder, 'frame_0000.txt').read_text(), '1 2\n')
 
     def test_every_option_of_a_run_acts_as_in_exercise3(self):
-        with open(project('config/pendulum.yaml')) as config:
-            defaults = yaml.safe_load(config)
+        defaults = yaml.safe_load(Path(project('config/pendulum.yaml')).read_text())
         self.assertGreater(len(defaults), 18)
         for key, default in defaults.items():
             value = VALUES.get(key, 2 * default if default else 0.25)

@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import time
 import unittest
+from pathlib import Path
 
 import rosgraph
 import rospkg
@@ -48,8 +49,8 @@ def wait_until(condition, what, patience=PATIENCE):
 
 def computing_time(pid):
     """The computing time of a process so far, s."""
-    with open('/proc/%d/stat' % pid) as status:
-        return sum(map(int, status.read().rpartition(')')[2].split()[11:13])) / os.sysconf('SC_CLK_TCK')
+    fields = Path('/proc/%d/stat' % pid).read_text().rpartition(')')[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
 
 def total_computing_time():
@@ -136,8 +137,8 @@ class PendulumNode:
         return map(int, re.search(r'(\d+) marker and (\d+) state messages built', self.output()).groups())
 
     def resident_bytes(self):
-        with open('/proc/%d/status' % self.process.pid) as status:
-            return int(re.search(r'VmRSS:\s+(\d+) kB', status.read()).group(1)) * 1024
+        status = Path('/proc/%d/status' % self.process.pid).read_text()
+        return int(re.search(r'VmRSS:\s+(\d+) kB', status).group(1)) * 1024
 
 
 def ended_node(status=0, **parameters):
@@ -281,20 +282,14 @@ def run_exercise(folder, method='Runge-Kutta-4', *options, status=0):
 
 
 def write(path, text):
-    with open(path, 'w') as file:
-        file.write(text)
+    Path(path).write_text(text)
     return path
 
 
 def files_in(folder, start=''):
     """The contents of all files below a folder whose names have this start, by path."""
-    files = {}
-    for path, _, names in sorted(os.walk(folder)):
-        for name in sorted(names):
-            if name.startswith(start):
-                with open(os.path.join(path, name), 'rb') as file:
-                    files[os.path.relpath(file.name, folder)] = file.read()
-    return files
+    paths = sorted(path for path in Path(folder).rglob(start + '*') if path.is_file())
+    return {str(path.relative_to(folder)): path.read_bytes() for path in paths}
 
 
 def read_frames(folder):
