@@ -43,5 +43,9 @@ if has_messages "$part.active"; then
   fail "the recorder ended with status $status; rosbag reindex may repair $bag.active"
 fi
 has_messages "$part" || fail "nothing was recorded (the recorder ended with status $status)"
-mv -fT "$part" "$bag" || { trap - EXIT; fail "the recording is in $part"; }
+# The recorder ends with 1 where it stops on its own, for example with less than 1 GB of space.
+if [ "$status" -eq 1 ] || ! mv -fT "$part" "$bag"; then
+  trap - EXIT
+  fail "what was recorded is in $part"
+fi
 printf '[INFO] recorded %s\n' "$bag"

@@ -1,6 +1,7 @@
 """The launch files, without a display."""
 import glob
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -120,6 +121,7 @@ class Launch(unittest.TestCase):
                     ('exit 1', 'earlier', 'no bag was written to ' + bag),
                     ('head -c 4117 /dev/zero > "$4.active"; mv "$4.active" "$4"', 'earlier', 'nothing was recorded'),
                     ('yes new | head -n 2000 > "$4.active"; exit 1', 'earlier', 'may repair %s.active' % bag),
+                    ('yes new | head -n 2000 > "$4"; exit 1', 'earlier', 'what was recorded is in ' + bag[:-4]),
                     ('yes new | head -n 2000 > "$4.active"; mv "$4.active" "$4"', 'new', ''),
                     ('trap "mv $4.active $4; exit" INT; yes new | head -n 2000 > "$4.active"; kill -INT $PPID; '
                      'for i in $(seq 50); do sleep 0.1; done', 'new', '')):  # a signal, though ignored by the caller
@@ -133,7 +135,8 @@ class Launch(unittest.TestCase):
                 with open(bag) as file:
                     self.assertEqual(file.readline(), text + '\n')
             self.assertEqual(os.readlink(link), 'one.bag')
-            self.assertEqual(sorted(os.listdir(folder)), ['link.bag', 'one.bag', 'one.bag.active', 'rosrun'])
+            self.assertEqual(sorted(re.sub(r'\.\w{6}\.', '.part.', name) for name in os.listdir(folder)),
+                             ['link.bag', 'one.bag', 'one.bag.active', 'one.part.bag', 'rosrun'])
 
     def test_film_sh_refuses_what_makes_no_film_before_it_films(self):
         with Folder() as folder:
