@@ -105,7 +105,7 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
   checkMemory(plan, chain_.size());
   if (!(options.display_interval >= 0.0)) throw InputError("display_interval must be at least 0 s");
   divideFrames();
-  makeIntegrator();
+  integrator_ = integratorOf(plan, chain_, track_dissipation_);
   begin(first_frame_, start_);  // refuses a start that is not finite
   if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
 }
@@ -120,10 +120,9 @@ void Run::divideFrames() {
   steps_ = fixed_step ? plan_.steps_per_frame : parts_;
 }
 
-void Run::makeIntegrator() {
-  const int threads = static_cast<int>(std::min(plan_.threads, kMostThreads));
-  integrator_ = spring_pendulum::makeIntegrator(plan_.method, chain_,
-                                                {plan_.tolerance, track_dissipation_, threads});
+std::unique_ptr<Integrator> Run::integratorOf(const Plan& plan, const Chain& chain, bool tracks) {
+  const int threads = static_cast<int>(std::min(plan.threads, kMostThreads));
+  return makeIntegrator(plan.method, chain, {plan.tolerance, tracks, threads});
 }
 
 bool Run::advanceTo(std::int64_t part) {
@@ -226,6 +225,7 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   if (!fixed_step && (other_control || next.tolerance != plan_.tolerance))
     checkTolerance(next.tolerance, chain, state);
   const bool knows_dissipation = energyEntry().dissipated.has_value();
+  auto integrator = integratorOf(next, chain, knows_dissipation);  // which may refuse the chain
   Judge judge = *judge_;
   supplied_before_ = supplied_ =
       judge.change(chain, state_, state, judgeOptions(next, knows_dissipation), supplied_,
@@ -242,7 +242,7 @@ void Run::change(const Plan& plan, const Constants& constants, const Drive& driv
   evaluations_before_ += integrator_->forceEvaluations();
   work_at_start_ -= integrator_->work();
   asleep_ = false;
-  makeIntegrator();
+  integrator_ = std::move(integrator);
 }
 
 bool Run::isShown() const {

@@ -166,7 +166,8 @@ TEST(Misuse, MethodsOfPrograms) {
   method.name = "Wrong";
   method.order = 1;
   method.stages = 1;
-  method.make = [](const Method&, const Chain&, const IntegratorOptions&) {
+  method.make = [](const Method&, const Chain& chain, const IntegratorOptions&) {
+    if (chain.isDriven()) throw InputError("Wrong drives no particles");
     return std::make_unique<Wrong>();
   };
   Method worse = method;
@@ -177,6 +178,8 @@ TEST(Misuse, MethodsOfPrograms) {
   Scenario scenario;
   scenario.method = findMethod("Wrong");
   spring_pendulum::Run run({chain().masses(), horizontal()}, scenario, {true});
+  EXPECT_THROW(run.change(scenario, {}, {{{4, {}}}, {}}, horizontal()), InputError);
+  EXPECT_FALSE(run.isChanged() || run.chain().isDriven());
   EXPECT_TRUE(run.advance());
   EXPECT_THROW(run.advance(), InputError);
 }

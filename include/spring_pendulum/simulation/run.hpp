@@ -78,7 +78,7 @@ class Run {
 
   /// Whether no frame follows.
   bool isOver() const { return stopped_ || frame_ >= plan_.frames - 1 || !isShown(); }
-  bool wasStopped() const { return stopped_; }  ///< by `RunOptions::stop`; only `reset` may follow
+  bool wasStopped() const { return stopped_; }  ///< inside a frame; only `reset` may follow
   /// Whether the current frame may be shown: yes unless the motion has diverged; after a divergence
   /// only if `Plan::on_divergence` is `kContinue` and the energy is finite.
   bool isShown() const;
@@ -128,7 +128,7 @@ class Run {
   void checkState(const State& state) const;
   void divideFrames();
   bool isJudged() const { return isAtFrame() && !changed_; }  // a change makes the entry stale
-  void makeIntegrator();
+  static std::unique_ptr<Integrator> integratorOf(const Plan&, const Chain&, bool tracks);
   bool advanceTo(std::int64_t part);
   bool integrate(std::int64_t steps);
   bool advanceReference(std::int64_t steps);
