@@ -1,6 +1,7 @@
 // The loop of a run: frames, parts of frames, stops, sleep, resets.
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 #include <spring_pendulum/simulation/run.hpp>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "support/program_run.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace spring_pendulum {
 namespace {
@@ -155,9 +157,15 @@ TEST(Run, StopsInsideALongFrameWithEveryMethod) {
     scenario.steps_per_frame = std::int64_t{1} << 50U;
     scenario.frame_interval = 1e6;
     scenario.reference = ReferenceUse::kNever;
+    const TemporaryFolder folder;
+    scenario.output = folder.path("frames");
     int asked = 0;
     test::ProgramRun run(scenario, scene(), stoppingAt(asked, 3));
+    RunFiles files(run, scenario);
     EXPECT_FALSE(run.advance()) << method.name;
+    files.write(run);
+    files.finish();
+    EXPECT_TRUE(listFolder(scenario.output).empty()) << method.name;
     EXPECT_TRUE(run.wasStopped()) << method.name;
     EXPECT_TRUE(run.isOver()) << method.name;
     EXPECT_EQ(run.frame(), 0) << method.name;

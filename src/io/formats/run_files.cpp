@@ -109,7 +109,7 @@ RunFiles::~RunFiles() = default;
 void RunFiles::write(const Run& run) {
   Files& to = *files_;
   const std::int64_t frame = run.frame();
-  if (to.finished || !run.isAtFrame() || !run.isShown()) return;
+  if (to.finished || run.wasStopped() || !run.isAtFrame() || !run.isShown()) return;
   if (to.state) {  // also of a frame that was written before a reset
     if (to.last.masses.size() == 0) to.last.masses = run.chain().masses();
     to.last.state = run.state();
