@@ -78,7 +78,7 @@ class Run {
 
   /// Whether no frame follows.
   bool isOver() const { return stopped_ || frame_ >= plan_.frames - 1 || !isShown(); }
-  bool wasStopped() const { return stopped_; }  ///< inside a frame; only `reset` may follow
+  bool wasStopped() const { return stopped_; }  ///< by `RunOptions::stop`; only `reset` may follow
   /// Whether the current frame may be shown: yes unless the motion has diverged; after a divergence
   /// only if `Plan::on_divergence` is `kContinue` and the energy is finite.
   bool isShown() const;
