@@ -34,10 +34,11 @@ setsid env --default-signal=INT rosrun rosbag record -O "$part" "${topics[@]}" &
 status=0
 [ -n "$asked" ] || wait "$recorder" || status=$?
 if [ -n "$asked" ]; then
-  while kill -INT "$recorder" 2> /dev/null; do sleep 0.2; done  # at first, the recorder ignores it
+  while kill -INT "$recorder" 2> /dev/null; do sleep 0.2 || :; done  # at first, the recorder ignores it
   status=0
   wait "$recorder" || status=$?
 fi
+trap '' HUP INT TERM  # a second signal must not end what follows, which takes no time
 if has_messages "$part.active"; then
   mv -fT "$part.active" "$bag.active"
   fail "the recorder ended with status $status; rosbag reindex may repair $bag.active"

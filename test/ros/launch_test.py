@@ -123,17 +123,18 @@ class Launch(unittest.TestCase):
                     ('yes new | head -n 2000 > "$4.active"; exit 1', 'earlier', 'may repair %s.active' % bag),
                     ('yes new | head -n 2000 > "$4"; exit 1', 'earlier', 'what was recorded is in ' + bag[:-4]),
                     ('yes new | head -n 2000 > "$4.active"; mv "$4.active" "$4"', 'new', ''),
-                    ('trap "mv $4.active $4; exit" INT; yes new | head -n 2000 > "$4.active"; kill -INT $PPID; '
-                     'for i in $(seq 50); do sleep 0.1; done', 'new', '')):  # a signal, though ignored by the caller
+                    ('group=$(ps -o pgid= $PPID); trap "trap : INT; sleep 0.1; kill -INT -${group##* }; sleep 0.3; '
+                     'mv $4.active $4; exit" INT; yes new | head -n 2000 > "$4.active"; kill -INT $PPID; '
+                     'for i in $(seq 50); do sleep 0.1; done', 'new', '')):  # two signals, though ignored by the caller
                 write(bag, 'earlier\n')
                 write(rosrun, '#!/bin/sh\n' + recorder + '\n')
                 os.chmod(rosrun, 0o755)
                 done = subprocess.run(['sh', '-c', 'trap "" INT; "$@"', '', project('scripts/record.sh'), link, '/state'],
-                                      capture_output=True, text=True, env=dict(os.environ, PATH=folder + ':/usr/bin:/bin'))
+                                      capture_output=True, text=True, start_new_session=True,
+                                      env=dict(os.environ, PATH=folder + ':/usr/bin:/bin'))
                 self.assertEqual(done.returncode, 1 if message else 0)
                 self.assertIn(message, done.stderr)
-                with open(bag) as file:
-                    self.assertEqual(file.readline(), text + '\n')
+                self.assertEqual(files_in(folder)['one.bag'].split(b'\n')[0].decode(), text)
             self.assertEqual(os.readlink(link), 'one.bag')
             self.assertEqual(sorted(re.sub(r'\.\w{6}\.', '.part.', name) for name in os.listdir(folder)),
                              ['link.bag', 'one.bag', 'one.bag.active', 'one.part.bag', 'rosrun'])
