@@ -184,16 +184,16 @@ void Run::goTo(std::int64_t frame, const State& state) {
   changed_ = frame != first_frame_ || state_.values() != start_.values();
 }
 
-void Run::begin(std::int64_t frame, State state) {  // a copy: it may be that of the reference run
+void Run::begin(std::int64_t frame, const State& state) {
   checkFirstFrame(plan_, frame);
   checkState(state);
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
                                    plan_.timeOfFrame(frame));
+  state_ = state;  // now: it may be that of the reference run, which is replaced
   if (plan_.reference != ReferenceUse::kNever)
-    reference_ = std::make_unique<ReferenceRun>(chain_, state, toleranceOf(plan_),
+    reference_ = std::make_unique<ReferenceRun>(chain_, state_, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);
   integrator_->restart();
-  state_ = std::move(state);
   frame_ = frame;
   part_ = 0;
   started_ = stopped_ = asleep_ = false;

@@ -19,7 +19,7 @@ enum class StepControl { kFixed, kErrorControlled };
 
 struct Method;
 
-/// Constructs an integrator for a chain.
+/// Constructs an integrator for a chain, which may end before the integrator: copy it.
 using IntegratorFactory = std::function<std::unique_ptr<Integrator>(const Method&, const Chain&,
                                                                     const IntegratorOptions&)>;
 

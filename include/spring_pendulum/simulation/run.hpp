@@ -124,7 +124,7 @@ class Run {
     double seconds = 0.0, reference_seconds = 0.0;  ///< wall-clock time spent integrating
   };
 
-  void begin(std::int64_t frame, State state);
+  void begin(std::int64_t frame, const State& state);
   void checkState(const State& state) const;
   void divideFrames();
   bool isJudged() const { return isAtFrame() && !changed_; }  // a change makes the entry stale
