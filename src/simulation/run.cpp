@@ -189,7 +189,7 @@ void Run::begin(std::int64_t frame, const State& state) {
   checkState(state);
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
                                    plan_.timeOfFrame(frame));
-  state_ = state;  // now: it may be that of the reference run, which is replaced
+  state_ = state;  // before the old reference run ends, whose state it may be
   if (plan_.reference != ReferenceUse::kNever)
     reference_ = std::make_unique<ReferenceRun>(chain_, state_, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);

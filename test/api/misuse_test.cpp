@@ -132,7 +132,7 @@ TEST(Misuse, StartsOfRuns) {
   };
   for (const double s : {kNan, -1.0})
     EXPECT_EQ(messageOf([&] { start(horizontal(), s); }), "display_interval must be at least 0 s");
-  Scenario dear;  // its energy balance is
+  Scenario dear;  // too many frames for tracking the dissipated energy by default
   dear.frames = 1000000;
   dear.energy = "never written";
   spring_pendulum::Run run({chain().masses(), horizontal()}, dear);

@@ -110,8 +110,8 @@ TEST(Run, MeasuresThePositionErrorAlsoBetweenFrames) {
   EXPECT_EQ(shown.positionError().largest, plain.positionError().largest);
   EXPECT_EQ(shown.verdict().kind, plain.verdict().kind);
   const State truth = *shown.referenceState();
-  const auto view = shown.state().values().row(1);  // stays one of the run's state
-  shown.goTo(0, *shown.referenceState());           // which a new one replaces
+  const auto view = shown.state().values().row(1);  // must stay valid
+  shown.goTo(0, *shown.referenceState());           // belongs to what this replaces
   EXPECT_EQ(shown.state().values(), truth.values());
   EXPECT_EQ(view.data(), shown.state().values().row(1).data());
   scenario.reference = ReferenceUse::kNever;

@@ -96,8 +96,8 @@ RunFiles::RunFiles(const Run& run, const Scenario& scenario, const std::string& 
   files_->missing[run.firstFrame()] = std::numeric_limits<std::int64_t>::max();
   const TouchedFiles touched = touchedFiles(scenario, config);
   checkTouchedFiles(touched);
-  const bool has_energies = scenario.energy.empty() || run.energyEntry().dissipated;
-  if (!has_energies) throw InputError("energy: the run must have RunOptions::track_dissipation");
+  if (!scenario.energy.empty() && !run.energyEntry().dissipated)
+    throw InputError("energy: the run must have RunOptions::track_dissipation");
   if (!scenario.energy.empty())
     beginEnergies(files_->energy.emplace(scenario.energy), run.firstFrame());
   if (!scenario.save_state.empty()) files_->state.emplace(scenario.save_state);
