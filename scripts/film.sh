@@ -57,11 +57,13 @@ project=$(cd "$here/.." && pwd)
 calculate() { awk "BEGIN { printf \"%.4f\", ($1) }"; }
 short() { printf '%.3g' "$1"; }
 
-# The length of the bag in s, then its topics of markers.
+# The length of the bag in s, then its topics of markers. The last chunk of a bag may be of a shorter run
+# that was appended, so the messages tell the length.
 contents=$(/usr/bin/python3 -c 'import rosbag, sys
 bag = rosbag.Bag(sys.argv[1])
 topics = bag.get_type_and_topic_info()[1].items()
-print(bag.get_end_time() - bag.get_start_time() if topics else 0,
+times = [time.to_sec() for _, _, time in bag.read_messages(raw=True)] or [0]
+print(times[-1] - times[0],
       *[name for name, info in topics if info.msg_type == "visualization_msgs/MarkerArray"])' "$bag" 2> /dev/null) ||
   die "$bag is not a complete bag; rosbag reindex may repair it"
 read -r length topics <<< "$contents"

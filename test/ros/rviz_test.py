@@ -256,7 +256,8 @@ class Rviz(NodeTest):
 
     def test_a_film_shows_the_whole_bag_and_tells_its_progress(self):
         with Folder() as folder:
-            run_program('record_bag', 'Runge-Kutta-4', SCENE, '--frames', 121, '--bag', folder + '/a.bag')
+            for run in ('Runge-Kutta-4 --frames 121', 'Euler --frames 3 --append --namespace short'):
+                run_program('record_bag', *run.split(), '--particles', SCENE, '--bag', folder + '/a.bag')
             done = subprocess.run([project('scripts/film.sh'), folder + '/a.bag', folder + '/a.gif', '--fps',
                                    '10', '--slow', '1', '--size', '320x240'], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
