@@ -186,7 +186,7 @@ int run(int argc, const char* const* argv) {
   if (line.answer.empty() && line.only_case >= 0)
     printCase(readCheckedStudy(line), line.only_case, line.sweep.output);
   if (!line.answer.empty() || line.only_case >= 0) return kDone;
-  const std::unique_ptr<CaseCounter> counter = makeCaseCounter();
+  const std::unique_ptr<CaseCounter> counter = makeCaseCounter(line.sweep.shards > 1);
   try {
     // Rank 0 checks everything first, so each error is reported once.
     if (counter->rank() > 0) counter->largest(0);

@@ -31,14 +31,12 @@ class MpiCounter : public CaseCounter {
     MPI_Finalize();
   }
 
-  void check() const {
+  bool isAlone() const {
     int size = 0;
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    if (size == 1)
-      throw InputError(
-          "several processes, but each is alone in MPI: use mpirun, srun --mpi=pmix or --shard");
-    if (threads_ >= MPI_THREAD_SERIALIZED) return;
-    throw InputError("this MPI does not support threads (MPI_THREAD_SERIALIZED); use --shard");
+    if (size > 1 && threads_ < MPI_THREAD_SERIALIZED)
+      throw InputError("this MPI does not support threads (MPI_THREAD_SERIALIZED); use --shard");
+    return size == 1;
   }
   int rank() const override {
     int rank = 0;
@@ -83,15 +81,15 @@ bool isOneOfSeveral() {
 
 }  // namespace
 
-std::unique_ptr<CaseCounter> makeCaseCounter() {
+std::unique_ptr<CaseCounter> makeCaseCounter(bool is_shard) {
   if (!isOneOfSeveral()) return std::make_unique<CaseCounter>();  // starting MPI takes 0.3 s
 #ifdef SPRING_PENDULUM_MPI
   auto counter = std::make_unique<MpiCounter>();
-  counter->check();
-  return counter;
-#else
-  throw InputError("several processes: build sweep with MPI, or use --shard");
+  if (!counter->isAlone()) return counter;
 #endif
+  if (is_shard) return std::make_unique<CaseCounter>();
+  throw InputError(
+      "several processes, each alone: use --shard, or a build with MPI and srun --mpi=pmix");
 }
 
 }  // namespace spring_pendulum::sweep

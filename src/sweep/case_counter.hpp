@@ -30,7 +30,8 @@ class CaseCounter {
 };
 
 /// Returns a counter for all ranks if the program was started as one of several processes; all construct one.
-/// \throws InputError if it is built without MPI, MPI does not know the others or supports no threads
-std::unique_ptr<CaseCounter> makeCaseCounter();
+/// \param is_shard whether a process that is alone in MPI, or built without it, has cases of its own
+/// \throws InputError if it has none, or MPI supports no threads
+std::unique_ptr<CaseCounter> makeCaseCounter(bool is_shard);
 
 }  // namespace spring_pendulum::sweep

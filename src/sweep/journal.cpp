@@ -2,7 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "io/files/posix.hpp"
-#include "sweep/hash.hpp"
+#include "sweep/study/study.hpp"
 #include <spring_pendulum/base/errors.hpp>
 
 #include <fmt/format.h>

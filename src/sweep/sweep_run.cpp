@@ -214,6 +214,15 @@ class Sweep {
   std::mutex mutex_;
 };
 
+/// Refuses ranks with different arguments, of which some would leave out the cases of the others.
+void compareRanks(const Study& study, const SweepOptions& options, CaseCounter& counter) {
+  const std::string job = fmt::format("{} {}/{}", options.output, options.shard, options.shards);
+  const int hash = static_cast<int>(hashOf(job, study.hash) >> 33);
+  if (counter.largest(hash) == -counter.largest(-hash)) return;
+  if (counter.rank() > 0) counter.largest(0);  // until rank 0 ends all
+  throw InputError("all ranks need the same study, --output and --shard");
+}
+
 }  // namespace
 
 std::string picturePath(const std::string& output) {
@@ -238,6 +247,7 @@ int runSweep(const Study& study, const SweepOptions& options, CaseCounter& count
   const int status = is_empty ? kDone : sweep.prepare();
   if (status != kDone) return counter.abort(status);
   if (counter.rank() == 0) counter.largest(0);  // the others may begin
+  compareRanks(study, options, counter);
   if (is_empty && counter.rank() == 0)
     printOutput(fmt::format("shard {} has no case\n", options.shard));
   if (is_empty) return kDone;

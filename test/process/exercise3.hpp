@@ -59,6 +59,19 @@ inline std::vector<std::string> wordsOf(const std::string& line) {
   return words;
 }
 
+/// A run with a fault at one of its calls on files in its folder.
+/// \returns the name of the call; empty if there are not as many
+inline std::string disturb(Command command, int call, const std::string& kind, Result& result) {
+  const TemporaryFolder outside;
+  command.environment = {{"LD_PRELOAD", FAULT_INJECTION},
+                         {"FAULT_FOLDER", command.folder},
+                         {"FAULT_CALL", std::to_string(call)},
+                         {"FAULT_KIND", kind},
+                         {"FAULT_REPORT", outside.path("call")}};
+  result = run(command);
+  return readFile(outside.path("call"));
+}
+
 inline void expectOneLine(const std::string& text) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
   EXPECT_EQ(text.back(), '\n');

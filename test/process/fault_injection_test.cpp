@@ -21,19 +21,6 @@ bool cleansUp(const std::string& call) {
   return call == "unlinkat" || call == "fstatat" || call == "fstat";
 }
 
-/// A run with a fault at one of its calls.
-/// \returns the name of the call; empty if there are not as many
-std::string disturb(Command command, int call, const std::string& kind, Result& result) {
-  const TemporaryFolder outside;
-  command.environment = {{"LD_PRELOAD", FAULT_INJECTION},
-                         {"FAULT_FOLDER", command.folder},
-                         {"FAULT_CALL", std::to_string(call)},
-                         {"FAULT_KIND", kind},
-                         {"FAULT_REPORT", outside.path("call")}};
-  result = run(command);
-  return readFile(outside.path("call"));
-}
-
 class FaultInjection : public testing::TestWithParam<std::string> {
  protected:
   /// What a run finds: frames and an energy file of an earlier run, and a file of a killed one.

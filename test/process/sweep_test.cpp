@@ -10,7 +10,6 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <random>
@@ -86,10 +85,8 @@ class Sweep : public testing::Test {
   void expectRunOfExercise3(int index, const std::vector<std::string>& fields) const {
     const Result printed = run(sweep({"--case", std::to_string(index), "-o", "alone"}));
     EXPECT_EQ(printed.errors, "");
-    std::istringstream words(printed.output);
-    words.ignore(std::string_view("Exercise3 ").size());
-    const std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
-    const Result alone = run(exercise3(folder_, arguments));
+    const std::string options(printed.output, 10, printed.output.size() - 11);  // of Exercise3
+    const Result alone = run(exercise3(folder_, wordsOf(options)));
     const std::string verdict = fmt::format("verdict: {}\n", fields.end()[-6]);
     const double error = std::stod(fields.end()[-5]), bound = std::stod(fields.end()[-4]);
     const std::string where = readFile(folder_.path("study.yaml")) + printed.output;
@@ -124,6 +121,12 @@ TEST_F(Sweep, TableDoesNotDependOnThreadsAndRanks) {
     EXPECT_EQ(run(sweep({"-o", "ranks.csv"}, ranks)).errors, "");
     EXPECT_EQ(readFile(folder_.path("ranks.csv")), expected) << ranks;
     std::filesystem::remove(folder_.path("ranks.csv"));
+  }
+  for (const std::string other : {"-o o.csv --shard 1/3", "-o t.csv --shard 2/3"}) {
+    const std::string both = "-o t.csv --shard 1/3 : -n 1 " SWEEP " study.yaml " + other;
+    const Result result = run(sweep(wordsOf(both), 2));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.errors, HasSubstr("all ranks need the same study, --output and --shard\n"));
   }
 #endif
 }
@@ -251,7 +254,9 @@ class SweepWithAJournal : public Sweep {
     folder_.write("study.yaml",
                   "base: {particles: chain.txt, frames: 2}\naxes: {stiffness: [20, 30, 40]}\n"
                   "columns: [tip_x, verdict, error_bound]\n");
-    EXPECT_EQ(run(sweep({"--shard", "1/2", "-o", "t.csv"})).status, 0);
+    Command shard = sweep({"--shard", "1/2", "-o", "t.csv"});
+    shard.environment = {{"SLURM_STEP_NUM_TASKS", "2"}};  // MPI does not know of them
+    EXPECT_EQ(run(shard).status, 0);
     journal_ = readFile(folder_.path("t.csv.journal"));
   }
 
@@ -291,16 +296,10 @@ TEST_F(SweepWithAJournal, TellsEveryFaultInOneLine) {
   Files errors;  // by call, "": no call failed
   for (int call = 1; errors.count("") == 0; ++call) {
     folder_.write("t.csv.journal", journal_);
-    folder_.write("call", "");
-    Command command = sweep({"-o", "t.csv"});
-    command.environment = {{"LD_PRELOAD", FAULT_INJECTION},
-                           {"FAULT_FOLDER", folder_.path("t.csv.journal")},
-                           {"FAULT_CALL", std::to_string(call)},
-                           {"FAULT_KIND", "fail"},
-                           {"FAULT_REPORT", folder_.path("call")}};
-    const Result result = run(command);
+    Result result;
+    const std::string name = disturb(sweep({"-o", "t.csv"}), call, "fail", result);
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), result.status);
-    errors[readFile(folder_.path("call"))] += result.errors;
+    errors[name] += result.errors;
     EXPECT_EQ(run(sweep({"-o", "t.csv"})).status, 0);
     EXPECT_EQ(readFile(folder_.path("t.csv")), expected);
   }
@@ -384,9 +383,9 @@ TEST_F(Sweep, RefusesBadArguments) {
       {{"-o", "study.png", "--plot"}, "choose another file"},
       {{"-o", "."}, "is the folder of another output"},
   };
-  Command ranks = sweep({});
-  ranks.environment = {{"SLURM_STEP_NUM_TASKS", "4"}};  // MPI does not know of them
-  EXPECT_THAT(run(ranks).errors, HasSubstr("several processes"));
+  Command alone = sweep({});
+  alone.environment = {{"SLURM_STEP_NUM_TASKS", "4"}};
+  EXPECT_THAT(run(alone).errors, HasSubstr("several processes, each alone: use --shard"));
   for (const auto& [arguments, message] : bad) {
     const Result result = run(sweep(arguments));
     EXPECT_EQ(result.status, 2) << message;

@@ -10,11 +10,18 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spring_pendulum::sweep {
 
 struct Column;
+
+/// Returns the hash FNV-1a of a text that continues a text with the hash `hash` (RFC 9923).
+inline std::uint64_t hashOf(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
 
 constexpr double kMostCases = 1e9;
 

@@ -3,7 +3,6 @@
 #include "io/files/posix.hpp"
 #include "io/formats/yaml_tree.hpp"
 #include "simulation/options/scenario_options.hpp"
-#include "sweep/hash.hpp"
 #include "sweep/study/random_numbers.hpp"
 #include "sweep/study/study.hpp"
 #include "sweep/table.hpp"
