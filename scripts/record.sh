@@ -12,13 +12,14 @@ trap 'asked=1; [ -z "${recorder-}" ] || kill -INT "$recorder" 2> /dev/null || :'
 bag=$1; shift
 [[ $bag = *.bag ]] || bag+=.bag
 bag=$(realpath -m "$bag")  # of a symbolic link, the file it leads to
+fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$bag" "$1" >&2; exit 1; }
 topics=()
 for argument in "$@"; do
+  [ "$argument" != --split ] || fail "--split would make several bags"
   [[ $argument != [A-Za-z]* ]] || argument=$(tr -s / <<< "/${ROS_NAMESPACE-}/$argument")  # rosbag writes names as they are
   topics+=("$argument")  # also the name that roslaunch gives
 done
 
-fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$bag" "$1" >&2; exit 1; }
 mkdir -p "$(dirname "$bag")" 2> /dev/null || fail "the folder cannot be created"
 [ -w "$(dirname "$bag")" ] || fail "no permission to write in the folder"
 [ ! -e "$bag" ] || { [ -f "$bag" ] && [ -w "$bag" ]; } || fail "the existing bag cannot be replaced"

@@ -383,8 +383,7 @@ TEST_F(Sweep, RefusesBadArguments) {
       {{"-o", "study.png", "--plot"}, "choose another file"},
       {{"-o", "."}, "is the folder of another output"},
   };
-  Command alone = sweep({});
-  alone.environment = {{"SLURM_STEP_NUM_TASKS", "4"}};
+  const Command alone{{SWEEP, "study.yaml"}, folder_.path(), {{"SLURM_STEP_NUM_TASKS", "4"}}, {}};
   EXPECT_THAT(run(alone).errors, HasSubstr("several processes, each alone: use --shard"));
   for (const auto& [arguments, message] : bad) {
     const Result result = run(sweep(arguments));

@@ -214,7 +214,8 @@ class Launch(unittest.TestCase):
             output = launch('replay.launch', 'bag:=one.bag', 'rviz:=false', 'loop:=false', 'rate:=10', cwd=folder)
         self.assertIn('process has finished cleanly', output)
 
-    def test_record_sh_without_topics_shows_its_use(self):
-        done = subprocess.run([project('scripts/record.sh'), 'one.bag'], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn('Usage: record.sh BAG TOPIC ...', done.stderr)
+    def test_record_sh_refuses_to_record_nothing_or_parts(self):
+        for arguments, status, message in (([], 2, 'Usage: record.sh BAG TOPIC ...'),
+                                           (['--split', '/state'], 1, '--split would make several bags')):
+            done = subprocess.run([project('scripts/record.sh'), 'one.bag', *arguments], capture_output=True, text=True)
+            self.assertEqual((done.returncode, message in done.stderr), (status, True), done.stderr)
