@@ -69,17 +69,18 @@ print(times[-1] - times[0],
 read -r length topics <<< "$contents"
 [ -n "$topics" ] || die "$bag contains no markers (visualization_msgs/MarkerArray)"
 rest=$(calculate "$length - $start")
-[[ $rest != -* && $rest != 0.0000 ]] || die "--start is '$start': the bag is $(short "$length") s long"
+[[ $rest != -* || $rest = -0.0000 ]] || die "--start is '$start': the bag is $(short "$length") s long"
 duration=$(calculate "${duration:-1e9} < $rest ? ${duration:-0} : $rest")
 [[ $out = *.png || $(calculate "$duration < 0.1") = 0* ]] || die "the part to film is $(short "$duration") s long: must be at least 0.1 s"
 # The player and the camera need 3 s.
-slow=$(calculate "$duration * $slow < 3 ? 3 / $duration : $slow")
+[[ $out = *.png ]] || slow=$(calculate "$duration * $slow < 3 ? 3 / $duration : $slow")
 
 work=$(mktemp -d)
 made=$work/film.${out##*.}
 started=()
 # Ends the started processes in reverse order; the launcher of rviz ends its nodes.
 clean_up() {
+  trap '' HUP INT TERM
   local i
   for ((i = ${#started[@]} - 1; i >= 0; i--)); do
     kill -INT "${started[i]}" 2> /dev/null || true
@@ -88,6 +89,9 @@ clean_up() {
   rm -rf "$work"
 }
 trap clean_up EXIT
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
 # Puts the film in its place, whole, and leaves an earlier one there if that fails.
 finish() {
   [ -s "$made" ] || die "nothing was filmed"
@@ -112,7 +116,7 @@ until_true() {
 
 # Finds a free port, and sets the paths for rviz to find messages and files of the package.
 port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
-export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1 ROS_HOME=$work ROS_LOG_DIR=$work
+export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1 ROS_HOME=$work ROS_LOG_DIR=$work TMPDIR=$work
 export LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb ROS_PACKAGE_PATH=$project:${ROS_PACKAGE_PATH:-/usr/share}
 unset ROS_HOSTNAME
 
@@ -140,6 +144,9 @@ for try in first second; do
   say "rviz crashed at its start; trying again"
 done
 
+# The background has few colours.
+is_drawn() { [ "$(identify -format '%k\n' "$@" | sort -n | tail -n 1)" -gt 20 ]; }
+nothing="rviz drew no markers; with --start, /tf_static must be latched in the bag"
 if [[ $out = *.png ]]; then
   # rviz leaves some of the first markers waiting if they come before their transform, so these are
   # from the second before.
@@ -147,8 +154,8 @@ if [[ $out = *.png ]]; then
   start rosbag play --clock --quiet --delay 1 -s "$from" -u "$(calculate "$start - $from + 0.02")" "$bag"
   tail --pid="${started[-1]}" -f /dev/null
   sleep 1
-  take_picture() { import -silent -window root "$made" && [ "$(identify -format %k "$made")" -gt 20 ]; }
-  until_true 60 roslaunch "rviz drew no markers" take_picture  # the background has few colours
+  take_picture() { import -silent -window root "$made" && is_drawn "$made"; }
+  until_true 60 roslaunch "$nothing" take_picture
   finish
   exit
 fi
@@ -181,6 +188,8 @@ tail --pid="$camera" -f /dev/null
 
 look=setpts=PTS/$slow,fps=$fps
 filmed=$(calculate "$duration * $slow - 0.3")
+ffmpeg -v error -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -vf "fps=10/$filmed" "$work/look%d.ppm"
+is_drawn "$work"/look*.ppm || give_up roslaunch "$nothing"
 say "writing $out"
 if [[ $out = *.gif ]]; then
   look+=",split[a][b];[a]palettegen=max_colors=96[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"

@@ -29,20 +29,11 @@ struct KnownError {
 };
 
 constexpr KnownError kKnownErrors[] = {
-    {"Euler", 1, 4.91e-2},
-    {"Euler", 2, 1.36e-1},
-    {"Euler", 5, 1.13},
-    {"Euler", 10, 3.05},
-    {"Runge-Kutta-2", 1, 7.32e-4},
-    {"Runge-Kutta-2", 2, 2.30e-3},
-    {"Runge-Kutta-2", 5, 9.82e-3},
-    {"Runge-Kutta-2", 10, 3.73e-2},
-    {"Runge-Kutta-4", 1, 2.58e-7},
-    {"Runge-Kutta-4", 2, 1.09e-6},
-    {"Runge-Kutta-4", 5, 5.93e-6},
-    {"Runge-Kutta-4", 10, 2.28e-5},
-    {"Runge-Kutta-4", 20, 9.79e-5},
-};
+    {"Euler", 1, 4.91e-2},         {"Euler", 2, 1.36e-1},          {"Euler", 5, 1.13},
+    {"Euler", 10, 3.05},           {"Runge-Kutta-2", 1, 7.32e-4},  {"Runge-Kutta-2", 2, 2.30e-3},
+    {"Runge-Kutta-2", 5, 9.82e-3}, {"Runge-Kutta-2", 10, 3.73e-2}, {"Runge-Kutta-4", 1, 2.58e-7},
+    {"Runge-Kutta-4", 2, 1.09e-6}, {"Runge-Kutta-4", 5, 5.93e-6},  {"Runge-Kutta-4", 10, 2.28e-5},
+    {"Runge-Kutta-4", 20, 9.79e-5}};
 
 // On horizontal_11 with a step of 0.01 s, within 1 % of each number.
 TEST(KnownError, Agrees) {

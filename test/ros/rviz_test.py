@@ -7,6 +7,7 @@ import signal
 import subprocess
 import tempfile
 
+import rosbag
 import rosgraph
 import rospy
 from tf2_msgs.msg import TFMessage
@@ -258,9 +259,16 @@ class Rviz(NodeTest):
         with Folder() as folder:
             for run in ('Runge-Kutta-4 --frames 121', 'Euler --frames 3 --append --namespace short'):
                 run_program('record_bag', *run.split(), '--particles', SCENE, '--bag', folder + '/a.bag')
-            done = subprocess.run([project('scripts/film.sh'), folder + '/a.bag', folder + '/a.gif', '--fps',
-                                   '10', '--slow', '1', '--size', '320x240'], capture_output=True, text=True)
+            with rosbag.Bag(folder + '/a.bag') as bag, rosbag.Bag(folder + '/b.bag', 'w') as copy:
+                for message in bag.read_messages():
+                    copy.write(*message)  # and latch nothing
+            done, failed = (
+                subprocess.run([project('scripts/film.sh'), folder + name, folder + '/a.gif', '--fps', '10', '--slow',
+                                '1', '--size', '320x240', *options], capture_output=True, text=True)
+                for name, options in (('/a.bag', ()), ('/b.bag', ('--start', '9'))))
             self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(failed.returncode, 1)
+            self.assertIn('film.sh: rviz drew no markers; with --start, /tf_static must be latched', failed.stderr)
             pictures = subprocess.run(['identify', folder + '/a.gif'], capture_output=True, text=True,
                                       check=True).stdout.count('\n')
         self.assertIn('filming 12 s of 12 s', done.stdout)
