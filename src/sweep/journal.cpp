@@ -45,7 +45,7 @@ Journal::Journal(std::string path, std::uint64_t hash, const std::string& table)
         fullPath(path_)));
   cutTornLine();
   if (begin.size() < head_.size()) write(head_);
-  unlock();
+  ::flock(file_.get(), LOCK_UN);
 }
 
 void Journal::read(
@@ -68,7 +68,7 @@ void Journal::append(std::int64_t index, std::string_view text) {
   lock();
   cutTornLine();
   write(lineOf(fmt::format("{}{}", index, text)));
-  unlock();
+  ::flock(file_.get(), LOCK_UN);
 }
 
 std::string Journal::lineOf(std::string_view row) const {
@@ -82,10 +82,6 @@ bool Journal::lock() {
   struct stat opened {};
   return ::stat(path_.c_str(), &named) == 0 && ::fstat(file_.get(), &opened) == 0 &&
          named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
-}
-
-void Journal::unlock() {
-  ::flock(file_.get(), LOCK_UN);
 }
 
 void Journal::cutTornLine() {

@@ -28,10 +28,9 @@ class Journal {
   /// Appends a case. \throws FileError
   void append(std::int64_t index, std::string_view text);
 
-  /// Keeps other processes from this file until `unlock` or the end.
+  /// Keeps other processes from this file until the next `append` or the end.
   /// \returns false if the file was removed meanwhile: another process has written the table
   bool lock();
-  void unlock();
 
   const std::string& path() const { return path_; }
 

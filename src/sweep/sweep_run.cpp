@@ -242,15 +242,16 @@ void checkCases(const Study& study, std::int64_t threads) {
 
 int runSweep(const Study& study, const SweepOptions& options, CaseCounter& counter) {
   catchInterruptions();
-  Sweep sweep(study, options, counter);
-  const bool is_empty = options.shard > study.cases();
-  const int status = is_empty ? kDone : sweep.prepare();
-  if (status != kDone) return counter.abort(status);
-  if (counter.rank() == 0) counter.largest(0);  // the others may begin
+  if (counter.rank() == 0) counter.largest(0);  // the others may read the study
   compareRanks(study, options, counter);
-  if (is_empty && counter.rank() == 0)
-    printOutput(fmt::format("shard {} has no case\n", options.shard));
-  if (is_empty) return kDone;
+  if (options.shard > study.cases()) {
+    if (counter.rank() == 0) printOutput(fmt::format("shard {} has no case\n", options.shard));
+    return kDone;
+  }
+  if (counter.rank() > 0) counter.largest(0);
+  Sweep sweep(study, options, counter);
+  if (const int status = sweep.prepare(); status != kDone) return counter.abort(status);
+  if (counter.rank() == 0) counter.largest(0);  // the others may begin
   sweep.work();
   const int signal = counter.largest(interruption());
   return counter.rank() == 0 ? sweep.conclude(signal) : kDone;

@@ -53,8 +53,7 @@ class Sweep : public testing::Test {
     command.arguments.insert(command.arguments.end(), options.begin(), options.end());
 #ifdef MPIEXEC
     if (ranks > 1) {
-      const std::vector<std::string> launcher{MPIEXEC, "-n", std::to_string(ranks)};
-      command.arguments.insert(command.arguments.begin(), launcher.begin(), launcher.end());
+      command.arguments.insert(command.arguments.begin(), {MPIEXEC, "-n", std::to_string(ranks)});
       command.environment = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                              {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
                              {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
@@ -122,9 +121,11 @@ TEST_F(Sweep, TableDoesNotDependOnThreadsAndRanks) {
     EXPECT_EQ(readFile(folder_.path("ranks.csv")), expected) << ranks;
     std::filesystem::remove(folder_.path("ranks.csv"));
   }
-  for (const std::string other : {"-o o.csv --shard 1/3", "-o t.csv --shard 2/3"}) {
-    const std::string both = "-o t.csv --shard 1/3 : -n 1 " SWEEP " study.yaml " + other;
-    const Result result = run(sweep(wordsOf(both), 2));
+  folder_.write("other.yaml", std::string(kStudy) + "# another one\n");
+  for (const std::string other :
+       {"study.yaml -o o.csv --shard 1/3", "study.yaml -o t.csv --shard 2/3",
+        "other.yaml -o t.csv --shard 1/3"}) {
+    const Result result = run(sweep(wordsOf("-o t.csv --shard 1/3 : -n 1 " SWEEP " " + other), 2));
     EXPECT_EQ(result.status, 2);
     EXPECT_THAT(result.errors, HasSubstr("all ranks need the same study, --output and --shard\n"));
   }
