@@ -15,7 +15,7 @@ bag=$(realpath -m "$bag")  # of a symbolic link, the file it leads to
 fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$bag" "$1" >&2; exit 1; }
 topics=()
 for argument in "$@"; do
-  [ "$argument" != --split ] || fail "--split would make several bags"
+  [[ $argument != --sp* ]] || fail "--split would make several bags"
   [[ $argument != [A-Za-z]* ]] || argument=$(tr -s / <<< "/${ROS_NAMESPACE-}/$argument")  # rosbag writes names as they are
   topics+=("$argument")  # also the name that roslaunch gives
 done

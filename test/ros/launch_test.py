@@ -216,6 +216,6 @@ class Launch(unittest.TestCase):
 
     def test_record_sh_refuses_to_record_nothing_or_parts(self):
         for arguments, status, message in (([], 2, 'Usage: record.sh BAG TOPIC ...'),
-                                           (['--split', '/state'], 1, '--split would make several bags')):
+                                           (['--spl', '/state'], 1, '--split would make several bags')):
             done = subprocess.run([project('scripts/record.sh'), 'one.bag', *arguments], capture_output=True, text=True)
             self.assertEqual((done.returncode, message in done.stderr), (status, True), done.stderr)
