@@ -97,7 +97,8 @@ std::string Node::take(const Request& request) {
 std::string Node::on(const Pause& request) {
   const bool paused = request.paused, is_new = paused != paused_;
   // Only whole frames can be saved. The loop finishes a long one, as it serves inputs meanwhile.
-  for (int part = 0; paused && is_new && part < 50 && !run_.isAtFrame() && !run_.isOver(); ++part)
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(0.5);
+  while (paused && is_new && !run_.isAtFrame() && !run_.isOver() && ros::SteadyTime::now() < end)
     advance();
   if (run_.isOver()) throw InputError(overMessage(run_));
   const std::int64_t missing = !is_new ? steps_wanted_ : paused && !run_.isAtFrame() ? 1 : 0;
