@@ -82,9 +82,9 @@ bool isOneOfSeveral() {
 }  // namespace
 
 std::unique_ptr<CaseCounter> makeCaseCounter(bool is_shard) {
-  const auto isSet = [](const char* name) { return std::getenv(name) != nullptr; };
+  const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
   // Where no launcher of MPI has started a shard, MPI would start a server, which may outlive it.
-  if (!isOneOfSeveral() || (is_shard && !isSet("PMIX_RANK") && !isSet("PMI_RANK")))
+  if (!isOneOfSeveral() || (is_shard && !is_set("PMIX_RANK") && !is_set("PMI_RANK")))
     return std::make_unique<CaseCounter>();  // starting MPI takes 0.3 s
 #ifdef SPRING_PENDULUM_MPI
   auto counter = std::make_unique<MpiCounter>();
