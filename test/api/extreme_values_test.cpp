@@ -109,12 +109,10 @@ TEST(ExtremeValues, OfEveryFieldOfAMethod) {
   const std::vector<std::function<void(Method&, double)>> fields{
       [](Method& m, double value) { m.real_stability_limit = value; },
       [](Method& m, double value) { m.imaginary_stability_limit = value; },
-      [](Method& m, double value) { m.bytes_per_particle = value; },
-  };
+      [](Method& m, double value) { m.bytes_per_particle = value; }};
   const std::vector<std::function<void(Method&, int)>> whole_fields{
       [](Method& m, int value) { m.order = value; },
-      [](Method& m, int value) { m.stages = value; },
-  };
+      [](Method& m, int value) { m.stages = value; }};
   const auto use = [&](const Method& method) {
     gives([&] { linearStepLimit(method, scene.chain, 1.0); });
     Scenario scenario = shortScenario("Euler");

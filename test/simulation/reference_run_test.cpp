@@ -15,16 +15,14 @@
 namespace spring_pendulum {
 namespace {
 
-const std::vector<test::KnownMotion> kKnownMotions{
-    {"single_vertical", {1, 2, 5, 10, 20, 50}},
-    {"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
-    {"horizontal_11", {1, 2, 5, 10, 20, 50}},
-    {"horizontal_1000", {1, 2}},
-    {"light_100", {1, 5}},
-    {"lighter_100", {1, 5}},
-    {"alternating_50", {1, 5}},
-    {"feather_50", {1}},
-};
+const std::vector<test::KnownMotion> kKnownMotions{{"single_vertical", {1, 2, 5, 10, 20, 50}},
+                                                   {"two_masses_45deg", {1, 2, 5, 10, 20, 50}},
+                                                   {"horizontal_11", {1, 2, 5, 10, 20, 50}},
+                                                   {"horizontal_1000", {1, 2}},
+                                                   {"light_100", {1, 5}},
+                                                   {"lighter_100", {1, 5}},
+                                                   {"alternating_50", {1, 5}},
+                                                   {"feather_50", {1}}};
 
 /// Advances to the next frame.
 void advance(ReferenceRun& reference, double time_step, std::int64_t steps, double run_work = 0.0) {
