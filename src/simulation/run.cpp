@@ -67,7 +67,7 @@ void keepFrames(Plan& plan, double interval) {
   plan.frame_interval = interval;
   if (std::abs(plan.timeOfFrame(1) - interval) <= 1e-12 * interval) return;
   plan.steps_per_frame =
-      static_cast<std::int64_t>(std::min(std::ceil(interval / plan.time_step - 1e-9), 1e9));
+      static_cast<std::int64_t>(std::clamp(std::ceil(interval / plan.time_step - 1e-9), 1.0, 1e9));
   plan.time_step = interval / static_cast<double>(plan.steps_per_frame);
 }
 
