@@ -118,7 +118,7 @@ until_true() {
 port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
 export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1 ROS_HOME=$work ROS_LOG_DIR=$work TMPDIR=$work
 export LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb ROS_PACKAGE_PATH=$project:${ROS_PACKAGE_PATH:-/usr/share}
-unset ROS_HOSTNAME
+unset ROS_HOSTNAME ROS_NAMESPACE QT_SCALE_FACTOR QT_SCREEN_SCALE_FACTORS QT_AUTO_SCREEN_SCALE_FACTOR
 
 # The configuration determines the size of rviz.
 sed -e "s/^  Width: .*/  Width: ${size%x*}/" -e "s/^  Height: .*/  Height: ${size#*x}/" "${config:-$project/rviz/pendulum.rviz}" \
@@ -143,9 +143,10 @@ for try in first second; do
   [ $try = first ] || give_up roslaunch "rviz ended right after its start, twice"
   say "rviz crashed at its start; trying again"
 done
+rviz=${started[-1]}
 
-# The background has few colours.
-is_drawn() { [ "$(identify -format '%k\n' "$@" | sort -n | tail -n 1)" -gt 20 ]; }
+# is_drawn COLOURS PICTURE...: whether one of the pictures has more than so many colours
+is_drawn() { [ "$(identify -format '%k\n' "${@:2}" | sort -n | tail -n 1)" -gt "$1" ]; }
 nothing="rviz drew no markers; with --start, /tf_static must be latched in the bag"
 if [[ $out = *.png ]]; then
   # rviz leaves some of the first markers waiting if they come before their transform, so these are
@@ -154,7 +155,7 @@ if [[ $out = *.png ]]; then
   start rosbag play --clock --quiet --delay 1 -s "$from" -u "$(calculate "$start - $from + 0.02")" "$bag"
   tail --pid="${started[-1]}" -f /dev/null
   sleep 1
-  take_picture() { import -silent -window root "$made" && is_drawn "$made"; }
+  take_picture() { import -silent -window root "$made" && is_drawn 20 "$made"; }  # the background has few
   until_true 60 roslaunch "$nothing" take_picture
   finish
   exit
@@ -189,7 +190,8 @@ tail --pid="$camera" -f /dev/null
 look=setpts=PTS/$slow,fps=$fps
 filmed=$(calculate "$duration * $slow - 0.3")
 ffmpeg -v error -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -vf "fps=10/$filmed" "$work/look%d.ppm"
-is_drawn "$work"/look*.ppm || give_up roslaunch "$nothing"
+kill -0 "$rviz" 2> /dev/null || give_up roslaunch "rviz ended while it was filmed"
+is_drawn 1 "$work"/look*.ppm || give_up roslaunch "$nothing"
 say "writing $out"
 if [[ $out = *.gif ]]; then
   look+=",split[a][b];[a]palettegen=max_colors=96[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"

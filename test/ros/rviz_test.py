@@ -267,7 +267,6 @@ class Rviz(NodeTest):
                                 '1', '--size', '320x240', *options], capture_output=True, text=True)
                 for name, options in (('/a.bag', ()), ('/b.bag', ('--start', '9'))))
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(failed.returncode, 1)
             self.assertIn('film.sh: rviz drew no markers; with --start, /tf_static must be latched', failed.stderr)
             pictures = subprocess.run(['identify', folder + '/a.gif'], capture_output=True, text=True,
                                       check=True).stdout.count('\n')
