@@ -80,7 +80,8 @@ made=$work/film.${out##*.}
 started=()
 # Ends the started processes in reverse order; the launcher of rviz ends its nodes.
 clean_up() {
-  trap '' HUP INT TERM
+  trap '' HUP INT TERM PIPE
+  exec > /dev/null 2>&1  # which may have lost their reader
   local i
   for ((i = ${#started[@]} - 1; i >= 0; i--)); do
     kill -INT "${started[i]}" 2> /dev/null || true
@@ -184,13 +185,14 @@ begin=$SECONDS
 until timeout 5 tail --pid="$player" -f /dev/null; do
   say "filmed $(short "$(calculate "($SECONDS - $begin) / $slow")") of $(short "$duration") s"
 done
-kill -INT "$camera"
+wait "$player" || give_up rosbag "rosbag play ended early"
+kill -0 "$rviz" 2> /dev/null || give_up roslaunch "rviz ended while it was filmed"
+kill -INT "$camera" 2> /dev/null || give_up ffmpeg "ffmpeg ended while it filmed"
 tail --pid="$camera" -f /dev/null
 
 look=setpts=PTS/$slow,fps=$fps
 filmed=$(calculate "$duration * $slow - 0.3")
 ffmpeg -v error -ss "$cut" -t "$filmed" -i "$work/raw.mkv" -vf "fps=10/$filmed" "$work/look%d.ppm"
-kill -0 "$rviz" 2> /dev/null || give_up roslaunch "rviz ended while it was filmed"
 is_drawn 1 "$work"/look*.ppm || give_up roslaunch "$nothing"
 say "writing $out"
 if [[ $out = *.gif ]]; then
