@@ -84,7 +84,7 @@ clean_up() {
   exec > /dev/null 2>&1  # which may have lost their reader
   local i
   for ((i = ${#started[@]} - 1; i >= 0; i--)); do
-    kill -INT "${started[i]}" 2> /dev/null || true
+    kill -INT "${started[i]}" || true
     timeout 20 tail --pid="${started[i]}" -f /dev/null || kill -KILL "${started[i]}" || true
   done
   rm -rf "$work"

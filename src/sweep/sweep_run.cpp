@@ -214,7 +214,7 @@ class Sweep {
   std::mutex mutex_;
 };
 
-/// Refuses ranks with different arguments, of which some would leave out the cases of the others.
+/// Refuses ranks with different arguments, as they would leave out cases.
 void compareRanks(const Study& study, const SweepOptions& options, CaseCounter& counter) {
   const std::string job = fmt::format("{} {}/{}", options.output, options.shard, options.shards);
   const int hash = static_cast<int>(hashOf(job, study.hash) >> 33);
@@ -248,7 +248,7 @@ int runSweep(const Study& study, const SweepOptions& options, CaseCounter& count
     if (counter.rank() == 0) printOutput(fmt::format("shard {} has no case\n", options.shard));
     return kDone;
   }
-  if (counter.rank() > 0) counter.largest(0);
+  if (counter.rank() > 0) counter.largest(0);  // so each error is reported once
   Sweep sweep(study, options, counter);
   if (const int status = sweep.prepare(); status != kDone) return counter.abort(status);
   if (counter.rank() == 0) counter.largest(0);  // the others may begin

@@ -59,8 +59,7 @@ inline std::vector<std::string> wordsOf(const std::string& line) {
   return words;
 }
 
-/// A run with a fault at one of its calls on files in its folder.
-/// \returns the name of the call; empty if there are not as many
+/// Runs with a fault at one of the calls on files in the folder. \returns its name; empty: too few calls
 inline std::string disturb(Command command, int call, const std::string& kind, Result& result) {
   const TemporaryFolder outside;
   command.environment = {{"LD_PRELOAD", FAULT_INJECTION},

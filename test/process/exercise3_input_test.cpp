@@ -60,8 +60,10 @@ TEST_F(Exercise3Refuses, Files) {
       {"Euler --config none.yaml", 1, "none.yaml: could not be read: No such file"},
       {"Euler --config unknown.yaml", 2,
        "unknown.yaml:3: unknown parameter 'framse'; did you mean 'frames'? Known parameters: "},
-      {"Euler --config value.yaml", 2, "value.yaml:1: time_step: must be a number above 0 s"},
-      {"--config method.yaml", 2, "method.yaml:1: method: unknown method 'Oiler'; did you mean "},
+      {"Euler --config value.yaml", 2,
+       "value.yaml:1: time_step: must be a number above 0 s, got '-1'\n"},
+      {"--config method.yaml", 2,
+       "method.yaml:1: method: unknown method 'Oiler'; did you mean 'Euler'? "},
       {"--config frames.yaml", 2, "METHOD is missing; try: "},
   });
 }
@@ -77,7 +79,8 @@ TEST_F(Exercise3Refuses, Words) {
       {"Euler a.txt time_step=0.1", 2, "'time_step=0.1': write --time-step 0.1\n"},
       {"Euler a b", 2, "'b': give only one particle file\n"},
       {"Euler a -p b", 2, "'a': give only one particle file\n"},
-      {"Euler --frame 5", 2, "unknown option '--frame'; did you mean '--frames'? Known options: "},
+      {"Euler --frame 5", 2,
+       "unknown option '--frame'; did you mean '--frames'? Known options: --config, --particles, "},
       {"Euler --no\nway", 2, "unknown option '--no?way'; known options: "},
       {"Euler --framse=", 2, "unknown option '--framse'"},
       {"Euler --= --=3", 2, "unknown option ''; known options: "},

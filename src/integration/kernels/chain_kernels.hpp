@@ -104,7 +104,8 @@ struct LargestChange {
 };
 
 /// How much springs change within a step. Much is a change along the old direction by at least 0.9
-/// of the old length or, if that was 0, to at least 1e-12 m, but not within rounding errors. NaN is much.
+/// of the old length or, if that was 0, to at least 1e-12 m. A change within the rounding errors of the
+/// positions is little, however short the spring is. NaN counts as much.
 enum class SpringChange {
   kLittle,
   kUnclear,  ///< little until the end of the step, but perhaps much until its middle

@@ -193,10 +193,9 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
     const Pack::Bits without = reaches(grown, kNoLength * kNoLength);
     const Block end = load(placeOf(from, pitch, block));
     const Pack noise = (end.x * end.x + end.y * end.y) * (kRounding * kRounding);
-    const Pack::Bits with_length =
-        reaches(absolute(at_end), kMuch * square) & reaches(grown, noise);
+    const Pack::Bits with = reaches(absolute(at_end), kMuch * square) & reaches(grown, noise);
     const Pack::Bits springs = laneNumbers().lanes < static_cast<double>(size - 1 - block * kLanes);
-    much |= springs & (square.lanes == 0.0 ? without : with_length);
+    much |= springs & (square.lanes == 0.0 ? without : with);
     // Half the limit, because the estimate is coarse.
     unclear |= springs & reaches(absolute(in_middle), 0.5 * kMuch * square);
   }
