@@ -160,11 +160,11 @@ class Changing(NodeTest):
                         self.call(name, *arguments)
                     self.call('at_rest')
                     self.call('pause', False)
-                    self.wait_state(lambda m: max(math.hypot(v.x, v.z) for v in m.velocities) < 1e-6, 'the rest')
+                    self.wait_state(lambda m, now=rospy.Time.now(): m.header.stamp > now and
+                                    max(math.hypot(v.x, v.z) for v in m.velocities) < 1e-6, 'the rest, not that of a reset')
                     del self.state.messages[:]
                     self.assertLess(max(math.hypot(v.x, v.z) for m in self.state.wait_for(10) for v in m.velocities), 1e-6)
-                    tip = self.last().positions[10]
-                    self.assertTrue(not held or math.hypot(tip.x - 10.0, tip.z) < 1e-6)
+                    self.assertTrue(not held or math.hypot(self.last().positions[10].x - 10, self.last().positions[10].z) < 1e-6)
 
 
 class States(NodeTest):
