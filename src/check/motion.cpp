@@ -244,7 +244,8 @@ void Motion::disturb(std::mt19937& random, bool off_line) {
     auto numbers = state_.row(row);
     // Nothing if all are equal, like x in a vertical chain: their differences are exact.
     if (!off_line && numbers.minCoeff() == numbers.maxCoeff()) continue;
-    const double error = size * (off_line ? state_.abs().maxCoeff() : numbers.abs().maxCoeff());
+    const double error = 0.1 * tolerance() +  // errors grow
+                         size * (off_line ? state_.abs().maxCoeff() : numbers.abs().maxCoeff());
     for (Eigen::Index i = 1; i < numbers.size(); ++i)
       numbers[i] += (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0) * error;
   }
@@ -280,8 +281,7 @@ Agreement compare(const AllFrames& frames, const std::function<std::unique_ptr<M
     for (const auto& companion : companions) {
       if (!companion->advanceTo(index, limit)) break;
       const Eigen::ArrayX2d spread = (positions - companion->positions()).abs();
-      rounding = std::max(rounding, spread.maxCoeff());
-      if (!spread.allFinite()) rounding = std::numeric_limits<double>::infinity();
+      rounding = spread.allFinite() ? std::max(rounding, spread.maxCoeff()) : INFINITY;
       if (motion->tolerance() == 0.0) companion->disturb(random, off_line);
     }
     const double most = std::min(1e-3 * scale, 0.03 * extent);  // beyond, nothing can be said
