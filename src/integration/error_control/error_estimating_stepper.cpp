@@ -27,8 +27,8 @@ ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowe
       end_carry_(chain.size()) {}
 
 void ErrorEstimatingStepper::start(const State& state) {
+  end_ = end_carry_ = StateBuffer(chain_.size());  // the padding may contain NaN
   end_.values() = state.values();
-  end_carry_.values().setZero();
   controller_.restart();
   restarted_ = true;
   next_step_ = std::max(first_step_, kShortestStep);
