@@ -67,7 +67,14 @@ SceneView::SceneView(const Run& run, bool hangs) : box(boxOf(run.start())) {
 }
 
 bool SceneView::widenFor(const State& state) {
-  const Box chain = boxOf(state).intersection(largest);
+  const Box all = boxOf(state), chain = all.intersection(largest);
+  if (box.contains(all)) return false;
+  if (!largest.contains(all) && sizeOf(all) < sizeOf(largest)) {  // it was carried away
+    const Point half = Point::Constant(0.5 / kMostGrowth * sizeOf(largest));
+    box = Box(Point(all.center() - half), Point(all.center() + half)).extend(all);
+    largest.translate(Point(all.center() - largest.center()));
+    return true;
+  }
   if (box.contains(chain)) return false;
   const Box old = box;
   const double more = kGrowth * size();

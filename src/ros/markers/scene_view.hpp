@@ -7,7 +7,7 @@
 
 namespace spring_pendulum {
 
-/// A frame around the start and what hangs from P_1 at rest. It widens in steps when the chain leaves it.
+/// A frame around the start and what hangs from P_1 at rest. It widens in steps, then follows the chain.
 struct SceneView {
   /// \param hangs whether only P_1 is held
   SceneView(const Run& run, bool hangs);
@@ -27,7 +27,7 @@ struct SceneView {
   static constexpr int kTextLines = 3;  ///< above the scene
 
   Eigen::AlignedBox2d box;  ///< the visible rectangle of the plane, m, without the text above it
-  Eigen::AlignedBox2d largest;  ///< limit of the box, which a diverging motion leaves
+  Eigen::AlignedBox2d largest;  ///< limit of the box, which a diverging motion leaves, m
 };
 
 }  // namespace spring_pendulum
