@@ -250,7 +250,7 @@ class NodeTest(unittest.TestCase):
         return answer.message
 
     def last(self):
-        return self.state.messages[-1]
+        return self.state.wait_for(1)[-1]
 
     def wait_state(self, condition, what):
         return wait_until(lambda: condition(self.last()) and self.last(), what)
