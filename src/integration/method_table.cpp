@@ -31,9 +31,8 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Integrator> makeExplicitRungeKutta(const Method& method, const Chain& chain,
                                                    const IntegratorOptions& options) {
-  if (!chain.isPlain() || findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr) {
+  if (!chain.isPlain() || findAdvanceKernel(fastestChainKernels(), *method.tableau) == nullptr)
     return std::make_unique<PlainRungeKutta>(chain, *method.tableau, options.track_dissipation);
-  }
   return std::make_unique<ExplicitRungeKutta>(chain, *method.tableau, options);
 }
 
@@ -173,17 +172,15 @@ void checkMethod(const Method& method) {
   if (method.order < 1) refuse("order must be at least 1");
   if (method.stages < 1) refuse("stages must be at least 1");
   if (!(method.bytes_per_particle >= 0.0)) refuse("bytes_per_particle must be at least 0");
-  if (!(method.real_stability_limit >= 0.0) || !(method.imaginary_stability_limit >= 0.0)) {
+  if (!(method.real_stability_limit >= 0.0) || !(method.imaginary_stability_limit >= 0.0))
     refuse("stability limits must be at least 0");
-  }
   if (method.tableau == nullptr && !method.make) refuse("needs a tableau or a factory");
   if (method.tableau == nullptr) return;
   checkTableau(method.name, *method.tableau);
   if (!method.make && !method.hasFixedStep())
     refuse("a tableau without a factory is a fixed-step method");
-  if (!method.make && static_cast<std::size_t>(method.stages) != method.tableau->stages) {
+  if (!method.make && static_cast<std::size_t>(method.stages) != method.tableau->stages)
     refuse("stages must equal the stages of the tableau");
-  }
 }
 
 /// Names of other methods and programs, and the method here that is nearest. The first two are accepted.

@@ -141,6 +141,11 @@ TEST(DrivenRun, FollowsLightParticlesWithAuto) {
     moveHands(pair, 25);
     EXPECT_LE(pair.error(), 10.0 * scenario.tolerance) << air_drag;
     EXPECT_LE(std::abs(pair.run.energyEntry().relative_residual.value()), 1e-6) << air_drag;
+    const Scene lighter = slackCable(3, 1e-6, air_drag);  // its velocities do not tell the tensions
+    DrivenPair light(scenario, lighter);
+    light.drive({{{0, {1.0, 0.0}}}, {}});
+    while (light.run.time() < 1.0) light.run.advance();
+    EXPECT_LE(std::abs(light.run.energyEntry().relative_residual.value()), 1e-4) << air_drag;
   }
 }
 
@@ -206,17 +211,6 @@ TEST(DrivenRun, HangsFromAHeldParticleAsFromAnAnchor) {
   }
 }
 
-TEST(DrivenRun, MovesUnchangedInAFrameOfConstantVelocity) {
-  const Scene scene = horizontalChain("horizontal", 5, 1.0);
-  State rest = scene.start, moving = scene.start;
-  moving.vx().array() += 2.0;
-  makeIntegrator("Runge-Kutta-4", scene.chain)->advance(rest, 0.01, 300);
-  const auto integrator = makeIntegrator("Runge-Kutta-4", scene.chain.drivenBy({{{0, {}}}, {}}));
-  integrator->advance(moving, 0.01, 300);
-  moving.x().array() -= 2.0 * 3.0;
-  EXPECT_LE((rest.positions() - moving.positions()).cwiseAbs().maxCoeff(), 1e-12);  // 3e-14
-}
-
 TEST(DrivenRun, KeepsTheVelocityOfAReleasedParticle) {
   const Scene scene = slackCable(5, 1.0);
   DrivenPair pair(scenarioOf("Auto", scene), scene);
@@ -237,8 +231,7 @@ TEST(DrivenRun, LeavesOutSpringsBetweenHeldParticles) {
   for (const Method& method : methodTable()) {
     DrivenPair pair(scenarioOf(method.name, scene), scene);
     State passing = scene.start;
-    passing.y()[1] = 0.001;
-    passing.vx()[1] = -1.0;
+    passing.values().row(1).tail(3) << 0.001, -1.0, 0.0;
     pair.run.change(pair.run.plan(), pair.run.chain().constants(), {{{1, {}}}, {}}, passing);
     const double before = pair.run.energyEntry().supplied;
     while (pair.run.time() < 2.0) pair.run.advance();

@@ -19,41 +19,30 @@ namespace {
 constexpr double kTightTolerance = 1e-2;
 constexpr double kTightToleranceIfFast = 1e-5;
 constexpr double kFastRate = 100.0;
-
 /// Damping rate in 1/s above which the implicit method is a candidate.
 constexpr double kRateForImplicit = 1e3;
-
 /// Damping rate in 1/s above which the implicit method is the only candidate: explicit methods are
 /// unstable there with any step much longer than the shortest one.
 constexpr double kRateForImplicitOnly = 1.0 / kShortestStep;
-
 /// Share of the stability limit above which the motion counts as stiff for an explicit method.
 constexpr double kStiffFrom = 0.25;
-
 /// Least number of steps of the active method before a switch, so that its pace is known.
 constexpr int kLeastSteps = 16;
-
 /// Steps of a candidate in a race: first to find its step size, then to measure its pace.
 constexpr int kWarmingUp = 6;
 constexpr int kCounted = 6;
-
 /// Work between two races, in units of the work of a race.
 constexpr double kWorkPerRace = 25.0;
-
 /// A method that has become slower by this factor since its race must race again.
 constexpr double kSlower = 2.0;
-
 /// Angular frequency in rad/s of a vibration so fast that its methods race even if it is hardly
 /// damped: steps are so short that a race takes a small part of any run.
 constexpr double kFastVibration = 1e3;
-
 /// Work before the first race, about that of a race, in force evaluations.
 constexpr double kWorkBeforeFirstRace = 500.0;
-
 /// Longest chain for which inactive methods are kept. In longer chains they would take too much
 /// memory, and making one again costs less than one of its steps.
 constexpr Eigen::Index kKeepsUpTo = 10'000;
-
 /// Least ratio of the paces for a switch.
 constexpr double kHysteresis = 1.2;
 

@@ -42,6 +42,9 @@ class AutoStepper final : public DenseOutputStepper {
   const StateBuffer& stateAt(double fraction) const override {
     return active().stepper->stateAt(fraction);
   }
+  std::optional<double> tensionAt(Eigen::Index spring, double fraction) const override {
+    return active().stepper->tensionAt(spring, fraction);
+  }
   StepStatistics statistics() const override;
   double workPerEvaluation() const override;
 

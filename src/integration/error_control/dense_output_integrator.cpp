@@ -53,9 +53,12 @@ DenseOutputIntegrator::Energies DenseOutputIntegrator::energiesOf(double fractio
   energy_flow_.reset();
   const KernelChain& chain = constants_.chain();
   const double half_time = 0.5 * fraction * step_length_;
-  for (const auto& [node, weight] : kGaussLegendre)
-    energy_flow_.add(kernels_, chain, stepper_->stateAt(0.5 * fraction * (1.0 + node)),
-                     half_time * weight, half_time * chain.spring.damping * weight);
+  for (const auto& [node, weight] : kGaussLegendre) {
+    const double inside = 0.5 * fraction * (1.0 + node);
+    energy_flow_.add(kernels_, chain, stepper_->stateAt(inside), half_time * weight,
+                     half_time * chain.spring.damping * weight,
+                     [&](Eigen::Index spring) { return stepper_->tensionAt(spring, inside); });
+  }
   return {energy_flow_.dissipated(), energy_flow_.supplied()};
 }
 

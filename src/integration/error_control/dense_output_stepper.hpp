@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace spring_pendulum {
@@ -46,6 +47,12 @@ class DenseOutputStepper {
   /// Returns the state inside the last step, valid until the next call of a function of the stepper.
   /// \param fraction 0 at its beginning, 1 at its end
   virtual const StateBuffer& stateAt(double fraction) const = 0;
+
+  /// Tension of a spring inside the last step, N, if it is an unknown of the method: along a strongly damped
+  /// spring, the errors of the velocities would hide it.
+  virtual std::optional<double> tensionAt(Eigen::Index /*spring*/, double /*fraction*/) const {
+    return std::nullopt;
+  }
 
   virtual StepStatistics statistics() const = 0;
 

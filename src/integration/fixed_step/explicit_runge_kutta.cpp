@@ -118,9 +118,8 @@ void ExplicitRungeKutta::workOn(Share& share) {
   if (size == 0) return;
   const Eigen::Index blocks = (size + engine_.block_size - 1) / engine_.block_size;
   const Eigen::Index block_size = StateBuffer::paddedSize((size + blocks - 1) / blocks);
-  for (Eigen::Index begin = share.begin; begin < share.end; begin += block_size) {
+  for (Eigen::Index begin = share.begin; begin < share.end; begin += block_size)
     stepBlock(share, begin, std::min(share.end, begin + block_size));
-  }
 }
 
 void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Index end) {
@@ -132,9 +131,8 @@ void ExplicitRungeKutta::stepBlock(Share& share, Eigen::Index begin, Eigen::Inde
   block.topRows(begin - first) = share.left.topRows(begin - first);
   block.middleRows(begin - first, own_end - begin) = state.middleRows(begin, own_end - begin);
   block.middleRows(own_end - first, last - own_end) = share.right.topRows(last - own_end);
-  if (end < share.end) {
+  if (end < share.end)
     share.left.topRows(pass_.halo) = state.middleRows(end - pass_.halo, pass_.halo);
-  }
   double* const in_block = share.dissipated.data();
   if (in_block != nullptr)
     std::copy_n(energy_flow_.ofSprings() + begin, end - begin, in_block + (begin - first));

@@ -13,23 +13,17 @@ using radau::kStages;
 
 /// Largest estimated error per second, in tolerances.
 constexpr double kShareOfTolerance = 0.3;
-
 /// Factor of the first step size, which is short for any scene.
 constexpr double kFirstStep = 1e-4;
-
 /// The error of a step is O(h^kErrorOrder).
 constexpr int kErrorOrder = static_cast<int>(kStages) + 1;
-
 /// The stage nearest to the middle of the step, at which springs are linearised.
 constexpr std::size_t kMiddleStage = 2;
-
 /// Largest error of the iteration, relative to the allowed error of the step.
 constexpr double kIterationShare = 1e-3;
 constexpr int kMostIterations = 10;
-
 /// Size of rounding errors of the positions, m.
 constexpr double kRounding = 1e-14;
-
 /// Error, relative to the allowed error, that a failed iteration reports; it halves the step size.
 constexpr double kErrorOfFailure = 32.0;
 
@@ -104,19 +98,16 @@ void RadauStepper::predict(double h) {
     tension_weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], false);
   }
   const auto guess = [&](double velocity, const Row& old, Row& position, Row& change) {
-    for (std::size_t s = 0; s < kStages; ++s) {
+    for (std::size_t s = 0; s < kStages; ++s)
       change[s] = previous_length_ > 0.0 ? radau::dot(weights[s], old) - old.back() : 0.0;
-    }
-    for (std::size_t s = 0; s < kStages; ++s) {
+    for (std::size_t s = 0; s < kStages; ++s)
       position[s] = h * (radau::kNodes[s] * velocity + radau::dot(radau::kMatrix[s], change));
-    }
   };
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
-    for (std::size_t c = 0; c < 2; ++c) {
+    for (std::size_t c = 0; c < 2; ++c)
       guess(valueOf(begin_, i, 2 + c), old[2 + c], next[c], next[2 + c]);
-    }
   }
   if (chain_.isDriven()) setAnchor(h);
   for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -124,9 +115,8 @@ void RadauStepper::predict(double h) {
     const Ends ends = endsOf(i, begin_);
     tensions.fill(springTension(chain_.spring(), ends.separation, ends.relative_velocity));
     if (previous_length_ == 0.0) continue;
-    for (std::size_t s = 0; s < kStages; ++s) {
+    for (std::size_t s = 0; s < kStages; ++s)
       tensions[s] = radau::dot(tension_weights[s], previous_.tensions[i]);
-    }
   }
 }
 
@@ -321,9 +311,8 @@ double RadauStepper::stepExplicitly(double h) {
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
       const double slope = valueOf(change_, i, c);
-      for (std::size_t s = 0; s < kStages; ++s) {
+      for (std::size_t s = 0; s < kStages; ++s)
         stages_.particles[i][c][s] = (h * radau::kNodes[s]) * slope;
-      }
       finite += 0.0 * slope;
     }
   }
@@ -337,22 +326,18 @@ double RadauStepper::stepExplicitly(double h) {
 }
 
 void RadauStepper::setEndFromLastStage() {
-  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    for (std::size_t c = 0; c < 4; ++c) {
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i)
+    for (std::size_t c = 0; c < 4; ++c)
       valueOf(change_, i, c) = valueOf(carry_, i, c) + stages_.particles[i][c].back();
-    }
-  }
   setEnd(change_, kNoSlopes);
 }
 
 const StateBuffer& RadauStepper::stateInside(double fraction) const {
   const Row weights = radau::lagrangeWeights(fraction, true);
   change_.values() = begin_.values();
-  for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
-    for (std::size_t c = 0; c < 4; ++c) {
+  for (std::size_t i = 0; i < stages_.particles.size(); ++i)
+    for (std::size_t c = 0; c < 4; ++c)
       valueOf(change_, i, c) += radau::dot(weights, stages_.particles[i][c]);
-    }
-  }
   return change_;
 }
 

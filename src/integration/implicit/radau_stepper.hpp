@@ -42,6 +42,10 @@ class RadauStepper final : public ErrorEstimatingStepper {
                const ChainKernels& kernels = fastestChainKernels());
 
   double workPerEvaluation() const override;
+  std::optional<double> tensionAt(Eigen::Index spring, double fraction) const override {
+    return radau::dot(radau::lagrangeWeights(fraction, false),
+                      stages_.tensions[static_cast<std::size_t>(spring)]);
+  }
 
  private:
   using Row = radau::Row;

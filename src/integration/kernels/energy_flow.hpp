@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <vector>
 
 namespace spring_pendulum {
@@ -17,6 +19,9 @@ namespace spring_pendulum {
 /// Sums the dissipated energy, if that is tracked, and the work of holders and applied forces.
 class EnergyFlow {
  public:
+  /// The tension of a spring if the method knows it better than the velocities of its ends do, N.
+  using Tension = std::function<std::optional<double>(Eigen::Index spring)>;
+
   EnergyFlow(const Chain& chain, bool track_dissipation)
       : springs_(track_dissipation ? chain.size() - 1 : 0),
         air_drag_(chain.airDrag()),
@@ -50,14 +55,14 @@ class EnergyFlow {
   }
   double supplied() const { return supplied_; }  ///< J
 
-  void addSupplied(const StateBuffer& state, double time) {
-    if (!held_.empty()) supplied_ += time * suppliedPower(state);
+  void addSupplied(const StateBuffer& state, double time, const Tension& tension = {}) {
+    if (!held_.empty()) supplied_ += time * suppliedPower(state, tension);
   }
   /// Adds the powers at a state times `time` s.
   /// \param weight `time` times k_d, kg
   void add(const ChainKernels& kernels, const KernelChain& chain, const StateBuffer& state,
-           double time, double weight) {
-    addSupplied(state, time);
+           double time, double weight, const Tension& tension = {}) {
+    addSupplied(state, time, tension);
     if (dissipated_.data() == nullptr) return;
     if (air_drag_ != 0.0) air_ += time * air_drag_ * squaredVelocities(chain, state);
     if (chain.spring.damping == 0.0) return;
@@ -83,18 +88,23 @@ class EnergyFlow {
     return sum;
   }
 
-  double suppliedPower(const StateBuffer& state) const {
+  double suppliedPower(const StateBuffer& state, const Tension& tension) const {
     const Eigen::Index pitch = state.pitch();
     double power = 0.0;
     for (const Eigen::Index i : held_) {
       const double* z = state.particle(i);
       for (const Eigen::Index other : {-1, 1}) {
-        if (i + other < 0 || i + other >= state.size() || isIdle(std::min(i, i + other))) continue;
+        const Eigen::Index spring = std::min(i, i + other);
+        if (i + other < 0 || i + other >= state.size() || isIdle(spring)) continue;
         const auto difference = [&](Eigen::Index column) {
           return z[column * pitch + other] - z[column * pitch];
         };
-        const PlaneVector<double> force = springForce<double>(
-            spring_, {difference(0), difference(1)}, {difference(2), difference(3)});
+        const PlaneVector<double> d{difference(0), difference(1)};
+        const auto known = tension ? tension(spring) : std::nullopt;
+        const double unit = known.value_or(0.0) * inverseLength(d);
+        const PlaneVector<double> force =
+            known ? PlaneVector<double>{unit * d.x, unit * d.y}
+                  : springForce(spring_, d, {difference(2), difference(3)});
         power -= force.x * z[2 * pitch] + force.y * z[3 * pitch];
       }
     }

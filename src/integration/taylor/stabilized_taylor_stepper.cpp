@@ -93,9 +93,8 @@ double StabilizedTaylorStepper::attempt(double h) {
   setEnd(change_, kNoSlopes);
   // The series is invalid once the ends of a spring meet; see TaylorStepper::step.
   const auto middle = [&]() -> const StateBuffer& { return sumAt(0.5 * h); };
-  if (h > kShortestStep && springsChangeMuch(kernels_, work, h, begin_, end_, middle)) {
+  if (h > kShortestStep && springsChangeMuch(kernels_, work, h, begin_, end_, middle))
     return std::numeric_limits<double>::infinity();
-  }
   const LargestChange error = kernels_.taylorLargestSum(
       work, weighted<&StabilizedPolynomial::errorWeight>(*polynomial_, h));
   return std::max(time_of_velocity_error_ * error.velocity, error.position) *

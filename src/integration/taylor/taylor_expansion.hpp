@@ -12,9 +12,8 @@ namespace spring_pendulum {
 /// The reciprocals 1/i, which save divisions; element 0 is not used.
 inline constexpr auto kReciprocals = [] {
   std::array<double, kLargestTaylorOrder + 2> reciprocals{};
-  for (std::size_t i = 1; i < reciprocals.size(); ++i) {
+  for (std::size_t i = 1; i < reciprocals.size(); ++i)
     reciprocals[i] = 1.0 / static_cast<double>(i);
-  }
   return reciprocals;
 }();
 
