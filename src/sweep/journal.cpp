@@ -52,9 +52,9 @@ void Journal::read(
     const std::function<void(std::int64_t index, std::string_view text)>& take) const {
   std::istringstream lines(readTextFile(path_));
   std::string line;
-  std::getline(lines, line);  // the head
   // A line that ends with the file is unfinished.
-  for (int number = 2; std::getline(lines, line) && !lines.eof(); ++number) {
+  for (int number = 1; std::getline(lines, line) && !lines.eof(); ++number) {
+    if (line + '\n' == head_) continue;  // without locks, two processes may begin at once
     const std::string row = line.substr(0, line.rfind(' '));
     if (line + '\n' != lineOf(row))
       throw InputError(fmt::format("{}:{}: is damaged; remove the line to run its case anew",
@@ -78,19 +78,24 @@ std::string Journal::lineOf(std::string_view row) const {
 bool Journal::lock() {
   // Where a file system has no locks, appending one line is still one call.
   while (::flock(file_.get(), LOCK_EX) != 0 && errno == EINTR) continue;
-  struct stat named {};
-  struct stat opened {};
+  struct stat named {
+  }, opened{};
   return ::stat(path_.c_str(), &named) == 0 && ::fstat(file_.get(), &opened) == 0 &&
          named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
 }
 
 void Journal::cutTornLine() {
-  off_t size = ::lseek(file_.get(), 0, SEEK_END);
-  for (char last = 0; size > 0; --size) {
+  const off_t end = ::lseek(file_.get(), 0, SEEK_END);
+  off_t size = end;
+  for (char last = 0; size > 0; --size)
     if (::pread(file_.get(), &last, 1, size - 1) != 1 || last == '\n') break;
+  if (size == end) return;
+  if (torn_end_ != end) {  // without locks, another process may just be writing it
+    torn_end_ = end;
+    ::usleep(20000);
+    return cutTornLine();
   }
-  if (size < ::lseek(file_.get(), 0, SEEK_END) && ::ftruncate(file_.get(), size) != 0)
-    refuse(path_);
+  if (::ftruncate(file_.get(), size) != 0) refuse(path_);
 }
 
 void Journal::write(std::string_view text) {

@@ -58,9 +58,8 @@ void forEachCase(const Study& study, std::int64_t threads, const Next& next, con
   } catch (const std::system_error&) {  // the system refuses more threads
     if (workers.empty()) run();
   }
-  for (const std::future<void>& worker : workers) {
+  for (const std::future<void>& worker : workers)
     while (worker.wait_for(kLook) != std::future_status::ready) meanwhile();
-  }
   if (failures.empty()) return;
   const auto& [index, failure] = *failures.begin();
   const std::string message = fmt::format("case {}: {}", index, failure.message);
@@ -79,8 +78,7 @@ class Sweep {
   /// Finds out before the first case what would prevent the table or the picture. Returns the exit status.
   int prepare() {
     checkCases(study_, options_.threads);
-    const int status = counter_.rank() == 0 ? tryOutputs() : kDone;
-    if (status != kDone) return status;
+    if (const int status = counter_.rank() == 0 ? tryOutputs() : kDone) return status;
     journal_.emplace(options_.output + ".journal", study_.hash,
                      options_.shards > 1 ? options_.output : "");
     readJournal();

@@ -79,6 +79,10 @@ Fault faultOf(const char* call, const std::string& path, bool moves_data = false
   static std::atomic<int> calls{0};
   const std::string_view folder = setting("FAULT_FOLDER");
   const std::string_view kind = setting("FAULT_KIND");
+  if (kind == "unlocked") {  // a file system without locks
+    errno = ENOSYS;
+    return std::strcmp(call, "flock") == 0 ? Fault::kFail : Fault::kNone;
+  }
   if (folder.empty() || path.compare(0, folder.size(), folder) != 0) return Fault::kNone;
   if (kind == "list") {
     report((std::string(call) + "\n").c_str());

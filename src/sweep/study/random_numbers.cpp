@@ -10,7 +10,6 @@ constexpr double kLn2 = 0.69314718055994530942;
 /// The series end below the rounding error for the reduced arguments, |s| <= 0.172 and |r| <= 0.347.
 constexpr int kLogTerms = 11;
 constexpr int kExpTerms = 15;
-
 /// Quantity and number of the draw share a word of the counter.
 constexpr std::uint32_t kQuantityShift = 24;
 

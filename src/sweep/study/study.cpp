@@ -18,9 +18,7 @@ namespace {
 constexpr std::uint32_t kMass = 0;
 constexpr std::uint32_t kDisplacement = 1;
 constexpr std::uint32_t kVelocity = 2;
-
 constexpr double kMostStepsPerFrame = 1e6;
-
 /// Options that belong to a single run, not to a case.
 constexpr std::string_view kOfOneRun[] = {"resume", "output",     "no_frames",
                                           "energy", "save_state", "threads"};
