@@ -17,8 +17,10 @@ constexpr double kMargin = 0.05;    ///< around the scene, in sizes of the pictu
 constexpr double kGridLines = 8.0;  ///< least number in the height of the picture
 const double kHalfViewTangent = std::sqrt(2.0) - 1.0;  ///< tan of rviz's half angle, 22.5 degrees
 
-constexpr double kGrowth = 0.25;      ///< of the picture when the chain leaves it, in sizes
-constexpr double kMostGrowth = 16.0;  ///< largest picture, in sizes of the first one
+constexpr double kGrowth = 0.25;  ///< of the picture when the chain leaves it, in sizes
+constexpr double kFar =
+    16.0;  ///< size of a picture that is too large for the chain, in sizes of it
+constexpr double kMostGrowth = 1e3;  ///< largest chain shown, in sizes of the first picture
 
 Box boxOf(const State& state) {
   return {Point(state.x().minCoeff(), state.y().minCoeff()),
@@ -63,22 +65,19 @@ SceneView::SceneView(const Run& run, bool hangs) : box(boxOf(run.start())) {
   if (sizeOf(box) < 0.5 * length)
     box.extend(Point(anchor.array() - 0.5 * length)).extend(Point(anchor.array() + 0.5 * length));
   box = padded(box, kMargin);
-  largest = padded(box, 0.5 * (kMostGrowth - 1.0));
+  start_size = size();
 }
 
 bool SceneView::widenFor(const State& state) {
-  const Box all = boxOf(state), chain = all.intersection(largest);
-  if (box.contains(all)) return false;
-  if (!largest.contains(all) && sizeOf(all) < sizeOf(largest)) {  // it was carried away
-    const Point half = Point::Constant(0.5 / kMostGrowth * sizeOf(largest));
+  const Box all = boxOf(state), old = box;
+  const double more = kGrowth * size(), now = sizeOf(all);
+  if (box.contains(all) || !(now < kMostGrowth * start_size)) return false;
+  box.extend(all);
+  if (size() > kFar * std::max(now, start_size)) {
+    const Point half = Point::Constant(0.5 * start_size);
     box = Box(Point(all.center() - half), Point(all.center() + half)).extend(all);
-    largest.translate(Point(all.center() - largest.center()));
     return true;
   }
-  if (box.contains(chain)) return false;
-  const Box old = box;
-  const double more = kGrowth * size();
-  box.extend(chain);
   box.min().array() -= more * (box.min().array() < old.min().array()).cast<double>();
   box.max().array() += more * (box.max().array() > old.max().array()).cast<double>();
   return true;

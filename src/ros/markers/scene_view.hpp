@@ -27,7 +27,7 @@ struct SceneView {
   static constexpr int kTextLines = 3;  ///< above the scene
 
   Eigen::AlignedBox2d box;  ///< the visible rectangle of the plane, m, without the text above it
-  Eigen::AlignedBox2d largest;  ///< limit of the box, which a diverging motion leaves, m
+  double start_size = 1.0;  ///< m; a chain 1000 times as large diverges, and is not followed
 };
 
 }  // namespace spring_pendulum
