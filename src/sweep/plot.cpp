@@ -21,15 +21,14 @@ int drawPlot(const Study& study, const std::string& table, const std::string& pi
   arguments.insert(arguments.end(), study.plot.begin(), study.plot.end());
   if (only_try) arguments.emplace_back("--try");
   arguments.insert(arguments.end(), {"--", "/dev/stdin", picture});
-  std::vector<char*> argv;
-  argv.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
+  std::vector<char*> argv(arguments.size() + 1);  // null at the end
+  for (std::size_t i = 0; i < arguments.size(); ++i) argv[i] = arguments[i].data();
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   // The path of an unfinished table is valid in the child only until the script starts.
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, table.c_str(), O_RDONLY, 0);
   pid_t child = 0;
+  ::signal(SIGCHLD, SIG_DFL);  // if it is ignored, the child leaves no status
   // Python would print a traceback before the first line of the script, which ends the blocking.
   sigset_t interrupt, before;
   sigemptyset(&interrupt);
