@@ -98,8 +98,10 @@ std::string Node::on(const Pause& request) {
   const bool paused = request.paused, is_new = paused != paused_;
   // Only whole frames can be saved. The loop finishes a long one, as it serves inputs meanwhile.
   const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(0.5);
-  while (paused && is_new && !run_.isAtFrame() && !run_.isOver() && ros::SteadyTime::now() < end)
+  while (paused && is_new && !run_.isAtFrame() && !run_.isOver() && ros::SteadyTime::now() < end) {
     advance();
+    if (driver_.isActing()) ros::WallDuration(0.002).sleep();  // for recorders of inputs
+  }
   if (run_.isOver()) throw InputError(overMessage(run_));
   const std::int64_t missing = !is_new ? steps_wanted_ : paused && !run_.isAtFrame() ? 1 : 0;
   const std::int64_t frame = run_.frame() + missing;
