@@ -17,9 +17,8 @@ constexpr double kMargin = 0.05;    ///< around the scene, in sizes of the pictu
 constexpr double kGridLines = 8.0;  ///< least number in the height of the picture
 const double kHalfViewTangent = std::sqrt(2.0) - 1.0;  ///< tan of rviz's half angle, 22.5 degrees
 
-constexpr double kGrowth = 0.25;  ///< of the picture when the chain leaves it, in sizes
-constexpr double kFar =
-    16.0;  ///< size of a picture that is too large for the chain, in sizes of it
+constexpr double kGrowth = 0.25;     ///< of the picture when the chain leaves it, in sizes
+constexpr double kFar = 16.0;        ///< size of a picture that is too large, in sizes of the chain
 constexpr double kMostGrowth = 1e3;  ///< largest chain shown, in sizes of the first picture
 
 Box boxOf(const State& state) {
