@@ -121,8 +121,10 @@ TEST(DrivenRun, CountsTheWorkOfAKickByEulersMethods) {
 // from its holder: their force is constant, and the trapezoidal rule for their work is exact.
 TEST(DrivenRun, TakesThePowerOfAHolderAtItsPlace) {
   const double h = 0.1, a = 2.0, force = 9.81 + a;
-  for (const auto& [method, offset] :
-       {std::pair{"Euler", 0.5}, {"Semi-Implicit-Euler", -0.5}, {"Velocity-Verlet", 0.0}}) {
+  for (const auto& [method, offset] : {std::pair{"Euler", 0.5},
+                                       {"Semi-Implicit-Euler", -0.5},
+                                       {"Backward-Euler", -0.5},
+                                       {"Velocity-Verlet", 0.0}}) {
     const Scene scene = horizontalChain("lifted", 2, 1.0, {50.0, 0.0, 1.0});
     State state(2);
     state.values().row(1) << 0.0, -1.0 - force / 50.0, 0.0, offset * h * a;

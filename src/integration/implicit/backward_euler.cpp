@@ -36,8 +36,10 @@ void BackwardEuler::restart() {
 }
 
 void BackwardEuler::step(double time_step) {
-  failed_ = failed_ || !solve(time_step);
+  begin_.values() = current().values();
   held_.place(current().values(), 1);
+  failed_ = failed_ || !solve(time_step);
+  held_.place(current().values(), 0);
   addPowers(current(), time_step);
   trapezoidalRule(current(), begin_, time_step);
   if (failed_) {
@@ -48,15 +50,11 @@ void BackwardEuler::step(double time_step) {
 }
 
 bool BackwardEuler::solve(double time_step) {
-  begin_.values() = current().values();
   auto velocities = current().values().rightCols<2>();
   auto positions = current().values().leftCols<2>();
-  if (chain_.isDriven()) {
-    velocities(0, 0) += time_step * chain_.springlessAcceleration(0).x;
-    velocities(0, 1) += time_step * chain_.springlessAcceleration(0).y;
-  }
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     positions = begin_.values().leftCols<2>() + time_step * velocities;
+    held_.place(current().values(), 0);  // whose springs act from there
     linearise(time_step);
     solver_.factor(springs_, time_step);
     solver_.solve(x_.data(), y_.data());
