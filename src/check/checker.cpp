@@ -262,7 +262,7 @@ class Checker {
   }
 
   FrameCheck equal() const {
-    constexpr const char* kTooLate = "rounding errors grow too much, or it takes too long";
+    constexpr const char* kTooLate = "small errors grow too much, or it takes too long";
     const std::int64_t last = scenario_.frames - 1;
     // Programs differ by a frame or so in how they count.
     const bool has_last = last_frame_ >= std::max(std::min(last, frames_.start + 1),

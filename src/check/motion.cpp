@@ -244,8 +244,8 @@ void Motion::disturb(std::mt19937& random, bool off_line) {
     auto numbers = state_.row(row);
     // Nothing if all are equal, like x in a vertical chain: their differences are exact.
     if (!off_line && numbers.minCoeff() == numbers.maxCoeff()) continue;
-    const double error = 0.1 * tolerance() +  // errors grow
-                         size * (off_line ? state_.abs().maxCoeff() : numbers.abs().maxCoeff());
+    const double error =
+        0.1 * tolerance() + size * (off_line ? state_.abs().maxCoeff() : numbers.abs().maxCoeff());
     for (Eigen::Index i = 1; i < numbers.size(); ++i)
       numbers[i] += (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0) * error;
   }

@@ -176,7 +176,7 @@ class Motion {
   virtual bool advanceTo(std::int64_t frame, WorkLimit& limit) = 0;
   /// N×2 positions as the program prints them, m.
   virtual Eigen::ArrayX2d positions() const { return state_.topRows<2>().transpose(); }
-  /// Changes all numbers by some rounding errors of the steps of a frame.
+  /// Changes all numbers by some rounding errors of the steps of a frame plus a tenth of the tolerance.
   /// \param off_line also those that are equal in all particles of a straight chain
   void disturb(std::mt19937& random, bool off_line);
   /// Error in m that two right results may have besides rounding. If it is not 0, `disturb` must be

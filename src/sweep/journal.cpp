@@ -78,23 +78,21 @@ std::string Journal::lineOf(std::string_view row) const {
 bool Journal::lock() {
   // Where a file system has no locks, appending one line is still one call.
   while (::flock(file_.get(), LOCK_EX) != 0 && errno == EINTR) continue;
-  struct stat named {
-  }, opened{};
+  struct stat named = {}, opened = {};
   return ::stat(path_.c_str(), &named) == 0 && ::fstat(file_.get(), &opened) == 0 &&
          named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
 }
 
 void Journal::cutTornLine() {
-  const off_t end = ::lseek(file_.get(), 0, SEEK_END);
-  off_t size = end;
-  for (char last = 0; size > 0; --size)
-    if (::pread(file_.get(), &last, 1, size - 1) != 1 || last == '\n') break;
-  if (size == end) return;
-  if (torn_end_ != end) {  // without locks, another process may just be writing it
-    torn_end_ = end;
-    ::usleep(20000);
-    return cutTornLine();
-  }
+  off_t size = 0, end = 0, last_end = 0;
+  do {  // until the end stays: without locks, another process may be writing the line
+    last_end = end;
+    size = end = ::lseek(file_.get(), 0, SEEK_END);
+    for (char last = 0; size > 0; --size)
+      if (::pread(file_.get(), &last, 1, size - 1) != 1 || last == '\n') break;
+    if (size == end) return;
+    if (end != last_end) ::usleep(20000);
+  } while (end != last_end);
   if (::ftruncate(file_.get(), size) != 0) refuse(path_);
 }
 

@@ -43,7 +43,6 @@ class Journal {
   std::uint64_t hash_;
   std::string head_;
   FileDescriptor file_;
-  off_t torn_end_ = 0;  ///< size of the file when its end was last seen torn
 };
 
 }  // namespace spring_pendulum::sweep

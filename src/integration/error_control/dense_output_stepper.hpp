@@ -48,8 +48,8 @@ class DenseOutputStepper {
   /// \param fraction 0 at its beginning, 1 at its end
   virtual const StateBuffer& stateAt(double fraction) const = 0;
 
-  /// Tension of a spring inside the last step, N, if it is an unknown of the method: along a strongly damped
-  /// spring, the errors of the velocities would hide it.
+  /// Tension of a spring inside the last step, N, if the method solves for it. Computed from velocities, that of
+  /// a strongly damped spring would consist of their errors.
   virtual std::optional<double> tensionAt(Eigen::Index /*spring*/, double /*fraction*/) const {
     return std::nullopt;
   }

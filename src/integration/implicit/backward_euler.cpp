@@ -54,7 +54,7 @@ bool BackwardEuler::solve(double time_step) {
   auto positions = current().values().leftCols<2>();
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     positions = begin_.values().leftCols<2>() + time_step * velocities;
-    held_.place(current().values(), 0);  // whose springs act from there
+    held_.place(current().values(), 0);  // their springs act from the true places
     linearise(time_step);
     solver_.factor(springs_, time_step);
     solver_.solve(x_.data(), y_.data());

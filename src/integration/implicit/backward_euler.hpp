@@ -35,7 +35,8 @@ class BackwardEuler final : public SteppedIntegrator {
 
  private:
   void step(double time_step) override;
-  /// Solves for `current()`, whose held particles are in their places. \returns whether Newton's method converged
+  /// Solves for the free particles of `current()`.
+  /// \returns whether Newton's method converged
   bool solve(double time_step);
   /// Computes the right-hand side of the linear system from the guess `current()`, and its springs.
   void linearise(double time_step);

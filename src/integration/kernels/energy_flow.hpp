@@ -19,7 +19,7 @@ namespace spring_pendulum {
 /// Sums the dissipated energy, if that is tracked, and the work of holders and applied forces.
 class EnergyFlow {
  public:
-  /// The tension of a spring if the method knows it better than the velocities of its ends do, N.
+  /// The tension of a spring, N, if the method solves for it; see DenseOutputStepper::tensionAt.
   using Tension = std::function<std::optional<double>(Eigen::Index spring)>;
 
   EnergyFlow(const Chain& chain, bool track_dissipation)

@@ -12,7 +12,7 @@ struct SceneView {
   /// \param hangs whether only P_1 is held
   SceneView(const Run& run, bool hangs);
 
-  /// Widens the frame if the chain has left it, and returns whether it has.
+  /// Widens or moves the frame if the chain has left it, unless it diverges. Returns whether the frame changed.
   bool widenFor(const State& state);
 
   double size() const;  ///< of the picture, m: the unit of line widths and text heights
@@ -27,7 +27,7 @@ struct SceneView {
   static constexpr int kTextLines = 3;  ///< above the scene
 
   Eigen::AlignedBox2d box;  ///< the visible rectangle of the plane, m, without the text above it
-  double start_size = 1.0;  ///< m; a chain 1000 times as large diverges, and is not followed
+  double start_size = 1.0;  ///< of the first picture, m
 };
 
 }  // namespace spring_pendulum

@@ -18,7 +18,6 @@ namespace spring_pendulum {
 
 constexpr double kShowAgainInterval = 0.5;  // s, of a run that does not advance
 constexpr double kLongestService = 0.1;     // s, between two looks at signals
-constexpr double kShortWait = 0.002;        // s, for tf, or for recorders between parts of a step
 constexpr double kLongFrame = 1.0;          // s, which is computed state by state
 constexpr double kLongestGap = 0.1;         // s, between the states of a run that is late
 constexpr double kLastMessages = 0.5;       // s, for connecting to late subscribers at the end

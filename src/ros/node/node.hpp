@@ -64,6 +64,7 @@ class Node {
   void logChanges();
   std::string closingLine() const;
 
+  static constexpr double kShortWait = 0.002;  ///< s, for tf, or for recorders of inputs
   ros::NodeHandle node_;
   NodeOptions options_;
   Scenario scenario_;

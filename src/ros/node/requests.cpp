@@ -100,7 +100,7 @@ std::string Node::on(const Pause& request) {
   const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(0.5);
   while (paused && is_new && !run_.isAtFrame() && !run_.isOver() && ros::SteadyTime::now() < end) {
     advance();
-    if (driver_.isActing()) ros::WallDuration(0.002).sleep();  // for recorders of inputs
+    if (driver_.isActing()) ros::WallDuration(kShortWait).sleep();
   }
   if (run_.isOver()) throw InputError(overMessage(run_));
   const std::int64_t missing = !is_new ? steps_wanted_ : paused && !run_.isAtFrame() ? 1 : 0;
