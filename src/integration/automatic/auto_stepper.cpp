@@ -19,7 +19,7 @@ namespace {
 constexpr double kTightTolerance = 1e-2;
 constexpr double kTightToleranceIfFast = 1e-5;
 constexpr double kFastRate = 100.0;
-/// Damping rate in 1/s above which the implicit method is a candidate.
+/// Damping rate in 1/s above which the implicit method is a candidate in every race.
 constexpr double kRateForImplicit = 1e3;
 /// Damping rate in 1/s above which the implicit method is the only candidate: explicit methods are
 /// unstable there with any step much longer than the shortest one.
@@ -28,22 +28,22 @@ constexpr double kRateForImplicitOnly = 1.0 / kShortestStep;
 constexpr double kStiffFrom = 0.25;
 /// Least number of steps of the active method before a switch, so that its pace is known.
 constexpr int kLeastSteps = 16;
-/// Steps of a candidate in a race: first to find its step size, then to measure its pace.
-constexpr int kWarmingUp = 6;
+/// Steps of a candidate in a race that measure its pace, after `Candidate::warming_up` others.
 constexpr int kCounted = 6;
-/// Work between two races, in units of the work of a race.
+/// Work between two races, in units of the work of a race. Without fast damping, Radau-9 wins only after
+/// its numerical damping has ended the vibrations: there, it has its own interval, and its races grow.
 constexpr double kWorkPerRace = 25.0;
 /// A method that has become slower by this factor since its race must race again.
 constexpr double kSlower = 2.0;
-/// Angular frequency in rad/s of a vibration so fast that its methods race even if it is hardly
+/// Angular frequency in rad/s of a vibration so fast that all methods race even if it is hardly
 /// damped: steps are so short that a race takes a small part of any run.
 constexpr double kFastVibration = 1e3;
 /// Work before the first race, about that of a race, in force evaluations.
 constexpr double kWorkBeforeFirstRace = 500.0;
 /// Longest chain for which inactive methods are kept. In longer chains they would take too much
-/// memory, and making one again costs less than one of its steps.
+/// memory (1 GB for 1e6 particles), and making one again costs less than one of its steps.
 constexpr Eigen::Index kKeepsUpTo = 10'000;
-/// Least ratio of the paces for a switch.
+/// Least ratio of the paces for a switch, so that two equally good methods do not alternate.
 constexpr double kHysteresis = 1.2;
 
 template <typename Stepper, int... kOrder>
@@ -77,7 +77,8 @@ AutoStepper::AutoStepper(const Chain& chain, double tolerance)
     add("Stabilized-Taylor-8", kStabilizedTaylor8Time, make<StabilizedTaylorStepper, 8>);
     add("Stabilized-Taylor-4", kStabilizedTaylor4Time, make<StabilizedTaylorStepper, 4>);
   }
-  if (fastest_rate_ >= kRateForImplicit) add("Radau-9", kRadauTime, make<RadauStepper>);
+  if (fastest_rate_ >= kRateForImplicit || vibrates_fast_)
+    add("Radau-9", kRadauTime, make<RadauStepper>);
   candidates_[0].stepper = candidates_[0].make(chain_, tolerance_);
 }
 
@@ -99,8 +100,11 @@ void AutoStepper::start(const State& state) {
   recent_ = {};
   recent_steps_ = 0;
   raced_ = {};
-  race_work_ = kWorkBeforeFirstRace;
-  work_before_race_ = kWorkBeforeFirstRace;
+  race_work_ = races_from_ = kWorkBeforeFirstRace;
+  work_ = 0.0;
+  const bool seldom = vibrates_fast_ && fastest_rate_ < kRateForImplicit;
+  candidates_.back().warming_up = candidates_[0].warming_up;
+  candidates_.back().races_from = seldom ? kWorkPerRace * kWorkBeforeFirstRace : 0.0;
   last_step_ = 0.0;
   startedAt(candidates_[0], state);
 }
@@ -122,7 +126,7 @@ bool AutoStepper::isStiff() const {
 }
 
 bool AutoStepper::isTimeForRace() {
-  if (work_before_race_ <= 0.0) return true;
+  if (work_ >= races_from_) return true;
   if (recent_.work < race_work_) return false;
   if (raced_.isFasterThan(recent_, kSlower)) return true;
   recent_ = {};
@@ -134,7 +138,7 @@ double AutoStepper::step() {
     if (active_ == 0 && successor_is_better_ && isStiff()) {
       readState();
       change(1);
-      work_before_race_ = kWorkBeforeFirstRace;
+      races_from_ = work_ + kWorkBeforeFirstRace;
     } else if (candidates_.size() > 1 && (vibrates_fast_ || isStiff()) && isTimeForRace()) {
       race();
     }
@@ -144,7 +148,7 @@ double AutoStepper::step() {
   last_step_ = candidate.stepper->step();
   const double work = workSince(candidate, before);
   recent_.work += work;
-  work_before_race_ -= work;
+  work_ += work;
   recent_.time += last_step_;
   ++recent_steps_;
   ++candidate.steps;
@@ -153,15 +157,13 @@ double AutoStepper::step() {
 
 AutoStepper::Pace AutoStepper::paceOf(Candidate& candidate, const State& state) {
   DenseOutputStepper& stepper = startedAt(candidate, state);
-  for (int i = 0; i < kWarmingUp; ++i) {
-    if (!(stepper.step() > 0.0)) return {};
-  }
   Pace pace;
-  const std::int64_t before = evaluationsOf(candidate);
-  for (int i = 0; i < kCounted; ++i) {
+  std::int64_t before = 0;
+  for (int i = -candidate.warming_up; i < kCounted; ++i) {
+    if (i == 0) before = evaluationsOf(candidate);
     const double covered = stepper.step();
     if (!(covered > 0.0)) return {};
-    pace.time += covered;
+    if (i >= 0) pace.time += covered;
   }
   pace.work = workSince(candidate, before);
   return pace;
@@ -178,18 +180,25 @@ void AutoStepper::race() {
   std::size_t fastest = active_;
   raced_ = recent_;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (i == active_) continue;
-    const std::int64_t before = evaluationsOf(candidates_[i]);
-    const Pace pace = paceOf(candidates_[i], state_);
-    work += workSince(candidates_[i], before);
-    release(candidates_[i]);
-    if (pace.isFasterThan(raced_, kHysteresis)) {
+    Candidate& candidate = candidates_[i];
+    if (i == active_ || work_ < candidate.races_from) continue;
+    const std::int64_t before = evaluationsOf(candidate);
+    const Pace pace = paceOf(candidate, state_);
+    const double cost = workSince(candidate, before);
+    release(candidate);
+    const bool wins = pace.isFasterThan(raced_, kHysteresis);
+    if (wins || candidate.races_from == 0.0) work += cost;
+    if (candidate.races_from > 0.0) {
+      candidate.races_from = work_ + kWorkPerRace * cost;
+      candidate.warming_up *= 2;
+    }
+    if (wins) {
       fastest = i;
       raced_ = pace;
     }
   }
   race_work_ = work;
-  work_before_race_ = kWorkPerRace * work;
+  races_from_ = work_ + kWorkPerRace * work;
   change(fastest);
 }
 

@@ -5,18 +5,13 @@
 // (step * k_d μ without air, with the largest spring mode μ of the chain), the motion is stiff. The
 // stabilised series of order 8 then replaces the plain series of order 8, as it needs no more work.
 // Later, the methods race: the plain series, the stabilised series of order 4 and 8 and, for light
-// particles, Radau-9. Each candidate takes a few steps from the same state. The one that covers the
-// most time per work wins, where work is measured in force evaluations of Taylor-8. The work of an
-// evaluation is a constant for each method and no clock is read, so the choice and the bits are the
-// same on every machine. A method is constructed when it is first used.
+// particles or stiff springs, Radau-9. Each takes a few steps from the same state. The one that
+// covers the most time per work wins, where work is measured in force evaluations of Taylor-8. The
+// work of an evaluation is a constant for each method and no clock is read, so the choice and the
+// bits are the same on every machine. A method is constructed when it is first used.
 //
-// Races take a few percent of the work. A candidate must be faster by a fifth to win, so that two
-// equally good methods do not alternate. Races continue while a stiff method is active, so Auto
-// returns to the plain series when the motion is no longer stiff. Where damping is so fast that explicit
-// methods are unstable even with the shortest step, Radau-9 is the only candidate.
-//
-// A stepper for a million particles needs about a gigabyte of memory. For long chains, only the
-// active method and one candidate exist at a time.
+// Races take a few percent of the work. They continue while a stiff method is active, so Auto
+// returns to the plain series when the motion is no longer stiff.
 //
 // Idea: L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010.
 #pragma once
@@ -51,7 +46,6 @@ class AutoStepper final : public DenseOutputStepper {
   /// "Taylor-8 for 40 steps, Stabilized-Taylor-8 for 46 steps, 1 switch"
   std::string report() const override;
 
-  /// Name of the active method.
   std::string_view method() const { return active().name; }
 
  private:
@@ -62,6 +56,8 @@ class AutoStepper final : public DenseOutputStepper {
     std::unique_ptr<DenseOutputStepper> stepper{};  ///< constructed when used
     std::int64_t steps = 0;                         ///< accepted while it was active
     std::int64_t earlier = 0;                       ///< evaluations of released steppers
+    double races_from = 0.0;  ///< least `work_` for a race; 0: takes part in each
+    int warming_up = 6;       ///< steps in a race that find its step size
   };
   /// Simulated time and the work spent on it.
   struct Pace {
@@ -98,8 +94,9 @@ class AutoStepper final : public DenseOutputStepper {
   Pace recent_;  ///< latest pace of the active method
   Pace raced_;   ///< pace with which it won the last race
   std::int64_t recent_steps_ = 0;
-  double race_work_ = 0.0;         ///< of the last race
-  double work_before_race_ = 0.0;  ///< until the next race
+  double race_work_ = 0.0;   ///< of the last race
+  double work_ = 0.0;        ///< since the start, without races
+  double races_from_ = 0.0;  ///< least `work_` for the next race
   int switches_ = 0;
   double last_step_ = 0.0;
   State state_;
