@@ -112,7 +112,7 @@ std::deque<Method> builtInMethods() {
        "E. Hairer, G. Wanner, J. Comput. Appl. Math. 111 (1999) 93-111, "
        "doi:10.1016/S0377-0427(99)00134-X",
        "implicit, with the spring tensions as unknowns: for very light particles (k_d/m beyond "
-       "1e4/s), down to 1e-9 kg",
+       "1e4/s), down to 1e-9 kg, or stiff springs whose vibrations are below the tolerance",
        nullptr, makeErrorControlled<RadauStepper>, false, 1190},
       {"Auto", 8, 8, StepControl::kErrorControlled, kUnlimited, kUnlimited,
        "L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, doi:10.1137/0904010",
