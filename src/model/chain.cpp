@@ -67,8 +67,8 @@ Chain Chain::drivenBy(Drive drive) const {
     requireEntry(size, particle, "force", force);
     if (chain.isHeld(particle))
       throw InputError(fmt::format("particle {} is held: a force would not move it", particle + 1));
-    x[particle] += force.x * inverse_masses_[particle];
-    y[particle] += force.y * inverse_masses_[particle];
+    x[particle] += force.x * chain.inverse_masses_[particle];
+    y[particle] += force.y * chain.inverse_masses_[particle];
   }
   chain.drive_ = std::move(drive);
   return chain;

@@ -182,19 +182,19 @@ TEST(DrivenRun, HasTheOrderOfItsMethod) {
 TEST(DrivenRun, IsTheSameInOneCallOrInMany) {
   const Scene scene = slackCable(7, 1.0);
   const Drive drive{{{0, {0.3, -0.2}}, {4, {0.1, 0.5}}}, {{2, {1.0, 0.0}}}};
+  const Chain chain = scene.chain.drivenBy({{{2, {}}}, {}}).drivenBy(drive);  // lets P_3 go again
   for (const Method& method : methodTable()) {
     State one = scene.start, many = scene.start;
     one.vx()[4] = many.vx()[4] = 0.7;
     one.vy()[0] = many.vy()[0] = -0.4;
-    const auto a = makeIntegrator(method, scene.chain.drivenBy(drive));
+    const auto a = makeIntegrator(method, chain);
     const auto b = makeIntegrator(method, scene.chain.drivenBy(drive));
     a->advance(one, 0.01, 50);
     for (int i = 0; i < 10; ++i) b->advance(many, 0.01, 5);
     EXPECT_EQ(one.values(), many.values()) << method.name;
     EXPECT_EQ(a->suppliedEnergy(), b->suppliedEnergy()) << method.name;
     // The prescribed motion is exact for every method.
-    EXPECT_NEAR(one.x()[4], scene.start.x()[4] + 0.7 * 0.5 + 0.5 * 0.1 * 0.25, 1e-15)
-        << method.name;
+    EXPECT_NEAR(one.x()[4], scene.start.x()[4] + 0.7 * 0.5 + 0.0125, 1e-15) << method.name;
     EXPECT_NEAR(one.y()[0], -0.4 * 0.5 - 0.5 * 0.2 * 0.25, 1e-15) << method.name;
     EXPECT_NEAR(one.vy()[0], -0.4 - 0.2 * 0.5, 1e-15) << method.name;
   }
