@@ -100,6 +100,7 @@ void recordRun(Run& run, Replay* replay, BagRecorder& recorder, RunFiles& files)
   for (bool goes_on = true; goes_on;) {
     const bool was_shown = run.isShown();
     goes_on = run.advancePart();
+    if (goes_on && !run.isFinite() && !run.isAtFrame()) goes_on = run.advance();  // as the node
     if (goes_on || (was_shown && !run.isShown())) recorder.write(run);
     if (goes_on) files.write(run);
     if (replay == nullptr || run.wasStopped()) continue;

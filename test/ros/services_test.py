@@ -246,13 +246,13 @@ class States(NodeTest):
     def test_refuses_what_is_no_state(self):
         with Folder() as folder, self.play(folder):
             self.state.wait_for(3)
-            other = write(folder + '/other.txt', '# state of 11 particles at frame 0, t = 0 s\n' +
-                          ''.join('%d 0 2 0 0\n' % i for i in range(11)))
+            other, endless = (write('%s/%d.txt' % (folder, mass), '# state of 11 particles at frame 0, t = 0 s\n' +
+                                    ''.join('%d 0 %d %g 0\n' % (i, mass, 1e170 * i) for i in range(11))) for mass in (2, 1))
             for path, says in (('nothing.txt', 'nothing.txt'), (HORIZONTAL, 'must be'), (folder, folder),
-                               (other, 'masses differ')):
+                               (other, 'masses differ'), (endless, 'exceeds the range')):
                 self.assertIn(says, self.call('load_state', path, success=False))
-            for path, says in (('/proc/nowhere/state.txt', 'could not be'), (folder, 'is a folder'),
-                               (os.path.dirname(HORIZONTAL), 'is a folder'), (HORIZONTAL, 'is an input'),
+            self.assertEqual([m.frame for m in self.state.messages], sorted(m.frame for m in self.state.messages))
+            for path, says in (('/proc/nowhere/state.txt', 'could not be'), (folder, 'is a folder'), (HORIZONTAL, 'is an input'),
                                (write(folder + '/scene.txt', '\n0 0 1\n'), 'is not a state')):
                 message = self.call('save_state', path, success=False)
                 self.assertIn(path.replace('/state.txt', ''), message)

@@ -53,8 +53,8 @@ void Node::record(PendulumInput input) {
   input.header.stamp = input_stamps_.next(input.time);
   input.header.frame_id = options_.frame_id;
   inputs_.publish(input);
+  if (sent_.size() < kMostInputs && sent_bytes_ < kMostBytes) sent_.push_back(input);
   sent_bytes_ += ros::serialization::serializationLength(input);
-  if (sent_.size() < kMostInputs && sent_bytes_ < kMostBytes) sent_.push_back(std::move(input));
 }
 
 int Node::spin() {

@@ -4,6 +4,7 @@
 #include "io/files/touched_files.hpp"
 #include "io/formats/state_file.hpp"
 #include "ros/node/node.hpp"
+#include "simulation/judge.hpp"
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/ApplyForce.h>
 #include <spring_pendulum/Set.h>
@@ -105,11 +106,9 @@ std::string Node::on(const Pause& request) {
   if (run_.isOver()) throw InputError(overMessage(run_));
   const std::int64_t missing = !is_new ? steps_wanted_ : paused && !run_.isAtFrame() ? 1 : 0;
   const std::int64_t frame = run_.frame() + missing;
+  const char* const now = !paused ? "running" : missing > 0 ? "pausing" : "paused";
   std::string sentence = fmt::format("{}{} at frame {}, t = {:.6g} s", is_new ? "" : "already ",
-                                     !paused       ? "running"
-                                     : missing > 0 ? "pausing"
-                                                   : "paused",
-                                     frame, run_.plan().timeOfFrame(frame));
+                                     now, frame, run_.plan().timeOfFrame(frame));
   if (!is_new) return sentence;
   steps_wanted_ = missing;
   paused_ = paused;
@@ -149,10 +148,10 @@ std::string Node::on(const LoadState& request) {
   scenario.particles = fullPath(request.file.empty() ? kDefaultStateFile : request.file);
   const Scene loaded = readStateFile(scenario);
   if (loaded.masses.size() != run_.chain().size() || loaded.masses.view() != run_.chain().masses())
-    throw InputError(
-        fmt::format("{}: is the state of another chain: the masses differ", scenario.particles));
+    throw InputError(scenario.particles + ": is the state of another chain: the masses differ");
   if (!scenario.method.get().hasFixedStep())
     checkTolerance(scenario.tolerance, run_.chain(), loaded.state);
+  static_cast<void>(Judge(run_.chain(), loaded.state, {}));  // refuses an infinite energy
   goTo(&loaded);
   return fmt::format("to frame {} of {}", loaded.frame, scenario.particles);
 }
