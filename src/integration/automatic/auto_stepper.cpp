@@ -30,6 +30,7 @@ constexpr double kStiffFrom = 0.25;
 constexpr int kLeastSteps = 16;
 /// Steps of a candidate in a race that measure its pace, after `Candidate::warming_up` others.
 constexpr int kCounted = 6;
+constexpr Eigen::Index kMostWarmingUp = 100'000;  // particles times steps: a race of up to 0.2 s
 /// Work between two races, in units of the work of a race. Without fast damping, Radau-9 wins only after
 /// its numerical damping has ended the vibrations: there, it has its own interval, and its races grow.
 constexpr double kWorkPerRace = 25.0;
@@ -190,7 +191,7 @@ void AutoStepper::race() {
     if (wins || candidate.races_from == 0.0) work += cost;
     if (candidate.races_from > 0.0) {
       candidate.races_from = work_ + kWorkPerRace * cost;
-      candidate.warming_up *= 2;
+      if (candidate.warming_up * chain_.size() < kMostWarmingUp) candidate.warming_up *= 2;
     }
     if (wins) {
       fastest = i;

@@ -76,9 +76,8 @@ Eigen::Index beginOfFreeFall(const StateBuffer& state, Eigen::Index size, double
 double longestAccurateStep(const LastCoefficients& last, std::ptrdiff_t order,
                            double allowed_rate) {
   const auto& size = last.size;
-  for (const double value : size) {
+  for (const double value : size)
     if (!std::isfinite(value)) return 0.0;
-  }
   const double squares[] = {squaredGrowth(size[0], size[2]), squaredGrowth(size[1], size[3])};
   const double square = std::max(squares[0], squares[1]);
   const double growth = square > 0.0 ? std::sqrt(square) : kUnknownGrowth;
