@@ -30,7 +30,7 @@ constexpr double kStiffFrom = 0.25;
 constexpr int kLeastSteps = 16;
 /// Steps of a candidate in a race that measure its pace, after `Candidate::warming_up` others.
 constexpr int kCounted = 6;
-constexpr Eigen::Index kMostWarmingUp = 100'000;  // particles times steps: a race of up to 0.2 s
+constexpr Eigen::Index kMostWarmingUp = 20'000;  // particles times steps: a race of up to 0.05 s
 /// Work between two races, in units of the work of a race. Without fast damping, Radau-9 wins only after
 /// its numerical damping has ended the vibrations: there, it has its own interval, and its races grow.
 constexpr double kWorkPerRace = 25.0;
