@@ -72,7 +72,10 @@ void DenseOutputIntegrator::takeStep() {
   shortest_steps_ = step_length_ > kShortestStep ? 0 : shortest_steps_ + 1;
   diverged_ = !(step_length_ > 0.0) || shortest_steps_ > kMostShortestSteps;
   step_begin_ = step_end_;
-  step_end_ = step_begin_ + step_length_;
+  // Compensated: the rounding errors of equal steps add up.
+  lost_time_ += step_length_;
+  step_end_ = step_begin_ + lost_time_;
+  lost_time_ -= step_end_ - step_begin_;
 }
 
 void DenseOutputIntegrator::integrate(State& state, double time_step, std::int64_t steps) {
@@ -90,7 +93,7 @@ std::int64_t DenseOutputIntegrator::integrateWithin(State& state, double time_st
     shortest_steps_ = 0;
     output_origin_ = 0.0;
     outputs_ = 0;
-    step_begin_ = step_length_ = step_end_ = 0.0;
+    step_begin_ = step_length_ = step_end_ = lost_time_ = 0.0;
   } else if (time_step != output_step_) {
     output_origin_ += static_cast<double>(outputs_) * output_step_;
     outputs_ = 0;

@@ -71,6 +71,7 @@ class DenseOutputIntegrator final : public Integrator {
   double step_begin_ = 0.0;     ///< s since the start
   double step_length_ = 0.0;    ///< s
   double step_end_ = 0.0;       ///< s since the start
+  double lost_time_ = 0.0;      ///< s that rounding has cut from `step_end_`
   Energies before_step_;
   Energies in_step_;  ///< up to the last output time
 };

@@ -133,10 +133,7 @@ double TaylorStepper::step() {
     const bool shortest = h <= kShortestStep;
     terms_ = shortest ? 1 : expansion_.work.order;
     sumAt(h, end_);
-    const auto middle = [&]() -> const StateBuffer& {
-      sumAt(0.5 * h, inside_);
-      return inside_;
-    };
+    const auto middle = [&]() -> const StateBuffer& { return sumAt(0.5 * h, inside_); };
     if (shortest || !springsChangeMuch(kernels_, expansion_.work, h, begin_, end_, middle)) break;
   }
   ++statistics_.accepted;
@@ -144,27 +141,26 @@ double TaylorStepper::step() {
   return h;
 }
 
-void TaylorStepper::sumAt(double time, StateBuffer& out) const {
+const StateBuffer& TaylorStepper::sumAt(double time, StateBuffer& out) const {
   kernels_.taylorState(expansion_.work, begin_.data(), begin_.data(), taylorWeights(terms_, time),
                        out.data());
   const Eigen::Index falling = chain_.size() - expansion_.work.chain.size;
-  if (falling == 0) return;
+  if (falling == 0) return out;
   // The arithmetic of the kernel for a free fall, where only the first coefficient is not zero. All
   // these particles fall at the same speed.
-  const double speed = time * -chain_.gravity();
   const double drop = time * time / 2.0 * -chain_.gravity();
   const auto from = begin_.values().bottomRows(falling);
   auto to = out.values().bottomRows(falling);
   to.col(0) = from.col(0);
   to.col(1).array() = from.col(1).array() + fused(time, from(0, 3), drop);
   to.col(2) = from.col(2);
-  to.col(3).array() = from.col(3).array() + speed;
+  to.col(3).array() = from.col(3).array() + time * -chain_.gravity();
+  return out;
 }
 
 const StateBuffer& TaylorStepper::stateAt(double fraction) const {
   if (fraction >= 1.0) return end_;
-  sumAt(fraction * statistics_.last_step, inside_);
-  return inside_;
+  return sumAt(fraction * statistics_.last_step, inside_);
 }
 
 }  // namespace spring_pendulum

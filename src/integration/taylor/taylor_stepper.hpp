@@ -65,7 +65,7 @@ class TaylorStepper final : public DenseOutputStepper {
   /// information travels as many springs as the series has coefficients. Changes no bit.
   void skipFreeEnd();
   /// Computes the state `time` s after `begin_`.
-  void sumAt(double time, StateBuffer& out) const;
+  const StateBuffer& sumAt(double time, StateBuffer& out) const;
 
   Chain chain_;
   double allowed_rate_;  ///< allowed growth rate of the velocity error, m/s²
