@@ -182,7 +182,7 @@ void defineIntegrator(py::module_& module) {
         IntegratorOptions{tolerance.value_or(IntegratorOptions().tolerance), track_dissipation,
                           threads});
   };
-  py::class_<PythonIntegrator>(module, "Integrator", "Advances states of one chain.")
+  py::class_<PythonIntegrator>(module, "Integrator", "Advances a state; restart() before another.")
       .def("advance", &PythonIntegrator::advance, "state"_a, "time_step"_a, "steps"_a)
       .def("restart", &PythonIntegrator::restart)
       .def_property_readonly("method", [](const PythonIntegrator& i) { return i.method().name; })

@@ -134,8 +134,9 @@ bool Run::advanceTo(std::int64_t part) {
   }
   if (isOver()) return false;
   const std::int64_t steps = stepOfPart(part) - stepOfPart(part_);
-  stopped_ = !integrate(steps) || !advanceReference(steps);
-  if (stopped_) return false;
+  stopped_ = true;  // also if `stop` throws
+  if (!integrate(steps) || !advanceReference(steps)) return false;
+  stopped_ = false;
   part_ = part % parts_;
   dissipated_ = dissipated_before_ + integrator_->dissipatedEnergy();
   supplied_ = supplied_before_ + integrator_->suppliedEnergy();

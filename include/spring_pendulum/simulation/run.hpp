@@ -31,11 +31,10 @@ class ReferenceRun;
 struct RunOptions {
   /// Integrate the dissipated energy even if that takes more than about 50 ms and 10 % of the run.
   bool track_dissipation = false;
-  /// Simulated time in s between the states at which `advancePart` stops; 0: only at frames. A frame
-  /// of n steps is divided into parts of whole steps, or into 2^q output intervals of an
-  /// error-controlled method. Neither changes a bit of the frames.
+  /// Simulated time in s between the states of `advancePart`; 0: only at frames. The parts of a frame are
+  /// whole steps, or 2^q output intervals of an error-controlled method. No bit of the frames changes.
   double display_interval = 0.0;
-  /// Asked about every 20 ms of computing time; when it returns true, the run stops inside the frame.
+  /// Asked every 20 ms of computing: true, or an exception, ends the run inside the frame. Must not change the run.
   std::function<bool()> stop = {};
   /// Measure `Run::seconds`. Reading the clock takes some 3 % of a run of ten particles.
   bool measure_seconds = true;
