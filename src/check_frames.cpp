@@ -70,20 +70,20 @@ int checkAll(const Scenario& scenario, bool method_is_given,
   std::size_t width = 0, worst = 0;
   for (const std::string& folder : folders) width = std::max(width, folder.size());
   for (const std::string& folder : folders) {
-    std::string text;
+    std::string row;
     std::size_t severity = 3;
     try {
       const FrameCheck result = checkFrames(scenario, particles, readFrameFolder(folder),
                                             method_is_given, [] { return interruption() != 0; });
       severity = static_cast<std::size_t>(result.verdict);
-      text = fmt::format("{}", fmt::join(result.lines, is_table ? "; " : "\n"));
+      row = fmt::format("{}", fmt::join(result.lines, is_table ? "; " : "\n"));
     } catch (const FileError& error) {
       if (interruption() != 0) printError(fmt::format("{}: {}\n", folder, error.what()));
       if (interruption() != 0) break;
       if (!is_table) throw;
-      text = fmt::format("unreadable: {}", error.what());
+      row = fmt::format("unreadable: {}", error.what());
     }
-    printOutput(is_table ? fmt::format("{:<{}}  {}\n", folder, width, text) : text + "\n");
+    printOutput((is_table ? onOneLine(fmt::format("{:<{}}  {}", folder, width, row)) : row) + '\n');
     flushOutput();
     worst = std::max(worst, severity);
   }

@@ -354,13 +354,14 @@ def misuse_is_refused(lab):
     file = lab.folder / 'Heun'  # the name of a method
     file.write_text('1\n1/2 1/2\n')
     cases = [(('--tableau', file, '--tolerance', '1e-3'), 2, '--tolerance: tableau Heun takes fixed steps', None),
-             (('--frames', '4', '--frames', '5'), 2, '--frames: is given twice', None),
-             (('--tableau', file, '--frames', '1'), 0, '', None), (('--frames', '1'), 0, '', 'report.txt'),
+             (('--frames', '4', '--frames', '5'), 2, '--frames: is given twice', None), (('--frames', '1'), 0, '', 'report.txt'),
+             (('--tableau', file, '--frames', '1'), 0, '', None), (('--frames', '1', 'a\nb  equal'), 1, '', None),
              *((('--frames', '1'), 2, 'standard output: is an input of this run', name) for name in ('frame_0.txt', 'link'))]
     for options, status, message, report in cases:
         process = start_with_frames(lab, ['frame_0.txt'], *options, report=report)
-        errors = process.communicate()[1]
-        if process.returncode != status or not errors.startswith(message) or errors.count('\n') != (status != 0):
+        rows, errors = process.communicate()
+        if (process.returncode != status or not errors.startswith(message) or errors.count('\n') != bool(message)
+                or (rows or '').count('\n') > 2):
             print('misuse:', options, process.returncode, errors)
             return False
     return True

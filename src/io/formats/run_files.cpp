@@ -52,9 +52,8 @@ std::string energyRow(std::int64_t frame, const EnergyEntry& entry, double posit
 }  // namespace
 
 Scene readScene(const Scenario& scenario, std::string_view argument) {
-  namespace fs = std::filesystem;
   std::error_code error;  // other errors are left to the reader
-  const bool is_missing = fs::status(scenario.particles, error).type() == fs::file_type::not_found;
+  const bool is_missing = !std::filesystem::exists(scenario.particles, error) && !error;
   if (is_missing && scenario.particles == Scenario{}.particles)
     throw FileError(fmt::format("{}: no such file; give a particle file with {}",
                                 fullPath(scenario.particles), argument));

@@ -24,19 +24,19 @@ namespace {
 constexpr double kOutOfPlane = 1e-3;       // m
 constexpr double kUnknownInterval = 1e-3;  // s
 
-/// Returns the force that the sensor of a gripper would feel, N: springs, weight and inertia; of P_1 no mass.
+/// Returns the force that the sensor of a gripper would feel, N: springs, weight, inertia and air; of P_1 the spring.
 PlaneVector<double> forceOnHolder(const Run& run, std::ptrdiff_t particle) {
   const Chain& chain = run.chain();
   PlaneVector<double> force{};
   if (particle + 1 < chain.size()) force = springForceOn(chain, run.state(), particle);
   if (particle == 0) return force;
   const PlaneVector<double> above = springForceOn(chain, run.state(), particle - 1);
-  PlaneVector<double> acceleration{};
+  PlaneVector<double> a{};
   for (const HeldParticle& held : chain.drive().held)
-    if (held.particle == particle) acceleration = held.acceleration;
-  const double mass = chain.masses()[particle];
-  return {force.x - above.x - mass * acceleration.x,
-          force.y - above.y - mass * (chain.gravity() + acceleration.y)};
+    if (held.particle == particle) a = held.acceleration;
+  const double mass = chain.masses()[particle], air = chain.airDrag();
+  return {force.x - above.x - mass * a.x - air * run.state().vx()[particle],
+          force.y - above.y - mass * (chain.gravity() + a.y) - air * run.state().vy()[particle]};
 }
 
 }  // namespace
