@@ -140,13 +140,13 @@ py::dict simulate(const py::object& particles, const py::dict& options) {
     }
   }
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();
-  return py::dict("states"_a = states[py::slice(0, count, 1)],
+  return py::dict("states"_a = states[py::slice(0, count, 1)], "seconds"_a = run.seconds(),
                   "numbers"_a = numbers[py::make_tuple(py::ellipsis(), py::slice(0, count, 1))],
                   "chain"_a = run.chain(), "method"_a = scenario.method.get().name,
                   "verdict"_a = tupleOf(run.verdict()), "warnings"_a = warnings,
-                  "seconds"_a = run.seconds(),
                   "force_evaluations"_a = run.integrator().forceEvaluations(),
-                  "closing_line"_a = run.closingLine(output.closingText()));
+                  "closing_line"_a = py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefault(
+                      run.closingLine(output.closingText()).c_str())));  // has the path
 }
 
 py::tuple check(const py::object& particles, const py::dict& options) {

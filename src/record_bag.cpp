@@ -141,13 +141,12 @@ std::string recordBag(Run& run, const Scenario& scenario, Replay* replay,
   // "/euler/" for "euler" or "/euler/", "/" for empty text.
   BagRecorder recorder(*bag, run, options,
                        std::regex_replace("/" + to.name_space + "/", std::regex("//+"), "/"));
-  // What can refuse the options is done: these remove files of earlier runs.
   TouchedFiles touched = touchedFiles(scenario, to.config);
   touched.inputs.push_back(to.inputs);
   touched.outputs.push_back(to.path);
   checkTouchedFiles(touched);
   OutputFile file(to.path);
-  RunFiles files(run, scenario, to.config);
+  std::optional<RunFiles> files;
   std::int64_t messages = 0;
   bool has_earlier = false;
   try {
@@ -155,8 +154,9 @@ std::string recordBag(Run& run, const Scenario& scenario, Replay* replay,
     errno = 0;
     bag->open(file.unfinishedPath(),
               has_earlier ? rosbag::bagmode::Append : rosbag::bagmode::Write);
+    files.emplace(run, scenario, to.config);  // last: removes the frames of earlier runs
     started();
-    recordRun(run, replay, recorder, files);
+    recordRun(run, replay, recorder, *files);
     bag->close();
     messages = recorder.count();
   } catch (const rosbag::BagException& error) {
@@ -174,7 +174,7 @@ std::string recordBag(Run& run, const Scenario& scenario, Replay* replay,
   std::string output =
       fmt::format(", {}, {} bytes in {}", counted(messages, "message"), file.size(), file.path());
   file.finish();
-  files.finish();
+  files->finish();
   return output;
 }
 

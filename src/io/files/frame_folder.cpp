@@ -69,11 +69,11 @@ std::int64_t removeFrames(const OutputFolder& folder, std::int64_t first) {
     if (!isFrameName(name) || index.value_or(first) < first) continue;
     struct stat status {};
     if (::fstatat(folder.descriptor(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 ||
-        !S_ISREG(status.st_mode)) {
+        !S_ISREG(status.st_mode))
       refuse(folder.path() + "/" + name,
              "has the name of a frame file but is not a regular file; remove it");
-    }
-    earlier.push_back(name);
+    // Those of other users first: if one cannot be removed, none is.
+    earlier.insert(status.st_uid == ::geteuid() ? earlier.end() : earlier.begin(), name);
     count += index ? 1 : 0;
   }
   for (const std::string& name : earlier) {
