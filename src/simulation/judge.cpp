@@ -209,8 +209,8 @@ Eigen::Array2d Judge::oscillationOf(const State& state) const {
   }
   double work = 0.0;  // of the trapezoidal rule for the work of accelerated holders
   for (const auto& [i, a] : chain_.drive().held) work += a.x * forces(i, 0) + a.y * forces(i, 1);
-  forces.col(1) -= chain_.gravity() * chain_.masses().array();
   const Eigen::ArrayXd inverse = chain_.inverseMasses();
+  forces.col(1) -= (inverse > 0.0).select(chain_.gravity() * chain_.masses().array(), 0.0);
   double first = 0.125 * (forces.square().rowwise().sum() * inverse).sum() * h * h;
   if (options_.symplectic_order == 1) {
     const auto power = forces * state.velocities().array();
