@@ -35,8 +35,6 @@ int runCommandLine(int argc, const char* const* argv) {
   Scenario scenario;
   OptionSet options(scenarioOptions(scenario));
   const Switches switches = parseCommandLine(argc, argv, program, options, scenario);
-  if (options.placeOf("output") == "--output")  // wins over a configuration file
-    scenario.no_frames = options.placeOf("no_frames") == "--no-frames";
   if (switches.answer.empty()) return simulate(scenario, switches);
   printOutput(switches.answer);
   return kDone;
