@@ -30,7 +30,7 @@ class RunFiles {
 
   /// Writes the current frame of a run unless it has been written before or must not be shown. Notes
   /// the state in any case.
-  /// \throws FileError naming the file, which later calls do not complete
+  /// \throws FileError naming the file; later calls do not write again what is missing
   void write(const Run& run);
 
   /// Completes the files, as `write` does at the last frame. No write after this.

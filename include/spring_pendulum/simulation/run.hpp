@@ -34,7 +34,7 @@ struct RunOptions {
   /// Simulated time in s between the states of `advancePart`; 0: only at frames. The parts of a frame are
   /// whole steps, or 2^q output intervals of an error-controlled method. No bit of the frames changes.
   double display_interval = 0.0;
-  /// Asked every 20 ms of computing: true, or an exception, ends the run inside the frame. Must not change the run.
+  /// Asked every 20 ms of computing. If it returns true or throws, the run ends here. It must not change the run.
   std::function<bool()> stop = {};
   /// Measure `Run::seconds`. Reading the clock takes some 3 % of a run of ten particles.
   bool measure_seconds = true;
