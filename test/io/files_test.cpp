@@ -4,6 +4,7 @@
 #include "simulation/options/scenario_options.hpp"
 #include <spring_pendulum/base/errors.hpp>
 #include <spring_pendulum/io/particle_file.hpp>
+#include <spring_pendulum/io/run_files.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,9 +51,7 @@ TEST(OutputFile, IsCompleteHoweverManyRunsWriteIt) {
 
 TEST(TextFile, IsReadToItsEndThoughItsSizeIsNotTold) {
   const std::string path = "/proc/version";  // whose size is reported as 0 bytes
-  const std::string text = readTextFile(path);
-  EXPECT_EQ(text, readFile(path));
-  EXPECT_GT(text.size(), 20U);
+  EXPECT_EQ(readTextFile(path), readFile(path));
 }
 
 TEST(TextFile, LosesItsByteOrderMarkAndNothingElse) {
@@ -64,8 +63,6 @@ TEST(TextFile, LosesItsByteOrderMarkAndNothingElse) {
 }
 
 TEST(FrameWriter, NamesGrowAboveFourDigits) {
-  EXPECT_EQ(frameName(0), "frame_0000.txt");
-  EXPECT_EQ(frameName(42), "frame_0042.txt");
   EXPECT_EQ(frameName(9999), "frame_9999.txt");
   EXPECT_EQ(frameName(10000), "frame_10000.txt");
 }
@@ -118,18 +115,23 @@ TEST_P(FrameWriterThread, WritesFramesInOrder) {
 TEST_P(FrameWriterThread, FailedFrameIsNamedAndNothingIsWrittenAfterIt) {
   for (const int failed : {2, kFrames - 1}) {
     const TemporaryFolder folder;
-    FrameWriter writer(folder.path());
+    Scenario scenario;
+    scenario.output = folder.path();
+    scenario.frames = kFrames;
+    spring_pendulum::Run run({Eigen::VectorXd::Ones(GetParam()), frame(1)}, scenario);
+    RunFiles files(run, scenario);
     std::filesystem::create_directory(folder.path(frameName(failed)));
     std::string message;
     try {
-      for (int i = 0; i < kFrames; ++i) writer.write(i, frame(i));
-      writer.finish();
+      while (run.advance()) files.write(run);  // the last frame also finishes the files
     } catch (const FileError& error) {
       message = error.what();
     }
+    EXPECT_THROW(files.finish(), FileError);
+    EXPECT_THROW(files.write(run), FileError);
     EXPECT_THAT(message, testing::HasSubstr(folder.path(frameName(failed))));
-    EXPECT_TRUE(std::filesystem::exists(folder.path(frameName(failed - 1))));
-    EXPECT_FALSE(std::filesystem::exists(folder.path(frameName(failed + 1))));
+    for (const int other : {failed - 1, failed + 1})
+      EXPECT_EQ(std::filesystem::exists(folder.path(frameName(other))), other < failed);
   }
 }
 
@@ -149,8 +151,7 @@ class DecimalComma : public testing::Test {
 
 TEST_F(DecimalComma, DoesNotChangeWhatIsReadAndWritten) {
   const TemporaryFolder folder;
-  const Scene particles =
-      readParticleFile(folder.write("particle.txt", "0.5 0 1\n1234.25 0.5 1\n"));
+  const Scene particles = readParticleFile(folder.write("p.txt", "0.5 0 1\n1234.25 0.5 1\n"));
   EXPECT_EQ(particles.state.x()[1], 1234.25);
   FrameWriter(folder.path()).write(0, particles.state);
   EXPECT_EQ(readFile(folder.path("frame_0000.txt")), "0.5 0\n1234.25 0.5\n");

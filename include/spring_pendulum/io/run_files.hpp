@@ -20,6 +20,7 @@ Scene readScene(const Scenario& scenario, std::string_view argument = "--particl
 
 /// Writes frames, energy balance and last state, as far as the scenario asks for them: no frames with
 /// `no_frames` or an empty `output`. Writes every frame once, as a run that is reset repeats its frames.
+/// Not for use in a process that was forked meanwhile.
 class RunFiles {
  public:
   /// Checks that no name has two uses, opens the files and removes the frames of an earlier run.
@@ -30,7 +31,7 @@ class RunFiles {
 
   /// Writes the current frame of a run unless it has been written before or must not be shown. Notes
   /// the state in any case.
-  /// \throws FileError naming the file; later calls do not write again what is missing
+  /// \throws FileError naming the file; all later calls of `write` and `finish` throw, too
   void write(const Run& run);
 
   /// Completes the files, as `write` does at the last frame. No write after this.

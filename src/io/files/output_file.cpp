@@ -48,12 +48,10 @@ OutputFolder::OutputFolder(const std::string& path) : given_path_(path), path_(f
   fs::create_directories(path, error);
   // For a link that leads nowhere, older standard libraries report that it is not a folder.
   const bool leads_nowhere = fs::is_symlink(path, ignored) && !fs::exists(path, ignored);
-  if (error == std::errc::file_exists || (error && leads_nowhere)) {
+  if (error == std::errc::file_exists || (error && leads_nowhere))
     throw FileError(path_ + ": could not be created: it is a link to a folder that does not exist");
-  }
-  if (error == std::errc::not_a_directory) {
+  if (error == std::errc::not_a_directory)
     throw FileError(path_ + ": could not be created: it is a file or lies in one; give a folder");
-  }
   if (error) throw FileError(fmt::format("{}: could not be created: {}", path_, error.message()));
   descriptor_ = FileDescriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (descriptor_.isOpen()) return;
@@ -93,9 +91,8 @@ void AtomicFile::open(int flags) {
 }
 
 bool AtomicFile::takeLock() {
-  if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)  // not: has no locks
     refuse("another run is writing here; use a different path for each run");
-  }  // a file system without locks is not an error
   struct stat opened {};
   struct stat by_name {};
   if (::fstat(file_.get(), &opened) != 0) refuseForErrno();
@@ -127,9 +124,8 @@ void AtomicFile::finish() {
   FileDescriptor copy(::fcntl(file_.get(), F_DUPFD_CLOEXEC, 0));
   const int folder = folder_.descriptor();
   if (!copy.isOpen() || !copy.close() ||
-      ::renameat(folder, hidden_.c_str(), folder, name_.c_str()) != 0) {
+      ::renameat(folder, hidden_.c_str(), folder, name_.c_str()) != 0)
     refuseForErrno();
-  }
   file_.close();
 }
 
@@ -174,9 +170,8 @@ void OutputFile::flush() {
 bool OutputFile::copyEarlier() {
   std::error_code error;
   fs::copy_file(target_, unfinishedPath(), fs::copy_options::overwrite_existing, error);
-  if (error && error != std::errc::no_such_file_or_directory) {
+  if (error && error != std::errc::no_such_file_or_directory)
     file_.refuse("could not be copied: " + error.message());
-  }
   return !error;
 }
 

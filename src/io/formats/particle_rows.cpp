@@ -95,10 +95,9 @@ class RowParser {
 
   void checkColumns(std::size_t columns) const {
     const bool with_velocity = columns == kColumnsWithVelocity;
-    if (columns != kColumns && !with_velocity) {
+    if (columns != kColumns && !with_velocity)
       refuse(counted(static_cast<std::int64_t>(columns), "number") +
              " in this line; a particle needs 3: x y m, or 5: x y m vx vy");
-    }
     if (numbers_.empty() || columns == columns_) return;
     refuse(fmt::format(
         "{} velocity, but the particle in line {} has {}; give vx vy for all particles or for none",

@@ -16,9 +16,12 @@
 #include <optional>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace spring_pendulum {
 namespace {
+
+constexpr const char* kIncomplete = "the output is incomplete: an earlier frame was not written";
 
 /// Begins the energy balance of a run as CSV: one row per frame. Every number is the shortest text that
 /// reads back as the same double; the position error is nan where it is not measured.
@@ -68,6 +71,7 @@ struct RunFiles::Files {
   std::optional<FrameWriter> frames;
   std::map<std::int64_t, std::int64_t> missing;  ///< first frame and end of what is not written
   bool finished = false;
+  bool is_complete = true;  ///< false while it writes, so for ever after an error
 
   /// Whether a frame is to be written; counts it as written.
   bool takes(std::int64_t frame) {
@@ -115,21 +119,24 @@ void RunFiles::write(const Run& run) {
     to.last.frame = frame;
     to.last_time = run.time();
   }
+  if (!std::exchange(to.is_complete, false)) throw FileError(kIncomplete);
   const bool is_new = to.takes(frame);
   if (is_new && to.frames) to.frames->write(frame, run.state());
   if (is_new && to.energy)
     to.energy->write(energyRow(frame, run.energyEntry(), run.positionError().now));
+  to.is_complete = true;
   if (run.isOver()) finish();  // of a node, which may go on after a reset
 }
 
 void RunFiles::finish() {
   if (files_->finished) return;
-  files_->finished = true;
+  if (!std::exchange(files_->is_complete, false)) throw FileError(kIncomplete);
   if (files_->energy) files_->energy->finish();
   const Scene& last = files_->last;
   if (last.masses.size() > 0)  // else no frame was reached
     writeState(*files_->state, last.masses.view(), last.state, last.frame, files_->last_time);
   if (files_->frames) files_->frames->finish();
+  files_->finished = true;
 }
 
 std::string RunFiles::description() const {
