@@ -68,7 +68,6 @@ double Judge::change(const Chain& chain, const State& before, const State& after
                      const JudgeOptions& options, double supplied, bool has_moved) {
   const double energy_before = energyOf(before).total();
   oscillation_ -= oscillationOf(before);
-  if (options.tolerance != options_.tolerance) sensitive_time_ = exceeded_time_ = 0.0;
   if (!changed_ || options.symplectic_order != options_.symplectic_order ||
       options.symplectic_step != options_.symplectic_step ||
       !(chain.constants() == chain_.constants())) {
@@ -114,7 +113,7 @@ void Judge::measureChain(const State& state, double energy, double time) {
   for (const double number : {energy, still_scale_, pulled_depth_, fall_})
     if (!std::isfinite(number))
       throw InputError(
-          "the initial energy exceeds the range of a double: masses, lengths, stiffness or "
+          "the initial energy exceeds the range of a double: masses, lengths, speeds, stiffness or "
           "gravity must be smaller");
 }
 
@@ -180,10 +179,15 @@ void Judge::measure(const State& state, const ReferenceRun* reference) {
   error.bound = std::fmax(error.bound, error.now + error.uncertainty);
   const double promise = kPromise * options_.tolerance;
   const bool unknown = error.uncertainty > promise;
-  if (promise > 0.0 && sensitive_time_ == 0.0 && (unknown || !(error.now <= promise))) {
-    const bool is_sensitive = unknown || reference->isSensitive();
-    if (is_sensitive) sensitive_time_ = entry_.time;
-    if (!is_sensitive && exceeded_time_ == 0.0) exceeded_time_ = entry_.time;
+  if (promise > 0.0 && sensitive_.empty() && (unknown || !(error.now <= promise))) {
+    if (unknown || reference->isSensitive())
+      sensitive_ = fmt::format(
+          "sensitive from t = {:.6g} s on: small errors grow so much that no method can promise a "
+          "tolerance of {:.3g} m",
+          entry_.time, options_.tolerance);
+    else if (exceeded_.empty())
+      exceeded_ = fmt::format(
+          "the position error exceeds ten times the tolerance from t = {:.6g} s on", entry_.time);
   }
   if (error.now <= error.largest) return;
   error.largest = error.now;
@@ -309,16 +313,7 @@ std::string Judge::measurements() const {
 }
 
 std::string Judge::toleranceRemark() const {
-  std::string text;
-  if (exceeded_time_ > 0.0)
-    text = fmt::format("the position error exceeds ten times the tolerance from t = {:.6g} s on",
-                       exceeded_time_);
-  if (sensitive_time_ > 0.0)
-    text += fmt::format(
-        "{}sensitive from t = {:.6g} s on: small errors grow so much that no method can "
-        "promise a tolerance of {:.3g} m",
-        text.empty() ? "" : "; ", sensitive_time_, options_.tolerance);
-  return text;
+  return exceeded_ + (exceeded_.empty() || sensitive_.empty() ? "" : "; ") + sensitive_;
 }
 
 }  // namespace spring_pendulum

@@ -109,9 +109,9 @@ class Judge {
   Eigen::Array<double, 6, 1> sums_ = Eigen::Array<double, 6, 1>::Zero();
   double dissipated_error_ = 0.0;  ///< J, when it was measured last
   double worst_residual_ = 0.0;    ///< largest relative residual of the energy balance
-  // Since when the error has exceeded ten tolerances, s; 0: never.
-  double exceeded_time_ = 0.0;   ///< where other methods keep the tolerance
-  double sensitive_time_ = 0.0;  ///< where none can promise it
+  // Remarks, empty as long as the error does not exceed ten tolerances.
+  std::string exceeded_;   ///< where other methods keep the tolerance
+  std::string sensitive_;  ///< where none can promise it
   EnergyEntry entry_;
   PositionError position_error_;
   Verdict latest_, worst_;

@@ -244,7 +244,9 @@ TEST(Run, SaysFromWhenOnItExceedsTheTolerance) {
                           test::straightLine(4, 1.0, 0.0)};
   Scenario scenario = scenarioOf("Auto");
   scenario.tolerance = 1e-3;
-  const test::ProgramRun run = runAfter(scenario, scene, 10.0);
+  test::ProgramRun run = runAfter(scenario, scene, 10.0);
+  scenario.tolerance = 1e-4;
+  run.change(scenario, scene.chain.constants(), {}, run.state());  // changes no earlier error
   EXPECT_THAT(run.toleranceRemark(), HasSubstr("exceeds ten times the tolerance from t = 7.2 s"));
 }
 
