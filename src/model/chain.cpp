@@ -33,10 +33,10 @@ Chain::Chain(AlignedNumbers masses, const Constants& constants)
   requirePositive("damping", constants.spring.damping, "N·s/m", true);
   requirePositive("rest_length", constants.spring.rest_length, "m", true);
   requirePositive("air_drag", constants.air_drag, "N·s/m", true);
-  if (!std::isfinite(constants.gravity)) {
+  if (!std::isfinite(constants.gravity))
     throw InputError(fmt::format("gravity must be a finite number in m/s², got {}",
                                  numberText(constants.gravity)));
-  }
+  if (!std::isfinite(masses_[0])) throw InputError("mass of particle 1 must be finite");
   for (std::ptrdiff_t i = 1; i < masses_.size(); ++i) {
     if (std::isfinite(masses_[i]) && masses_[i] > 0.0 && std::isfinite(1.0 / masses_[i])) continue;
     throw InputError(fmt::format("mass of particle {} must be above 0 kg and 1/mass finite, got {}",

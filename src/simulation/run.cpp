@@ -191,6 +191,7 @@ void Run::begin(std::int64_t frame, const State& state) {
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
                                    plan_.timeOfFrame(frame));
   state_ = state;  // before the old reference run ends, whose state it may be
+  if (!chain_.isDriven()) state_.velocities().row(0).setZero();  // P_1 is fixed
   if (plan_.reference != ReferenceUse::kNever)
     reference_ = std::make_unique<ReferenceRun>(chain_, state_, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);

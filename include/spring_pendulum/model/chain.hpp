@@ -48,7 +48,7 @@ inline bool operator==(const Constants& a, const Constants& b) {
 /// its mass is not used. Validated by the constructor, immutable afterwards.
 class Chain {
  public:
-  /// \param masses an Eigen vector of N masses in kg; all but the first finite and above 0.
+  /// \param masses an Eigen vector of N masses in kg; all finite, all but the first above 0.
   /// \throws InputError naming the value and its allowed range.
   Chain(AlignedNumbers masses, const Constants& constants);
   Chain(AlignedNumbers masses, const SpringLaw& spring, double gravity)
