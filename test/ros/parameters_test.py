@@ -91,8 +91,7 @@ class Parameters(unittest.TestCase):
 
     def test_other_arguments_and_invalid_names_are_refused_in_one_line(self):
         for arguments, message in (
-                (['--frames', '3'], "unexpected argument '--frames': the node takes parameters, for example "
-                                    '_frames:=100\n'),
+                (['--frames', '3'], "unexpected argument '--frames': the node takes parameters, for example "),
                 (['__name:=7th'], 'Character [7] is not valid as the first character in Graph Resource Name'),
                 (['__name:=a/b'], 'Invalid node name [a/b]: node names cannot contain /'),
                 (['__name:='], 'the name of the node must not be empty\n')):
@@ -115,6 +114,7 @@ class Parameters(unittest.TestCase):
             self.assertEqual(run_program('pendulum_node', argument, status=2).stderr,
                              "'%s' sets no parameter: write _%s\n" % (argument, argument))
         ended_node(arguments=['markers:=elsewhere'], frames=2)
+        ended_node(2, arguments=['markers:=state'], frames=2)
 
     def test_help_lists_every_parameter_with_its_default(self):
         known = re.search(r'known[^,]* (\w+(?:, \w+)*)', ended_node(2, bogus=1).output()).group(1).split(', ')

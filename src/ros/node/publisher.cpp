@@ -1,5 +1,7 @@
 #include "ros/node/publisher.hpp"
 
+#include <spring_pendulum/base/errors.hpp>
+
 #include <fmt/format.h>
 
 #include <ros/publication.h>
@@ -11,8 +13,7 @@
 namespace spring_pendulum {
 namespace {
 
-constexpr std::int64_t kQueueBytes = 64 << 20;  // kept for a slow subscriber, which loses the rest
-constexpr std::int64_t kLongestQueue = 1000;
+constexpr std::int64_t kQueueBytes = 64 << 20, kLongestQueue = 1000;  // of a slow subscriber
 
 std::uint32_t queueLength(std::int64_t message_bytes) {
   return static_cast<std::uint32_t>(
@@ -33,11 +34,12 @@ ros::SerializedMessage send(const ros::Publisher& topic, const Message& message)
 Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& options)
     : messages_(run, options, options.publish_clock) {
   const std::int64_t particles = run.chain().size();
-  const std::int64_t state_bytes = 1024 + 48 * particles;
   const std::int64_t marker_bytes = 4096 + 128 * std::min(particles, options.display_limit);
   markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", queueLength(marker_bytes));
-  state_ = node.advertise<PendulumState>("state", queueLength(state_bytes));
+  state_ = node.advertise<PendulumState>("state", queueLength(1024 + 48 * particles));
   status_ = node.advertise<PendulumStatus>("status", 10, true);
+  for (const ros::Publisher& topic : {markers_, state_, status_})
+    if (!topic) throw InputError("markers, state and status cannot share a topic");
   if (!options.camera_frame.empty())
     tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
   if (options.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
@@ -49,8 +51,7 @@ std::int64_t Publisher::subscribers(const std::string& nodes) const {
   for (const ros::Publisher& topic : {markers_, state_, status_})
     ros::TopicManager::instance()->lookupPublication(topic.getTopic())->getInfo(links);
   std::int64_t count = 0;
-  const int size = links.size();
-  for (int i = 0; i < size; ++i) {
+  for (int i = 0, size = links.size(); i < size; ++i) {
     const std::string node = links[i][1], name = node.substr(node.rfind('/') + 1);
     if (nodes.empty() || (" " + nodes + " ").find(" " + name + " ") < nodes.size()) ++count;
   }

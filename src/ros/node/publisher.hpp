@@ -19,8 +19,7 @@ class Publisher {
   std::int64_t subscribers(const std::string& nodes) const;
   /// Publishes the messages about the current state, if it is due, and returns their header.
   std::optional<std_msgs::Header> publish(const Run& run, Showing showing);
-  /// Publishes the status of a node that waits for subscribers.
-  void publishWaiting(const std::string& text);
+  void publishWaiting(const std::string& text);  ///< the status of a node that waits
   /// Whether a subscriber has yet to get the last markers or state.
   bool isSending() const {
     return last_markers_.buf.use_count() > 1 || last_state_.buf.use_count() > 1;
