@@ -39,7 +39,7 @@ Publisher::Publisher(ros::NodeHandle& node, const Run& run, const NodeOptions& o
   state_ = node.advertise<PendulumState>("state", queueLength(1024 + 48 * particles));
   status_ = node.advertise<PendulumStatus>("status", 10, true);
   for (const ros::Publisher& topic : {markers_, state_, status_})
-    if (!topic) throw InputError("markers, state and status cannot share a topic");
+    if (topic == nullptr) throw InputError("markers, state and status cannot share a topic");
   if (!options.camera_frame.empty())
     tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
   if (options.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
@@ -50,8 +50,8 @@ std::int64_t Publisher::subscribers(const std::string& nodes) const {
   links.setSize(0);
   for (const ros::Publisher& topic : {markers_, state_, status_})
     ros::TopicManager::instance()->lookupPublication(topic.getTopic())->getInfo(links);
-  std::int64_t count = 0;
-  for (int i = 0, size = links.size(); i < size; ++i) {
+  int count = 0, size = links.size();
+  for (int i = 0; i < size; ++i) {
     const std::string node = links[i][1], name = node.substr(node.rfind('/') + 1);
     if (nodes.empty() || (" " + nodes + " ").find(" " + name + " ") < nodes.size()) ++count;
   }
