@@ -1,6 +1,7 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
 #include "base/stopwatch.hpp"
+#include "integration/kernels/held_motion.hpp"
 #include "integration/work.hpp"
 #include "model/chain_modes.hpp"
 #include "simulation/expected_memory.hpp"
@@ -107,6 +108,7 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
   divideFrames();
   integrator_ = integratorOf(plan, chain_, track_dissipation_);
   begin(first_frame_, start_);  // refuses a start that is not finite
+  start_ = state_;
   if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
 }
 
@@ -191,7 +193,7 @@ void Run::begin(std::int64_t frame, const State& state) {
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
                                    plan_.timeOfFrame(frame));
   state_ = state;  // before the old reference run ends, whose state it may be
-  if (!chain_.isDriven()) state_.velocities().row(0).setZero();  // P_1 is fixed
+  HeldMotion(chain_).begin(state_, step_);  // P_1 is fixed unless it is held
   if (plan_.reference != ReferenceUse::kNever)
     reference_ = std::make_unique<ReferenceRun>(chain_, state_, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);
