@@ -17,9 +17,8 @@ std::int64_t Integrator::advance(State& state, double time_step, std::int64_t st
     return steps;
   }
   std::int64_t completed = 0;
-  while (completed < steps && !stop()) {
+  while (completed < steps && !stop())
     completed += integrateWithin(state, time_step, steps - completed, work() + kWorkBetweenStops);
-  }
   return completed;
 }
 

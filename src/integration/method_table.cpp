@@ -132,9 +132,8 @@ constexpr double kLargestLimit = 1000.0;
 
 int orderOf(const ButcherTableau& tableau) {
   int order = 0;
-  while (order < kMostOrder && orderConditionResidual(tableau, tableau.b, order + 1) <= kRounding) {
+  while (order < kMostOrder && orderConditionResidual(tableau, tableau.b, order + 1) <= kRounding)
     ++order;
-  }
   return order;
 }
 

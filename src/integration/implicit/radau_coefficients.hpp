@@ -105,9 +105,8 @@ inline Row lagrangeWeights(double time, bool with_start) {
   Row weights;
   for (std::size_t i = 0; i < kStages; ++i) {
     weights[i] = with_start ? time / c[i] : 1.0;
-    for (std::size_t j = 0; j < kStages; ++j) {
+    for (std::size_t j = 0; j < kStages; ++j)
       if (j != i) weights[i] *= (time - c[j]) / (c[i] - c[j]);
-    }
   }
   return weights;
 }

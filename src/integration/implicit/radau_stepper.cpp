@@ -97,17 +97,24 @@ void RadauStepper::predict(double h) {
     weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], true);
     tension_weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], false);
   }
-  const auto guess = [&](double velocity, const Row& old, Row& position, Row& change) {
-    for (std::size_t s = 0; s < kStages; ++s)
-      change[s] = previous_length_ > 0.0 ? radau::dot(weights[s], old) - old.back() : 0.0;
+  // At the start, particles fall without springs: from one place, they part in the right direction.
+  const auto guess = [&](double velocity, double fall, double drag, const Row& old, Row& position,
+                         Row& change) {
+    for (std::size_t s = 0; s < kStages; ++s) {
+      const double time = h * radau::kNodes[s];
+      change[s] = previous_length_ > 0.0 ? radau::dot(weights[s], old) - old.back()
+                                         : time * fall / (1.0 + time * drag);
+    }
     for (std::size_t s = 0; s < kStages; ++s)
       position[s] = h * (radau::kNodes[s] * velocity + radau::dot(radau::kMatrix[s], change));
   };
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
+    const auto fall = springlessAcceleration(chain_, i);
+    const double drag = dragOn(i) / massOf(chain_, static_cast<Eigen::Index>(i));
     for (std::size_t c = 0; c < 2; ++c)
-      guess(valueOf(begin_, i, 2 + c), old[2 + c], next[c], next[2 + c]);
+      guess(valueOf(begin_, i, 2 + c), fall[c], drag, old[2 + c], next[c], next[2 + c]);
   }
   if (chain_.isDriven()) setAnchor(h);
   for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -123,13 +130,12 @@ void RadauStepper::predict(double h) {
 void RadauStepper::setAnchor(double h) {
   const auto acceleration = springlessAcceleration(chain_, 0);
   Increments& stage = stages_.particles[0];
-  for (std::size_t c = 0; c < 2; ++c) {
+  for (std::size_t c = 0; c < 2; ++c)
     for (std::size_t s = 0; s < kStages; ++s) {
       const double time = h * radau::kNodes[s];
       stage[2 + c][s] = time * acceleration[c];
       stage[c][s] = time * (valueOf(begin_, 0, 2 + c) + 0.5 * stage[2 + c][s]);
     }
-  }
 }
 
 void RadauStepper::linearise() {

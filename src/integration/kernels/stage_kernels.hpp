@@ -33,9 +33,8 @@ class Largest {
   }
   [[gnu::always_inline]] double result() const {
     std::int64_t largest = 0;
-    for (int lane = 0; lane < kLanes; ++lane) {
+    for (int lane = 0; lane < kLanes; ++lane)
       if (largest_[lane] > largest) largest = largest_[lane];
-    }
     double result = 0.0;
     std::memcpy(&result, &largest, sizeof(result));
     return result + (result - result);

@@ -32,11 +32,9 @@ namespace {
 
 /// Whether each stage uses the slope of the stage before it alone, so that no slope need be kept.
 constexpr bool usesLastSlopesOnly(const ButcherTableau& tableau) {
-  for (std::size_t i = 2; i < tableau.stages; ++i) {
-    for (std::size_t j = 0; j + 1 < i; ++j) {
+  for (std::size_t i = 2; i < tableau.stages; ++i)
+    for (std::size_t j = 0; j + 1 < i; ++j)
       if (tableau.a[i][j] != 0.0) return false;
-    }
-  }
   return true;
 }
 

@@ -62,8 +62,7 @@ TEST(RadauCoefficients, EigenvectorsDiagonaliseTheMatrix) {
 
 // Of the pendulum of 1 kg at 1 s: the error in m, and the mean step in s.
 struct ErrorAndStep {
-  double error;
-  double step;
+  double error, step;
 };
 
 ErrorAndStep runPendulum(double tolerance) {
@@ -118,6 +117,15 @@ TEST(Radau, StepsDoNotDependOnTheMass) {
   }
 }
 
+// The direction of the spring is unknown at the start: the hand falls more slowly than the particle.
+TEST(Radau, AParticleLeavesTheHandThatIsInItsPlace) {
+  const Chain chain = Chain(Eigen::Vector2d::Ones(), {}, 9.81).drivenBy({{{0, {1.0, -7.0}}}, {}});
+  State state(2), expected(2);
+  makeIntegrator("Radau-9", chain)->advance(state, 0.3, 1);
+  makeIntegrator("Taylor-8", chain)->advance(expected, 0.3, 1);
+  EXPECT_LT(test::positionError(state, expected), 1e-5);
+}
+
 // Small masses and large stiffness. The positions after 0.5 and 2 s are those of a Radau IIA method of
 // order 9 in extended precision with dense algebra and with the tensions as unknowns.
 TEST(Radau, KeepsItsToleranceOnLightParticles) {
@@ -127,16 +135,9 @@ TEST(Radau, KeepsItsToleranceOnLightParticles) {
     std::vector<double> exact[2];  ///< x and y of the moving particles, m
   };
   const std::vector<Case> cases{
-      {{1.0, 1e-5},
-       {},
-       {{0.39105566105048134, -0.92037266987409327}, {0.79355403145090708, -0.60850619806454176}}},
       {{1.0, 1e-9},
        {},
        {{0.39104879223750039, -0.92036994905730374}, {0.79356619412695351, -0.60848393267056289}}},
-      {{1.0, 1.0, 1e-9},
-       {},
-       {{0.78043422467040457, -1.0981037211517752, 1.7727383347519503, -1.2219284103853341},
-        {-0.63880484297860296, -1.2715853571268432, 0.10611031577486031, -1.9387445643296526}}},
       {{1.0, 1e-6, 1e-6},
        {},
        {{0.54003010581613142, -0.84164638378895174, 1.4734667776442201, -1.2003894779983584},
