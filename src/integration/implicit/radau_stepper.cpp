@@ -97,7 +97,7 @@ void RadauStepper::predict(double h) {
     weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], true);
     tension_weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], false);
   }
-  // At the start, particles fall without springs: from one place, they part in the right direction.
+  // The first guess is a fall without springs, so that particles in one place part in the right direction.
   const auto guess = [&](double velocity, double fall, double drag, const Row& old, Row& position,
                          Row& change) {
     for (std::size_t s = 0; s < kStages; ++s) {

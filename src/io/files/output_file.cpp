@@ -91,8 +91,8 @@ void AtomicFile::open(int flags) {
 }
 
 bool AtomicFile::takeLock() {
-  if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)  // not: has no locks
-    refuse("another run is writing here; use a different path for each run");
+  if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    refuse("another run is writing here; use a different path for each run");  // else: no locks
   struct stat opened {};
   struct stat by_name {};
   if (::fstat(file_.get(), &opened) != 0) refuseForErrno();
