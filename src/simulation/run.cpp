@@ -193,7 +193,7 @@ void Run::begin(std::int64_t frame, const State& state) {
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
                                    plan_.timeOfFrame(frame));
   state_ = state;  // before the old reference run ends, whose state it may be
-  HeldMotion(chain_).begin(state_, step_);  // P_1 is fixed unless it is held
+  HeldMotion(chain_).begin(state_, step_);  // P_1 of a chain that is not driven is fixed
   if (plan_.reference != ReferenceUse::kNever)
     reference_ = std::make_unique<ReferenceRun>(chain_, state_, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);

@@ -10,12 +10,11 @@
 namespace spring_pendulum {
 
 /// Puts held particles where they belong: a method need not integrate a constant acceleration exactly.
-/// P_1 is at rest unless the drive holds it.
+/// P_1 of a chain that is not driven is at rest. In one that is, it keeps its velocity without an entry.
 class HeldMotion {
  public:
   explicit HeldMotion(const Chain& chain) {
     if (!chain.isDriven()) return;
-    for (const HeldParticle& held : chain.drive().held) drives_first_ |= held.particle == 0;
     for (Eigen::Index i = 0; i < chain.size(); ++i)
       if (chain.isHeld(i)) held_.push_back({i, chain.springlessAcceleration(i)});
   }
@@ -24,10 +23,11 @@ class HeldMotion {
 
   /// Called with the state before steps of this size.
   void begin(State& state, double time_step) {
-    if (!drives_first_) state.velocities().row(0).setZero();
+    if (held_.empty()) state.velocities().row(0).setZero();
     if (!started_) {
-      for (auto& [i, a, start] : held_)
+      for (auto& [i, a, start] : held_) {
         for (Eigen::Index c = 0; c < 4; ++c) start[c] = state.values()(i, c);
+      }
       origin_ = time_step_ = 0.0;
       steps_ = 0;
       started_ = true;
@@ -60,7 +60,6 @@ class HeldMotion {
   double time() const { return origin_ + static_cast<double>(steps_) * time_step_; }
 
   std::vector<Held> held_;
-  bool drives_first_ = false;  ///< P_1
   bool started_ = false;
   double origin_ = 0.0;     ///< time of the first step of `time_step_`, s
   double time_step_ = 0.0;  ///< s
