@@ -1,7 +1,6 @@
 #include "base/checks.hpp"
 #include "base/numbers.hpp"
 #include "base/stopwatch.hpp"
-#include "integration/kernels/held_motion.hpp"
 #include "integration/work.hpp"
 #include "model/chain_modes.hpp"
 #include "simulation/expected_memory.hpp"
@@ -108,7 +107,7 @@ Run::Run(const Scene& scene, const Plan& plan, const RunOptions& options)
   divideFrames();
   integrator_ = integratorOf(plan, chain_, track_dissipation_);
   begin(first_frame_, start_);  // refuses a start that is not finite
-  start_ = state_;
+  start_ = state_;              // where P_1 is at rest
   if (!plan.method.get().hasFixedStep()) checkTolerance(plan.tolerance, chain_, start_);
 }
 
@@ -193,7 +192,7 @@ void Run::begin(std::int64_t frame, const State& state) {
   judge_ = std::make_unique<Judge>(chain_, state, judgeOptions(plan_, track_dissipation_),
                                    plan_.timeOfFrame(frame));
   state_ = state;  // before the old reference run ends, whose state it may be
-  HeldMotion(chain_).begin(state_, step_);  // P_1 of a chain that is not driven is fixed
+  if (!chain_.isDriven()) state_.velocities().row(0).setZero();  // P_1 is fixed
   if (plan_.reference != ReferenceUse::kNever)
     reference_ = std::make_unique<ReferenceRun>(chain_, state_, toleranceOf(plan_),
                                                 plan_.reference == ReferenceUse::kAlways);

@@ -15,7 +15,8 @@ namespace spring_pendulum::sweep {
 int drawPlot(const Study& study, const std::string& table, const std::string& picture,
              bool only_try) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  std::vector<std::string> arguments{"/usr/bin/python3", "-BEXutf8",  // has matplotlib from Debian
+  // Debian's Python has matplotlib. -E -Xutf8: neither variables nor the locale change the picture.
+  std::vector<std::string> arguments{"/usr/bin/python3", "-BE", "-Xutf8",
                                      program.parent_path() / "plot_table.py",
                                      "--title=" + study.name};
   arguments.insert(arguments.end(), study.plot.begin(), study.plot.end());

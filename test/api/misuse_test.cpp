@@ -32,6 +32,7 @@ State horizontal() {
 
 TEST(Misuse, NegativeSizesAndStatesOfAnotherSize) {
   EXPECT_THROW(AlignedNumbers(-1), std::length_error);
+  EXPECT_THROW(State(-1), InputError);
   EXPECT_THROW(State{std::numeric_limits<std::ptrdiff_t>::min()}, InputError);
   for (const std::ptrdiff_t size : kWrongSizes) {
     State slope;
@@ -63,6 +64,7 @@ TEST(Misuse, RunsFromStatesOfAnotherSizeAndTimes) {
 TEST(Misuse, SpringsThatDoNotExistAndSlopeAndStateInOnePlace) {
   EXPECT_THROW(springForceOn(chain(), horizontal(), -1), InputError);
   EXPECT_THROW(springForceOn(chain(), horizontal(), kSize - 1), InputError);
+  EXPECT_NO_THROW(springForceOn(chain(), horizontal(), kSize - 2));
   State state = horizontal();
   EXPECT_THROW(computeSlope(chain(), state, state), InputError);
 }
@@ -75,6 +77,7 @@ TEST(Misuse, OptionsOfIntegrators) {
     }
     EXPECT_THROW(makeIntegrator(method, chain(), {1e-6, false, -1}), InputError);
   }
+  EXPECT_THROW(makeIntegrator("", chain()), InputError);
   Chain source = chain();
   const Chain moved = std::move(source);
   EXPECT_THROW(makeIntegrator("Euler", source), InputError);  // NOLINT(bugprone-use-after-move)

@@ -52,6 +52,7 @@ TEST(OutputFile, IsCompleteHoweverManyRunsWriteIt) {
 TEST(TextFile, IsReadToItsEndThoughItsSizeIsNotTold) {
   const std::string path = "/proc/version";  // whose size is reported as 0 bytes
   EXPECT_EQ(readTextFile(path), readFile(path));
+  EXPECT_GT(readFile(path).size(), 20U);
 }
 
 TEST(TextFile, LosesItsByteOrderMarkAndNothingElse) {
@@ -63,6 +64,8 @@ TEST(TextFile, LosesItsByteOrderMarkAndNothingElse) {
 }
 
 TEST(FrameWriter, NamesGrowAboveFourDigits) {
+  EXPECT_EQ(frameName(0), "frame_0000.txt");
+  EXPECT_EQ(frameName(42), "frame_0042.txt");
   EXPECT_EQ(frameName(9999), "frame_9999.txt");
   EXPECT_EQ(frameName(10000), "frame_10000.txt");
 }

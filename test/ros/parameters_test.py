@@ -91,7 +91,8 @@ class Parameters(unittest.TestCase):
 
     def test_other_arguments_and_invalid_names_are_refused_in_one_line(self):
         for arguments, message in (
-                (['--frames', '3'], "unexpected argument '--frames': the node takes parameters, for example "),
+                (['--frames', '3'], "unexpected argument '--frames': the node takes parameters, for example "
+                                    '_frames:=100\n'),
                 (['__name:=7th'], 'Character [7] is not valid as the first character in Graph Resource Name'),
                 (['__name:=a/b'], 'Invalid node name [a/b]: node names cannot contain /'),
                 (['__name:='], 'the name of the node must not be empty\n')):

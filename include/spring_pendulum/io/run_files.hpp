@@ -20,7 +20,7 @@ Scene readScene(const Scenario& scenario, std::string_view argument = "--particl
 
 /// Writes frames, energy balance and last state, as far as the scenario asks for them: no frames with
 /// `no_frames` or an empty `output`. Writes every frame once, as a run that is reset repeats its frames.
-/// Not for use in a process that was forked meanwhile.
+/// A process that is forked afterwards must neither use nor destroy it.
 class RunFiles {
  public:
   /// Checks that no name has two uses, opens the files and removes the frames of an earlier run.

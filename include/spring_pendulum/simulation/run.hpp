@@ -36,7 +36,7 @@ struct RunOptions {
   double display_interval = 0.0;
   /// Asked every 20 ms of computing. If it returns true or throws, the run ends here. It must not change the run.
   std::function<bool()> stop = {};
-  /// Measures `Run::seconds`; if false, it is 0. This takes some 3 % of a run of ten particles.
+  /// If false, `Run::seconds` is 0. Reading the clock takes some 3 % of a run of ten particles.
   bool measure_seconds = true;
 };
 

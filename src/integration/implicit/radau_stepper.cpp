@@ -97,26 +97,23 @@ void RadauStepper::predict(double h) {
     weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], true);
     tension_weights[s] = radau::lagrangeWeights(1.0 + ratio * radau::kNodes[s], false);
   }
-  // The first guess is a fall without springs, so that particles in one place part in the right direction.
-  const auto guess = [&](double velocity, double fall, double drag, const Row& old, Row& position,
-                         Row& change) {
-    for (std::size_t s = 0; s < kStages; ++s) {
-      const double time = h * radau::kNodes[s];
-      change[s] = previous_length_ > 0.0 ? radau::dot(weights[s], old) - old.back()
-                                         : time * fall / (1.0 + time * drag);
-    }
+  const auto guess = [&](double velocity, const Row& old, Row& position, Row& change) {
+    for (std::size_t s = 0; s < kStages; ++s) change[s] = radau::dot(weights[s], old) - old.back();
     for (std::size_t s = 0; s < kStages; ++s)
       position[s] = h * (radau::kNodes[s] * velocity + radau::dot(radau::kMatrix[s], change));
   };
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
-    const auto fall = springlessAcceleration(chain_, i);
-    const double drag = dragOn(i) / massOf(chain_, static_cast<Eigen::Index>(i));
+    const bool is_known = i == 0 && chain_.isDriven();
+    // At the start, two particles in one place thus part in the right direction.
+    if (is_known || previous_length_ == 0.0) {
+      moveWithoutSprings(i, h);
+      continue;
+    }
     for (std::size_t c = 0; c < 2; ++c)
-      guess(valueOf(begin_, i, 2 + c), fall[c], drag, old[2 + c], next[c], next[2 + c]);
+      guess(valueOf(begin_, i, 2 + c), old[2 + c], next[c], next[2 + c]);
   }
-  if (chain_.isDriven()) setAnchor(h);
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     Row& tensions = stages_.tensions[i];
     const Ends ends = endsOf(i, begin_);
@@ -127,14 +124,15 @@ void RadauStepper::predict(double h) {
   }
 }
 
-void RadauStepper::setAnchor(double h) {
-  const auto acceleration = springlessAcceleration(chain_, 0);
-  Increments& stage = stages_.particles[0];
+void RadauStepper::moveWithoutSprings(std::size_t particle, double h) {
+  const auto acceleration = springlessAcceleration(chain_, particle);
+  const double rate = dragOn(particle) / massOf(chain_, static_cast<Eigen::Index>(particle));
+  Increments& stage = stages_.particles[particle];
   for (std::size_t c = 0; c < 2; ++c)
     for (std::size_t s = 0; s < kStages; ++s) {
       const double time = h * radau::kNodes[s];
-      stage[2 + c][s] = time * acceleration[c];
-      stage[c][s] = time * (valueOf(begin_, 0, 2 + c) + 0.5 * stage[2 + c][s]);
+      stage[2 + c][s] = time * acceleration[c] / (1.0 + time * rate);
+      stage[c][s] = time * (valueOf(begin_, particle, 2 + c) + 0.5 * stage[2 + c][s]);
     }
 }
 

@@ -111,8 +111,8 @@ class RadauStepper final : public ErrorEstimatingStepper {
   }
   /// Sets an initial guess of the stages: the extrapolated polynomial of the last step.
   void predict(double h);
-  /// Sets the stages of the first particle of a driven chain.
-  void setAnchor(double h);
+  /// Sets the stages of a particle without springs: exact for P_1, else a guess that heavy drag slows.
+  void moveWithoutSprings(std::size_t particle, double h);
   void linearise();
   /// Solves for the stages with a simplified Newton iteration.
   /// \returns whether it converged

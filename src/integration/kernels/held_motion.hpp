@@ -10,7 +10,7 @@
 namespace spring_pendulum {
 
 /// Puts held particles where they belong: a method need not integrate a constant acceleration exactly.
-/// P_1 of a chain that is not driven is at rest. In one that is, it keeps its velocity without an entry.
+/// P_1 of a chain that is not driven is at rest. Under a drive without an entry for it, it keeps its velocity.
 class HeldMotion {
  public:
   explicit HeldMotion(const Chain& chain) {

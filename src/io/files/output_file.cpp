@@ -91,10 +91,10 @@ void AtomicFile::open(int flags) {
 }
 
 bool AtomicFile::takeLock() {
+  // That a file system has no locks is not an error.
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    refuse("another run is writing here; use a different path for each run");  // else: no locks
-  struct stat opened {};
-  struct stat by_name {};
+    refuse("another run is writing here; use a different path for each run");
+  struct stat opened = {}, by_name = {};
   if (::fstat(file_.get(), &opened) != 0) refuseForErrno();
   if (!S_ISREG(opened.st_mode) || opened.st_nlink > 1) refuseTaken();
   const bool has_its_name =
@@ -146,8 +146,7 @@ OutputFile::OutputFile(const std::string& path)
       folder_((fs::path(".") / target_).parent_path().string()),
       file_(folder_, fs::path(target_).filename().string(), fullPath(path),
             AtomicFile::Lock::kOneWriter) {
-  struct stat earlier {};
-  struct stat folder {};
+  struct stat earlier = {}, folder = {};
   const bool exists = ::stat(target_.c_str(), &earlier) == 0;
   ::fstat(folder_.descriptor(), &folder);
   const uid_t user = ::geteuid();  // in a sticky folder, rename() replaces own files only
