@@ -100,9 +100,8 @@ std::deque<Method> builtInMethods() {
       {"Stabilized-Taylor-4", 4, 4, StepControl::kErrorControlled, 32.4192, 2.8284271247461903,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",
-       "for light particles (k_d/m of 1e2/s to 1e4/s) and coarse "
-       "tolerances",
-       nullptr, makeErrorControlled<StabilizedTaylorStepper, 4>, false, 980},
+       "for light particles (k_d/m of 1e2/s to 1e4/s) and coarse tolerances", nullptr,
+       makeErrorControlled<StabilizedTaylorStepper, 4>, false, 980},
       {"Stabilized-Taylor-8", 8, 8, StepControl::kErrorControlled, 25.3505, 3.3951402205749246,
        "D. I. Ketcheson, A. J. Ahmadia, Commun. Appl. Math. Comput. Sci. 7 (2012) 247-271, "
        "doi:10.2140/camcos.2012.7.247",

@@ -60,8 +60,7 @@ def single_mistakes(rng):
         ('length_squared', wrong('length_squared')), ('length_integer', wrong('length_integer')),
         ('degrees', wrong('degrees')), ('reversed', wrong('reversed')),
         ('no_motion', wrong('no_motion')), ('swapped', wrong('swapped')),
-        ('single_precision', wrong('single_precision')),
-    ]
+        ('single_precision', wrong('single_precision'))]
 
 
 def combined(rng):
@@ -84,8 +83,7 @@ def combined(rng):
 # A mistake in the method and a number.
 WITH_NUMBERS = [
     (('stage_slope', 'time_step'), dict(tableau([(), (0.5,), (0, 0.5), (0, 1)], RK4['weights']), h=0.011)),
-    (('weights', 'k_s'), dict(tableau(RK4['start'], (1 / 6, 1 / 6, 1 / 3, 1 / 3)), k_s=51.0)),
-]
+    (('weights', 'k_s'), dict(tableau(RK4['start'], (1 / 6, 1 / 6, 1 / 3, 1 / 3)), k_s=51.0))]
 
 
 def random_scene(rng, is_vertical):
@@ -293,8 +291,7 @@ def other_courses_are_judged(lab):
         # Errors hardly larger than those of float, in double: nothing that has been tried.
         (dict(g=9.81 * (1 + 1e-6)), '9g', 0, ('Runge-Kutta-4',), 4, []),
         # The fewest mistakes first: Runge-Kutta-4 with two mistakes reproduces these frames, too.
-        (dict(single, method='Runge-Kutta-2'), '8g', 0, (None,), 4, ['single_precision']),
-    ]
+        (dict(single, method='Runge-Kutta-2'), '8g', 0, (None,), 4, ['single_precision'])]
     good = True
     for program, form, first, (asked, *options), expected, names in cases:
         status, verdict = lab.verdict(student.frames(scene, count=40, **program), form, path, asked, 40, *options,

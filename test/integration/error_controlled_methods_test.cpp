@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "support/reference.hpp"
+#include "support/scenes.hpp"
 
 namespace spring_pendulum::test {
 namespace {
@@ -120,6 +121,54 @@ TEST_P(ErrorControlledMethod, FollowsACollapse) {
   state.x() << 4.0253285205900777, 5.0253285205900777;
   EXPECT_EQ(makeIntegrator(GetParam(), chain, {1e-6})->advance(state, 0.1, 120), 120);
   EXPECT_NEAR(state.x()[1], state.x()[0], 1e-6);
+}
+
+// A chain that stands upright, but for the last digits, falls through itself, and a particle moves up through
+// the anchor. The energy shows the error where the forces jump. Afterwards, steps must become longer again.
+TEST_P(ErrorControlledMethod, GetsPastCollisions) {
+  for (const double sideways : {0.0, 1e-14, 1e-12, 1e-10, 1e-9})
+    for (const double tolerance : {1e-9, 1e-12})
+      for (const bool thrown : {false, true}) {
+        const Chain chain(Eigen::VectorXd::Ones(thrown ? 2 : 5),
+                          SpringLaw{thrown ? 50.0 : 38.9, thrown ? 0.0 : 1.0, 1.0}, 9.81);
+        State state = straightLine(chain.size(), 0.0, thrown ? -1.0 : 1.0);
+        state.x() = sideways * state.y();
+        if (thrown) state.vy()[1] = 12.0;
+        const double before = computeEnergy(chain, state).total();
+        const auto integrator = makeIntegrator(GetParam(), chain, {tolerance, true});
+        integrator->advance(state, 2.0, 1);
+        const double lost = before - computeEnergy(chain, state).total();
+        EXPECT_NEAR(lost, integrator->dissipatedEnergy(), 2e-8)  // Radau-9: 1.9e-8; others: 4e-9
+            << sideways << " " << tolerance;
+        const int order_4 = GetParam().order == 4 ? 40 : 1;
+        EXPECT_LT(statisticsOf(*integrator).accepted, 8000 * order_4) << sideways;
+      }
+}
+
+// Springs shorter than the rounding errors of their places: in a collapsed chain, far from the origin, and
+// where particles meet at rest. Without compensated sums, short steps are lost.
+TEST_P(ErrorControlledMethod, GetsPastSpringsOfNoLength) {
+  const Chain chain(Eigen::VectorXd::Ones(4), SpringLaw{100.0, 20.0, 0.0}, 0.0);
+  State state = straightLine(4, 1.0, 0.0);
+  makeIntegrator(GetParam(), chain, {1e-6})->advance(state, 200.0, 1);  // to 1e-160 m
+  makeIntegrator(GetParam(), chain.drivenBy({{{3, {1.0, 0.0}}}, {}}), {1e-6})
+      ->advance(state, 1.0, 1);
+  EXPECT_NEAR(state.x()[1], 0.162222, 1e-5);
+  State far(5);
+  far.x() = Eigen::VectorXd::LinSpaced(5, 3e5, 300004.0);
+  makeIntegrator(GetParam(), Chain(Eigen::VectorXd::Ones(5), SpringLaw{100.0, 0.0, 0.0}, 0.0),
+                 {1e-4})
+      ->advance(far, 5.0, 1);
+  EXPECT_NEAR(far.x()[4], 300000.670869, 1e-3);
+  for (double tolerance = 1e-3; tolerance > 1e-9; tolerance /= 2.0) {
+    const Chain free(Eigen::Vector3d(1.0, 100.0, 1.0), SpringLaw{300.0, 0.0, 0.5}, 0.0);
+    State meeting(3);
+    meeting.x()[2] = 1.0;
+    const auto integrator = makeIntegrator(GetParam(), free.drivenBy({{{2, {}}}, {}}), {tolerance});
+    integrator->advance(meeting, 3.0, 1);
+    EXPECT_TRUE(meeting.values().allFinite()) << tolerance;
+    EXPECT_LT(integrator->forceEvaluations(), 50000) << tolerance;
+  }
 }
 
 TEST_P(ErrorControlledMethod, AddsUpManyEqualSteps) {

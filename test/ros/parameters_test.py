@@ -40,8 +40,7 @@ class Parameters(unittest.TestCase):
         extremes = {
             **{name: numbers for name in ('display_rate', 'real_time_factor', 'wait_timeout')},
             **{name: counts for name in ('display_limit', 'text_row', 'wait_for_subscribers')},
-            'frame_id': ['a' * 10000, '\u00e4'], 'camera_frame': ['a' * 10000],
-        }
+            'frame_id': ['a' * 10000, '\u00e4'], 'camera_frame': ['a' * 10000]}
         markers = Listener('markers', MarkerArray, keep=1)
         for name, values in extremes.items():
             for value in values:

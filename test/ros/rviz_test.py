@@ -171,8 +171,7 @@ class Rviz(NodeTest):
             for x, y in pixels:
                 self.assertTrue(0 < x < WIDTH and 0 < y < HEIGHT, ('the whole chain is seen', pixels, state.frame))
             picture = viewer.wait_for_picture(
-                'running_node.png',
-                lambda p: all(p.near(*pixel, is_yellow) for pixel in pixels[1:]), 'the chain')
+                'running_node.png', lambda p: all(p.near(*pixel, is_yellow) for pixel in pixels[1:]), 'the chain')
             self.check_chain(picture, pixels)
             self.assertGreater(picture.count(is_yellow), 1000)  # measured: 6556
             self.assertGreater(picture.count(is_pale), 500)  # measured: 3421

@@ -125,8 +125,7 @@ timespec clockNow(clockid_t clock) {
 
 }  // namespace
 
-// The names are those of the system.
-// NOLINTBEGIN(readability-identifier-naming,bugprone-macro-parentheses)
+// The names are those of the system. NOLINTBEGIN(readability-identifier-naming,bugprone-macro-parentheses)
 #define NEXT(function) next(&::function, #function)
 
 // Programs compiled with large file support call functions with 64 in their name.

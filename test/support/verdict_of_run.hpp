@@ -14,9 +14,8 @@
 
 namespace spring_pendulum::test {
 
-/// Judges a run of `duration` s with a fixed step every 0.1 s, or every step if the step is longer.
-/// Ends when the verdict is `enough` or worse.
-/// Returns `kOk` unless the energy is at fault, with `with_energy` also if it drifts.
+/// Judges a run of `duration` s with a fixed step every 0.1 s, or every step if the step is longer. Ends when the
+/// verdict is `enough` or worse. Returns `kOk` unless the energy is at fault, with `with_energy` also if it drifts.
 inline Verdict verdictOfRun(const Scene& scene, const Method& method, double time_step,
                             double duration, bool with_energy,
                             VerdictKind enough = VerdictKind::kDiverged) {

@@ -54,10 +54,6 @@ std::unique_ptr<DenseOutputStepper> make(const Chain& chain, double tolerance) {
 
 }  // namespace
 
-bool AutoStepper::Pace::isFasterThan(const Pace& other, double factor) const {
-  return time * other.work > factor * other.time * work;
-}
-
 AutoStepper::AutoStepper(const Chain& chain, double tolerance)
     : chain_(chain),
       tolerance_(tolerance),

@@ -63,7 +63,9 @@ class AutoStepper final : public DenseOutputStepper {
   struct Pace {
     double time = 0.0;  ///< s
     double work = 0.0;  ///< in force evaluations of Taylor-8
-    bool isFasterThan(const Pace& other, double factor) const;
+    bool isFasterThan(const Pace& other, double factor) const {
+      return time * other.work > factor * other.time * work;
+    }
   };
 
   const Candidate& active() const { return candidates_[active_]; }

@@ -64,16 +64,15 @@ class DenseOutputIntegrator final : public Integrator {
   EnergyFlow energy_flow_;  ///< of a part of the last step
   bool started_ = false;
   bool diverged_ = false;
-  int shortest_steps_ = 0;      ///< number of consecutive shortest steps, up to now
-  double output_origin_ = 0.0;  ///< s since the start; outputs are n * output_step_ later
-  double output_step_ = 0.0;    ///< time_step of the last call
-  std::int64_t outputs_ = 0;    ///< n
-  double step_begin_ = 0.0;     ///< s since the start
-  double step_length_ = 0.0;    ///< s
-  double step_end_ = 0.0;       ///< s since the start
-  double lost_time_ = 0.0;      ///< s that rounding has cut from `step_end_`
-  Energies before_step_;
-  Energies in_step_;  ///< up to the last output time
+  int shortest_steps_ = 0;          ///< number of consecutive shortest steps, up to now
+  double output_origin_ = 0.0;      ///< s since the start; outputs are n * output_step_ later
+  double output_step_ = 0.0;        ///< time_step of the last call
+  std::int64_t outputs_ = 0;        ///< n
+  double step_begin_ = 0.0;         ///< s since the start
+  double step_length_ = 0.0;        ///< s
+  double step_end_ = 0.0;           ///< s since the start
+  double lost_time_ = 0.0;          ///< s that rounding has cut from `step_end_`
+  Energies before_step_, in_step_;  ///< the latter up to the last output time
 };
 
 }  // namespace spring_pendulum

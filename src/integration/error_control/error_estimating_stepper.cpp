@@ -27,8 +27,7 @@ ErrorEstimatingStepper::ErrorEstimatingStepper(const Chain& chain, double allowe
       end_carry_(chain.size()) {}
 
 void ErrorEstimatingStepper::start(const State& state) {
-  for (StateBuffer* buffer : {&end_, &end_carry_})  // with the padding, which may contain NaN
-    std::fill_n(buffer->data(), 4 * buffer->pitch(), 0.0);
+  for (StateBuffer* buffer : {&end_, &end_carry_}) buffer->setZero();
   end_.values() = state.values();
   controller_.restart();
   restarted_ = true;

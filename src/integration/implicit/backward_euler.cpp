@@ -26,15 +26,6 @@ BackwardEuler::BackwardEuler(const Chain& chain, bool track_dissipation)
       x_(static_cast<std::size_t>(chain.size())),
       y_(x_.size()) {}
 
-std::string BackwardEuler::report() const {
-  return failed_ ? "Newton's method did not converge: take a smaller step" : "";
-}
-
-void BackwardEuler::restart() {
-  SteppedIntegrator::restart();
-  failed_ = false;
-}
-
 void BackwardEuler::step(double time_step) {
   begin_.values() = current().values();
   held_.place(current().values(), 1);

@@ -30,8 +30,13 @@ class BackwardEuler final : public SteppedIntegrator {
   double work() const override {
     return kBackwardEulerTime.of(chain().size) * static_cast<double>(forceEvaluations());
   }
-  std::string report() const override;
-  void restart() override;
+  std::string report() const override {
+    return failed_ ? "Newton's method did not converge: take a smaller step" : "";
+  }
+  void restart() override {
+    SteppedIntegrator::restart();
+    failed_ = false;
+  }
 
  private:
   void step(double time_step) override;

@@ -116,8 +116,7 @@ void RadauStepper::predict(double h) {
   }
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     Row& tensions = stages_.tensions[i];
-    const Ends ends = endsOf(i, begin_);
-    tensions.fill(springTension(chain_.spring(), ends.separation, ends.relative_velocity));
+    tensions.fill(tensionOf(endsOf(i, begin_)));
     if (previous_length_ == 0.0) continue;
     for (std::size_t s = 0; s < kStages; ++s)
       tensions[s] = radau::dot(tension_weights[s], previous_.tensions[i]);
@@ -168,7 +167,6 @@ bool RadauStepper::solveStages(double h) {
 
 RadauStepper::Forces RadauStepper::springForces(std::size_t spring) {
   Forces forces;
-  const SpringLaw& law = chain_.spring();
   const Ends start = endsOf(spring, begin_);
   Row& tensions = stages_.tensions[spring];
   const PlaneVector<double>& r = springs_[spring].r;
@@ -176,7 +174,7 @@ RadauStepper::Forces RadauStepper::springForces(std::size_t spring) {
     const Ends ends = endsOf(spring, start, s);
     const PlaneVector<double>& d = ends.separation;
     const double unit = tensions[s] * inverseSquareRoot(d.x * d.x + d.y * d.y);
-    const double tension = springTension(law, d, ends.relative_velocity);
+    const double tension = tensionOf(ends);
     const double residual = tension - tensions[s];
     forces[0][s] = unit * d.x + residual * r.x;
     forces[1][s] = unit * d.y + residual * r.y;
@@ -247,9 +245,7 @@ double RadauStepper::estimateError(double h) {
 PlaneVector<double> RadauStepper::startForce(std::size_t spring, bool corrected) const {
   const LinearSpring& linear = springs_[spring];
   Ends ends = endsOf(spring, begin_);
-  double tension = previous_length_ > 0.0
-                       ? previous_.tensions[spring].back()
-                       : springTension(chain_.spring(), ends.separation, ends.relative_velocity);
+  double tension = previous_length_ > 0.0 ? previous_.tensions[spring].back() : tensionOf(ends);
   if (corrected) {
     const Ends change = endsOf(spring, change_);
     ends.separation.x += change.separation.x;
@@ -320,11 +316,8 @@ double RadauStepper::stepExplicitly(double h) {
       finite += 0.0 * slope;
     }
   }
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    const Ends ends = endsOf(i, begin_);
-    stages_.tensions[i].fill(
-        springTension(chain_.spring(), ends.separation, ends.relative_velocity));
-  }
+  for (std::size_t i = 0; i < springs_.size(); ++i)
+    stages_.tensions[i].fill(tensionOf(endsOf(i, begin_)));
   setEndFromLastStage();
   return finite;
 }

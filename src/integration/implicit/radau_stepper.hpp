@@ -104,6 +104,9 @@ class RadauStepper final : public ErrorEstimatingStepper {
 
   static Ends endsOf(std::size_t spring, const StateBuffer& state);
   Ends endsOf(std::size_t spring, const Ends& start, std::size_t stage) const;
+  double tensionOf(const Ends& ends) const {
+    return springTension(chain_.spring(), ends.separation, ends.relative_velocity);
+  }
 
   /// Air drag on a particle, N·s/m; 0 if it is held.
   double dragOn(std::size_t particle) const {

@@ -25,9 +25,8 @@ class HeldMotion {
   void begin(State& state, double time_step) {
     if (held_.empty()) state.velocities().row(0).setZero();
     if (!started_) {
-      for (auto& [i, a, start] : held_) {
+      for (auto& [i, a, start] : held_)
         for (Eigen::Index c = 0; c < 4; ++c) start[c] = state.values()(i, c);
-      }
       origin_ = time_step_ = 0.0;
       steps_ = 0;
       started_ = true;

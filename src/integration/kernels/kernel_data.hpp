@@ -35,6 +35,7 @@ class StateBuffer {
 
   Eigen::Index size() const { return size_; }
   Eigen::Index pitch() const { return pitch_; }
+  void setZero() { std::fill_n(data(), 4 * pitch_, 0.0); }  ///< also padding, which may be NaN
   double* data() { return numbers_.data(); }
   const double* data() const { return numbers_.data(); }
 

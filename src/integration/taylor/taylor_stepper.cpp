@@ -30,6 +30,10 @@ constexpr double kNoMotion = 1e-200;
 /// 0.02 at every tolerance; less is a gap in the series, filled by rounding errors.
 constexpr double kLeastGrowthInStep = 1e-3;
 
+/// Step size in s below which rounding errors are carried to the next step, if that is short as well: the
+/// motion in such a step can be less than a rounding error.
+constexpr double kShortStep = 1e-8;
+
 /// Square of the growth from one coefficient to the next that two of them show, 1/s²; negative where one
 /// of them vanishes, so that they show none.
 double squaredGrowth(double later, double earlier) {
@@ -68,11 +72,10 @@ Eigen::Index beginOfFreeFall(const StateBuffer& state, Eigen::Index size, double
 
 }  // namespace
 
-// The first omitted term of the velocities, |a_K| h^(K+1) / (K+1), may be `allowed_rate` times h. Its
-// size is extrapolated from the last four coefficients. Even and odd coefficients are compared
-// separately, because all odd ones vanish for an undamped chain released at rest. A symmetric scene can
-// have a gap in either sequence, for example a_4 = a_7 = 0, which does not mean that the series
-// converges fast.
+// The first omitted term of the velocities, |a_K| h^(K+1) / (K+1), may be `allowed_rate` times h. Its size is
+// extrapolated from the last four coefficients. Even and odd coefficients are compared separately, because
+// all odd ones vanish for an undamped chain released at rest. A symmetric scene can have a gap in either
+// sequence, for example a_4 = a_7 = 0, which does not mean that the series converges fast.
 double longestAccurateStep(const LastCoefficients& last, std::ptrdiff_t order,
                            double allowed_rate) {
   const auto& size = last.size;
@@ -100,9 +103,11 @@ TaylorStepper::TaylorStepper(const Chain& chain, int order, double tolerance,
       expansion_(constants_.chain(), order),
       begin_(chain.size()),
       end_(chain.size()),
-      inside_(chain.size()) {}
+      inside_(chain.size()),
+      carry_(chain.size()) {}
 
 void TaylorStepper::start(const State& state) {
+  for (StateBuffer* buffer : {&begin_, &end_, &inside_, &carry_}) buffer->setZero();
   end_.values() = state.values();
   expansion_.work.chain.size = chain_.size();
 }
@@ -125,42 +130,48 @@ double TaylorStepper::step() {
   statistics_.force_evaluations += expansion_.work.order;
   double h = longestAccurateStep(kernels_.lastCoefficients(expansion_.work), expansion_.work.order,
                                  allowed_rate_);
-  if (h == 0.0) return 0.0;
+  if (h == 0.0) h = kShortestStep;  // near a collision, coefficients can overflow
   // When the ends of a spring meet, the series continues to negative lengths, but the motion does
   // not. So step close to that moment, then past it with the shortest step. Near it, the higher
   // coefficients are mostly rounding errors, so the shortest step uses only one.
   for (;; h = std::max(0.5 * h, kShortestStep)) {
     const bool shortest = h <= kShortestStep;
     terms_ = shortest ? 1 : expansion_.work.order;
-    sumAt(h, end_);
-    const auto middle = [&]() -> const StateBuffer& { return sumAt(0.5 * h, inside_); };
+    sumAt(h, begin_, end_);
+    const auto middle = [&]() -> const StateBuffer& { return sumAt(0.5 * h, begin_, inside_); };
     if (shortest || !springsChangeMuch(kernels_, expansion_.work, h, begin_, end_, middle)) break;
+  }
+  if (h < kShortStep) {
+    kernels_.compensatedSum(begin_.pitch(), begin_.data(), sumAt(h, carry_, inside_).data(),
+                            kNoSlopes, end_.data(), carry_.data());
+    if (!end_.values().allFinite()) return 0.0;
   }
   ++statistics_.accepted;
   statistics_.last_step = h;
   return h;
 }
 
-const StateBuffer& TaylorStepper::sumAt(double time, StateBuffer& out) const {
-  kernels_.taylorState(expansion_.work, begin_.data(), begin_.data(), taylorWeights(terms_, time),
+const StateBuffer& TaylorStepper::sumAt(double time, const StateBuffer& base,
+                                        StateBuffer& out) const {
+  kernels_.taylorState(expansion_.work, begin_.data(), base.data(), taylorWeights(terms_, time),
                        out.data());
   const Eigen::Index falling = chain_.size() - expansion_.work.chain.size;
   if (falling == 0) return out;
   // The arithmetic of the kernel for a free fall, where only the first coefficient is not zero. All
   // these particles fall at the same speed.
   const double drop = time * time / 2.0 * -chain_.gravity();
-  const auto from = begin_.values().bottomRows(falling);
+  const double speed = begin_.values().bottomRows(falling)(0, 3);
+  const auto from = base.values().bottomRows(falling);
   auto to = out.values().bottomRows(falling);
   to.col(0) = from.col(0);
-  to.col(1).array() = from.col(1).array() + fused(time, from(0, 3), drop);
+  to.col(1).array() = from.col(1).array() + fused(time, speed, drop);
   to.col(2) = from.col(2);
   to.col(3).array() = from.col(3).array() + time * -chain_.gravity();
   return out;
 }
 
 const StateBuffer& TaylorStepper::stateAt(double fraction) const {
-  if (fraction >= 1.0) return end_;
-  return sumAt(fraction * statistics_.last_step, inside_);
+  return fraction < 1.0 ? sumAt(fraction * statistics_.last_step, begin_, inside_) : end_;
 }
 
 }  // namespace spring_pendulum

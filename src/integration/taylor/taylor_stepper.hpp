@@ -64,8 +64,8 @@ class TaylorStepper final : public DenseOutputStepper {
   /// Excludes the end of the chain that falls freely throughout the next step. In one step,
   /// information travels as many springs as the series has coefficients. Changes no bit.
   void skipFreeEnd();
-  /// Computes the state `time` s after `begin_`.
-  const StateBuffer& sumAt(double time, StateBuffer& out) const;
+  /// Adds the change of the state until `time` s after `begin_` to `base`.
+  const StateBuffer& sumAt(double time, const StateBuffer& base, StateBuffer& out) const;
 
   Chain chain_;
   double allowed_rate_;  ///< allowed growth rate of the velocity error, m/s²
@@ -73,9 +73,9 @@ class TaylorStepper final : public DenseOutputStepper {
   KernelConstants constants_;
   TaylorExpansion expansion_;  ///< its size excludes the end that falls freely
   std::ptrdiff_t terms_ = 0;   ///< number of terms summed in the last step
-  StateBuffer begin_;
-  StateBuffer end_;
+  StateBuffer begin_, end_;
   mutable StateBuffer inside_;
+  StateBuffer carry_;  ///< rounding error of `end_`, if the steps are short
   StepStatistics statistics_;
 };
 
