@@ -175,6 +175,17 @@ def draw_histogram(axes, rows, table, options):
               % (len(values), len(rows), statistics.median(values), most))
 
 
+def fit_logarithmic_axes(axes, table, options):
+    """Shows every positive point: if a panel has others, matplotlib fits the common axes to that panel alone."""
+    points = [(number(row[options.x]), number(row[options.y])) for row in table.rows]
+    points = [point for point in points if all(map(math.isfinite, point))]
+    for letter in options.log:
+        powers = [math.log10(point['xy'.index(letter)]) for point in points if point['xy'.index(letter)] > 0]
+        if powers:
+            margin = 0.05 * (max(powers) - min(powers)) or 0.1
+            axes.set(**{letter + 'lim': (10 ** (min(powers) - margin), 10 ** (max(powers) + margin))})
+
+
 def draw(table, options):
     panels = table.values(options.panels)
     for key, most in (('panels', 100), ('lines', 40)):
@@ -204,6 +215,8 @@ def draw(table, options):
             legend.update(entries)
         elif entries:  # the numbers of this panel
             axes.legend(loc='lower center', bbox_to_anchor=(0.5, 1.1 if options.panels else 1.0), fontsize=7)
+    if options.type == 'lines':
+        fit_logarithmic_axes(grid[0][0], table, options)
     figure.suptitle(plain(options.title))
     height = 0.0
     if legend:

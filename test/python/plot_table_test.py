@@ -73,6 +73,11 @@ class Lines(unittest.TestCase):
         self.assertEqual(len({(line.get_color(), line.get_linestyle()) for line in lines}), len(names))
         self.assertEqual({tuple(line.get_xdata()) for line in lines}, {(1.0, 2.0)})
 
+    def test_show_all_positive_points_on_logarithmic_axes(self):
+        table = 'case,p,x,y\n0,a,1,10\n1,a,2,20\n2,b,-1,0\n3,b,3,0.1\n'
+        axes = draw(table, type='lines', x='x', y='y', panels='p', log='xy').axes[1]
+        self.assertTrue(axes.get_xlim()[0] < 1 < 3 < axes.get_xlim()[1] and axes.get_ylim()[0] < 0.1 < 20 < axes.get_ylim()[1])
+
     def test_show_median_and_range_of_several_rows(self):
         figure = draw('case,x,y\n0,1,5\n1,1,nan\n2,1,1\n3,1,2\n4,2,7\n', type='lines', x='x', y='y')
         self.assertEqual(figure.axes[0].lines[0].get_ydata().tolist(), [2, 7])
