@@ -65,7 +65,9 @@ void Journal::read(
 }
 
 void Journal::append(std::int64_t index, std::string_view text) {
-  lock();
+  // Where the table is, another process has finished it.
+  if (!lock() && !std::filesystem::exists(std::filesystem::path(path_).replace_extension()))
+    throw FileError(fullPath(path_) + ": was removed or replaced during the run");
   cutTornLine();
   write(lineOf(fmt::format("{}{}", index, text)));
   ::flock(file_.get(), LOCK_UN);

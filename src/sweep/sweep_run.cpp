@@ -122,7 +122,7 @@ class Sweep {
     // Shards that finish at the same moment conclude one after the other.
     if (!journal_->lock()) {
       if (!std::filesystem::exists(options_.output) || !isInTable())
-        throw FileError(fullPath(journal_->path()) + ": was removed during the run");
+        throw FileError(fullPath(journal_->path()) + ": was removed or replaced during the run");
       printOutput(fmt::format("another process has written {}\n", options_.output));
       return options_.plot ? drawPicture() : kDone;
     }
