@@ -34,6 +34,8 @@ tf2::Matrix3x3 rotation(const geometry_msgs::Quaternion& quaternion) {
 
 void Frames::listen() {
   if (!moving_.getTopic().empty()) return;
+  // On the wall clock: ROS time may stand still.
+  waits_until_ = ros::SteadyTime::now() + ros::WallDuration(kFirstWait);
   ros::NodeHandle node;
   node.setCallbackQueue(&queue_);
   const auto subscribe = [&](const char* topic, bool is_static) {
@@ -94,9 +96,6 @@ void Frames::renew(const std::string& frame) {
 StampedTransform Frames::from(const std::string& name) {
   const std::string frame = withoutSlash(name);
   if (frame.empty() || frame == frame_id_) return {};
-  // The first time, wait on the wall clock: ROS time may stand still.
-  const ros::WallDuration longest(moving_.getTopic().empty() ? kFirstWait : 0.0);
-  const ros::SteadyTime end = ros::SteadyTime::now() + longest;
   listen();
   for (double wait = 0.0;; wait = 0.01) {
     receive(wait);
@@ -108,7 +107,7 @@ StampedTransform Frames::from(const std::string& name) {
                              tf2::Vector3(shift.x, shift.y, shift.z)),
               found.header.stamp.toSec()};
     } catch (const std::exception& e) {
-      if (ros::SteadyTime::now() < end && ros::ok()) continue;
+      if (ros::SteadyTime::now() < waits_until_ && ros::ok()) continue;
       throw InputError(fmt::format("no transform from frame {}: {}", inQuotes(frame), e.what()));
     }
   }

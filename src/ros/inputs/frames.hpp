@@ -31,7 +31,7 @@ class Frames {
   explicit Frames(std::string frame_id) : frame_id_(std::move(frame_id)) {}
   void listen();
   /// Returns the latest transform from a frame; an empty name means the frame of the chain, and a
-  /// leading '/' does not count. Waits for half a second the first time.
+  /// leading '/' does not count. Waits until half a second after the first call of `listen`.
   /// \throws InputError if there is no transform
   StampedTransform from(const std::string& name);
   /// Takes what has come in, or waits this number of seconds for it. Must be called often.
@@ -55,6 +55,7 @@ class Frames {
   std::unique_ptr<tf2::BufferCore> transforms_ = std::make_unique<tf2::BufferCore>();
   ros::CallbackQueue queue_;  ///< served by `receive`
   ros::Subscriber moving_, fixed_;
+  ros::SteadyTime waits_until_;        ///< for the first transforms
   std::map<std::string, Edge> edges_;  ///< by child
   Throttle warnings_;
   std::map<std::string, Throttle> renewals_;  ///< by outdated child
