@@ -290,10 +290,8 @@ Method methodOfTableau(const std::string& name, const ButcherTableau& tableau) {
 double smallestTolerance(const Chain& chain, const State& start) {
   const double length = chain.spring().rest_length * static_cast<double>(chain.size() - 1);
   double largest = std::abs(chain.gravity());  // times (1 s)²: a length in m
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    largest = std::max({largest, std::abs(start.x()[i]), std::abs(start.y()[i]),
-                        std::abs(start.vx()[i]), std::abs(start.vy()[i])});
-  }
+  for (Eigen::Index i = 0; i < start.values().size(); ++i)
+    largest = std::max(largest, std::abs(start.values().data()[i]));
   return kRoundingErrors * std::numeric_limits<double>::epsilon() * std::max(length, largest);
 }
 

@@ -169,6 +169,19 @@ TEST_P(ErrorControlledMethod, GetsPastSpringsOfNoLength) {
     EXPECT_TRUE(meeting.values().allFinite()) << tolerance;
     EXPECT_LT(integrator->forceEvaluations(), 50000) << tolerance;
   }
+  for (const double x : {0.0, 1.0, 1e4})
+    for (const double rest_length : {0.0, 1.0})  // all or two start in one place
+      for (const double speed : {0.0, 1.0}) {
+        State together = straightLine(7, rest_length, 0.0);
+        together.values().row(6) = together.values().row(5);
+        together.x().array() += x;
+        together.vx()[0] = speed;
+        const Chain free(Eigen::VectorXd::Ones(7), SpringLaw{50.0, 1.0, rest_length}, 9.81);
+        const auto integrator = makeIntegrator(GetParam(), free.drivenBy({{{0, {}}}, {}}), {1e-6});
+        integrator->advance(together, 1.0, 1);
+        EXPECT_TRUE(together.values().allFinite()) << x << " " << rest_length << " " << speed;
+        EXPECT_LT(integrator->forceEvaluations(), 50000) << x << " " << rest_length;
+      }
 }
 
 TEST_P(ErrorControlledMethod, AddsUpManyEqualSteps) {

@@ -28,10 +28,7 @@ EmbeddedRungeKuttaStepper::EmbeddedRungeKuttaStepper(const Chain& chain, double 
       inside_(chain.size()) {}
 
 void EmbeddedRungeKuttaStepper::prepare(bool restarted) {
-  if (!restarted) {
-    std::swap(slopes_[0], slopes_[kPair.tableau.stages]);
-    return;
-  }
+  if (!restarted) return std::swap(slopes_[0], slopes_[kPair.tableau.stages]);
   kernels_.stageSlope(constants_.chain(), begin_.data(), kNoSlopes, slopes_[0].data());
   ++statistics_.force_evaluations;
 }
@@ -52,9 +49,9 @@ double EmbeddedRungeKuttaStepper::attempt(double h) {
 }
 
 const StateBuffer& EmbeddedRungeKuttaStepper::stateInside(double fraction) const {
-  const double h = statistics_.last_step;
-  kernels_.combine(begin_.pitch(), begin_.data(),
-                   stageSum(h, kPair.denseWeights(fraction), slopes_), inside_.data());
+  const auto weights = kPair.denseWeights(fraction);
+  kernels_.combine(begin_.pitch(), begin_.data(), stageSum(statistics_.last_step, weights, slopes_),
+                   inside_.data());
   return inside_;
 }
 

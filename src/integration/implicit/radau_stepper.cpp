@@ -1,7 +1,5 @@
 #include "integration/implicit/radau_stepper.hpp"
 
-#include "integration/work.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -26,6 +24,8 @@ constexpr int kMostIterations = 10;
 constexpr double kRounding = 1e-14;
 /// Error, relative to the allowed error, that a failed iteration reports; it halves the step size.
 constexpr double kErrorOfFailure = 32.0;
+/// Step size in s up to which an explicit step may take the place of a failed iteration.
+constexpr double kLongestExplicit = 1e-10;
 
 /// Component c of the state of a particle: x, y, vx, vy.
 template <typename Buffer>
@@ -40,10 +40,6 @@ std::array<double, 2> springlessAcceleration(const Chain& chain, std::size_t par
 }
 
 }  // namespace
-
-double RadauStepper::workPerEvaluation() const {
-  return kRadauTime.of(chain_.size()) / kTaylorTime.of(chain_.size());
-}
 
 RadauStepper::RadauStepper(const Chain& chain, double tolerance, const ChainKernels& kernels)
     : ErrorEstimatingStepper(chain, kShareOfTolerance * tolerance, static_cast<int>(kStages),
@@ -68,7 +64,11 @@ double RadauStepper::attempt(double h) {
   linearise();
   real_.factor(springs_, h);
   for (System<Complex>& pair : pairs_) pair.factor(springs_, h);
-  if (!solveStages(h)) return kErrorOfFailure * allowed_rate_;
+  if (!solveStages(h)) {
+    if (h > kLongestExplicit) return kErrorOfFailure * allowed_rate_;
+    // Near a collision. The error of the positions per time is half of the change of the velocities.
+    return stepExplicitly(h) + 0.5 * change_.values().rightCols<2>().cwiseAbs().maxCoeff();
+  }
   const double error = estimateError(h);
   setEndFromLastStage();
   return error / h;
@@ -105,14 +105,12 @@ void RadauStepper::predict(double h) {
   for (std::size_t i = 0; i < stages_.particles.size(); ++i) {
     const Increments& old = previous_.particles[i];
     Increments& next = stages_.particles[i];
-    const bool is_known = i == 0 && chain_.isDriven();
     // At the start, two particles in one place thus part in the right direction.
-    if (is_known || previous_length_ == 0.0) {
+    if (previous_length_ == 0.0 || (i == 0 && chain_.isDriven()))
       moveWithoutSprings(i, h);
-      continue;
-    }
-    for (std::size_t c = 0; c < 2; ++c)
-      guess(valueOf(begin_, i, 2 + c), old[2 + c], next[c], next[2 + c]);
+    else
+      for (std::size_t c = 0; c < 2; ++c)
+        guess(valueOf(begin_, i, 2 + c), old[2 + c], next[c], next[2 + c]);
   }
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     Row& tensions = stages_.tensions[i];

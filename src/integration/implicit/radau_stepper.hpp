@@ -29,6 +29,7 @@
 #include "integration/implicit/complex.hpp"
 #include "integration/implicit/linear_spring.hpp"
 #include "integration/implicit/radau_coefficients.hpp"
+#include "integration/work.hpp"
 
 #include <array>
 #include <cstddef>
@@ -41,7 +42,9 @@ class RadauStepper final : public ErrorEstimatingStepper {
   RadauStepper(const Chain& chain, double tolerance,
                const ChainKernels& kernels = fastestChainKernels());
 
-  double workPerEvaluation() const override;
+  double workPerEvaluation() const override {
+    return kRadauTime.of(chain_.size()) / kTaylorTime.of(chain_.size());
+  }
   std::optional<double> tensionAt(Eigen::Index spring, double fraction) const override {
     return radau::dot(radau::lagrangeWeights(fraction, false),
                       stages_.tensions[static_cast<std::size_t>(spring)]);

@@ -76,6 +76,11 @@ template <typename Number>
           leftNeighbours(left.vx, here.vx), leftNeighbours(left.vy, here.vy)};
 }
 
+/// Square of the length, m, that is within the rounding errors of the coordinates at the ends of springs.
+[[gnu::always_inline]] inline Pack squareOfRounding(const Block& ends) {
+  return (ends.x * ends.x + ends.y * ends.y) * 0x1p-98;
+}
+
 /// Returns the separations of the particles of a block from their left neighbours.
 [[gnu::always_inline]] inline PlaneVector<Pack> separationsOf(const Block& left,
                                                               const Block& here) {

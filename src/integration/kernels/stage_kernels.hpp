@@ -19,8 +19,6 @@ constexpr double kMuch = 0.9;
 /// Length of a spring, m, that counts as much if its length was 0. A spring of length 0 exerts no
 /// force; up to this length that makes no difference.
 constexpr double kNoLength = 1e-12;
-/// Change of a spring, relative to the coordinates of its end, that is within their rounding errors.
-constexpr double kRounding = 0x1p-49;
 
 /// A maximum of absolute values that becomes NaN if a value is not finite. It compares the bits of
 /// the numbers as integers: those of infinity and NaN are larger than those of finite numbers. A
@@ -190,11 +188,10 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
     const Pack square = before.x * before.x + before.y * before.y;
     const Pack grown = change.x * change.x + change.y * change.y;
     const Pack::Bits without = reaches(grown, kNoLength * kNoLength);
-    const Block end = load(placeOf(from, pitch, block));
-    const Pack noise = (end.x * end.x + end.y * end.y) * (kRounding * kRounding);
-    const Pack::Bits with = reaches(absolute(at_end), kMuch * square) & reaches(grown, noise);
+    const Pack noise = squareOfRounding(load(placeOf(from, pitch, block)));
+    const Pack::Bits with = reaches(absolute(at_end), kMuch * square);
     const Pack::Bits springs = laneNumbers().lanes < static_cast<double>(size - 1 - block * kLanes);
-    much |= springs & (square.lanes == 0.0 ? without : with);
+    much |= springs & reaches(grown, noise) & (reaches(noise, square) ? without : with);
     // Half the limit, because the estimate is coarse.
     unclear |= springs & reaches(absolute(in_middle), 0.5 * kMuch * square);
   }

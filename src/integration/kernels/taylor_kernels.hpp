@@ -196,9 +196,10 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
     const Block here = load(placeOf(state, work.chain.pitch, block));
     const PlaneVector<Pack> separation = separationsOf(left, here);
     const Pack square = dotProduct(separation, separation);
-    // 1/L_0 = 0 makes all forces of the springs in the padding 0.
+    // 1/L_0 = 0 makes all forces of the springs in the padding 0, and of those without a certain direction.
     const Index springs = work.chain.size - 1 - block * kLanes;
-    const Pack inverse = only(inverseSquareRoot(square), springs);
+    const Pack known{square.lanes < squareOfRounding(here).lanes ? Pack{}.lanes : square.lanes};
+    const Pack inverse = only(inverseSquareRoot(known), springs);
     SpringSeries spring(work, block);
     spring.setSeparation(0, separation);
     spring.setSeparation(1, relativeVelocitiesOf(left, here));

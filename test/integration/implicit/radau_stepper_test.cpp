@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "support/dense_output.hpp"
 #include "support/reference.hpp"
 #include "support/scenes.hpp"
 
@@ -82,14 +81,6 @@ TEST(Radau, ErrorsFallWithTheOrder) {
   const ErrorAndStep fine = runPendulum(1e-8);
   const double order = std::log(coarse.error / fine.error) / std::log(coarse.step / fine.step);
   EXPECT_NEAR(order, 9.0, 0.7);  // 8.98
-}
-
-TEST(Radau, DenseOutputHasTheOrderOfTheStages) {
-  const test::Scene scene = test::referenceScene("horizontal_11");
-  const double order = test::denseOutputOrder(scene, 1e-4, 1e-7, [&scene](double tolerance) {
-    return std::make_unique<RadauStepper>(scene.chain, tolerance);
-  });
-  EXPECT_NEAR(order, 5.0, 0.6);
 }
 
 // Pendulum of two particles, let go level.

@@ -10,9 +10,7 @@
 #include <memory>
 #include <string>
 
-#include <support/dense_output.hpp>
 #include <support/reference.hpp>
-#include <support/scenes.hpp>
 
 namespace spring_pendulum {
 namespace {
@@ -122,16 +120,6 @@ TEST(StabilizedTaylorStepper, ErrorsFallWithTheOrderWhereTermsAreAdded) {
   EXPECT_GT(fine8.terms, 10.0);                   // 13.1 and 10.5
   EXPECT_GT(measuredOrder(coarse8, fine8), 7.5);  // 9.2
   EXPECT_LT(measuredOrder(coarse8, fine8), 10.0);
-}
-
-TEST(StabilizedTaylorStepper, DenseOutputHasTheOrderOfTheMethod) {
-  const test::Scene scene = test::referenceScene("horizontal_11");
-  for (const int order : {4, 8}) {
-    const double found = test::denseOutputOrder(scene, 1.0, 1e-3, [&](double tolerance) {
-      return std::make_unique<StabilizedTaylorStepper>(scene.chain, order, tolerance);
-    });
-    EXPECT_NEAR(found, order, 0.1 * order);  // 3.97, 7.76
-  }
 }
 
 }  // namespace

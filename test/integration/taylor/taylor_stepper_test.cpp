@@ -5,9 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
-#include "support/dense_output.hpp"
 #include "support/reference.hpp"
 
 namespace spring_pendulum::test {
@@ -75,16 +73,6 @@ TEST(TaylorStepper, GapsInTheSeriesDoNotLengthenTheStep) {
           if ((gaps & (1 << i)) != 0) last.size[i] *= filler * (1 + i);
         EXPECT_LT(longestAccurateStep(last, 8, 1e-8), 2.0 * step) << growth << " " << gaps;
       }
-  }
-}
-
-TEST(TaylorStepper, DenseOutputHasTheOrderToo) {
-  const Scene scene = referenceScene("two_masses_45deg");
-  for (const int order : {4, 6, 8}) {
-    const double found = denseOutputOrder(scene, 1.0, 1e-3, [&](double tolerance) {
-      return std::make_unique<TaylorStepper>(scene.chain, order, tolerance);
-    });
-    EXPECT_NEAR(found, order + 1, 0.2) << order;  // 4.96, 6.90, 8.92
   }
 }
 
