@@ -181,7 +181,7 @@ def fit_logarithmic_axes(axes, table, options):
     points = [point for point in points if all(map(math.isfinite, point))]
     for letter in options.log:
         powers = [math.log10(point['xy'.index(letter)]) for point in points if point['xy'.index(letter)] > 0]
-        if powers:
+        if 0 < len(powers) < len(points) and max(map(abs, powers)) < 280:  # matplotlib cannot show more
             margin = 0.05 * (max(powers) - min(powers)) or 0.1
             axes.set(**{letter + 'lim': (10 ** (min(powers) - margin), 10 ** (max(powers) + margin))})
 
