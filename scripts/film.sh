@@ -17,7 +17,7 @@ say() { printf '%s\n' "-- $*"; }
 die() { printf '%s\n' "film.sh: $*" >&2; exit 1; }
 
 [ $# -ge 2 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0" >&2; exit 2; }
-bag=$(realpath -m "$1") out=$(realpath -m "$2")
+bag=$(realpath -m -- "$1") out=$(realpath -m -- "$2")
 shift 2
 config='' start=0 duration='' fps=20 size=800x600 slow=2 rviz_args=--fullscreen
 while [ $# -gt 0 ]; do
@@ -27,7 +27,7 @@ while [ $# -gt 0 ]; do
     *) die "unknown option '$1'" ;;
   esac
   [ $# -ge 2 ] || die "$1 needs a value"
-  [ "$1" = --config ] && config=$(realpath -m "$2") || printf -v "${1#--}" %s "$2"
+  [ "$1" = --config ] && config=$(realpath -m -- "$2") || printf -v "${1#--}" %s "$2"
   shift 2
 done
 [ -z "$config" ] || [ -f "$config" ] || die "the configuration '$config' does not exist"

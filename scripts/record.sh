@@ -11,7 +11,7 @@ trap 'asked=1; [ -z "${recorder-}" ] || kill -INT "$recorder" 2> /dev/null || :'
 [ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 bag=$1; shift
 [[ $bag = *.bag ]] || bag+=.bag
-bag=$(realpath -m "$bag")  # of a symbolic link, the file it leads to
+bag=$(realpath -m -- "$bag")  # of a symbolic link, the file it leads to
 fail() { printf '\n[FATAL] no bag was written to %s: %s\n' "$bag" "$1" >&2; exit 1; }
 topics=()
 for argument in "$@"; do
