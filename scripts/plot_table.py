@@ -176,12 +176,12 @@ def draw_histogram(axes, rows, table, options):
 
 
 def fit_logarithmic_axes(axes, table, options):
-    """Shows every positive point: if a panel has others, matplotlib fits the common axes to that panel alone."""
+    """Shows every positive point. If a panel has other points, matplotlib would fit the common axes to it alone."""
     points = [(number(row[options.x]), number(row[options.y])) for row in table.rows]
-    points = [point for point in points if all(map(math.isfinite, point))]
-    for letter in options.log:
-        powers = [math.log10(point['xy'.index(letter)]) for point in points if point['xy'.index(letter)] > 0]
-        if 0 < len(powers) < len(points) and max(map(abs, powers)) < 280:  # matplotlib cannot show more
+    for letter, values in zip('xy', zip(*(point for point in points if all(map(math.isfinite, point))))):
+        powers = [math.log10(value) for value in values if value > 0]
+        # Beyond 1e280, matplotlib cannot draw given limits.
+        if letter in options.log and 0 < len(powers) < len(values) and max(map(abs, powers)) < 280:
             margin = 0.05 * (max(powers) - min(powers)) or 0.1
             axes.set(**{letter + 'lim': (10 ** (min(powers) - margin), 10 ** (max(powers) + margin))})
 

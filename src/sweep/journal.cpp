@@ -64,13 +64,12 @@ void Journal::read(
   }
 }
 
-void Journal::append(std::int64_t index, std::string_view text) {
-  // Where the table is, another process has finished it.
-  if (!lock() && !std::filesystem::exists(std::filesystem::path(path_).replace_extension()))
-    throw FileError(fullPath(path_) + ": was removed or replaced during the run");
+bool Journal::append(std::int64_t index, std::string_view text) {
+  const bool is_there = lock();
   cutTornLine();
   write(lineOf(fmt::format("{}{}", index, text)));
   ::flock(file_.get(), LOCK_UN);
+  return is_there;
 }
 
 std::string Journal::lineOf(std::string_view row) const {

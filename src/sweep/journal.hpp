@@ -25,11 +25,11 @@ class Journal {
   /// Passes all finished cases to `take`, in any order.
   /// \throws FileError, and InputError for a damaged line
   void read(const std::function<void(std::int64_t index, std::string_view text)>& take) const;
-  /// Appends a case. \throws FileError
-  void append(std::int64_t index, std::string_view text);
+  /// Appends a case. Returns false as `lock`. \throws FileError
+  bool append(std::int64_t index, std::string_view text);
 
   /// Keeps other processes from this file until the next `append` or the end.
-  /// \returns false if the file was removed meanwhile: another process has written the table
+  /// \returns false if the file was removed or replaced meanwhile, as when another process has written the table
   bool lock();
 
   const std::string& path() const { return path_; }

@@ -106,7 +106,7 @@ class Sweep {
       --busy;
       if (!text) return;
       const std::lock_guard<std::mutex> lock(mutex_);
-      journal_->append(index, *text);
+      if (!journal_->append(index, *text)) requireTable();
       rows_[static_cast<std::size_t>(index)] = std::move(*text);
     };
     const auto meanwhile = [&] {
@@ -121,8 +121,7 @@ class Sweep {
   int conclude(int signal) {
     // Shards that finish at the same moment conclude one after the other.
     if (!journal_->lock()) {
-      if (!std::filesystem::exists(options_.output) || !isInTable())
-        throw FileError(fullPath(journal_->path()) + ": was removed or replaced during the run");
+      requireTable();
       printOutput(fmt::format("another process has written {}\n", options_.output));
       return options_.plot ? drawPicture() : kDone;
     }
@@ -145,15 +144,17 @@ class Sweep {
   }
 
  private:
-  /// Whether the table has all cases, and the rows that this process knows.
-  bool isInTable() const {
-    const std::string table = readTextFile(options_.output);
+  /// \throws FileError unless the table has all cases, and the rows that this process knows
+  void requireTable() const {
+    const bool exists = std::filesystem::exists(options_.output);
+    const std::string table = exists ? readTextFile(options_.output) : "";
     std::size_t at = 0;
     for (std::size_t i = 0; i < rows_.size() && at != std::string::npos; ++i) {
       const std::string start = rowStart(study_, static_cast<std::int64_t>(i));
       at = table.find('\n' + start + (rows_[i].empty() ? "," : rows_[i] + '\n'), at);
     }
-    return at != std::string::npos;
+    if (at == std::string::npos)
+      throw FileError(fullPath(journal_->path()) + ": was removed or replaced during the run");
   }
 
   int tryOutputs() const {

@@ -44,7 +44,7 @@ double ErrorEstimatingStepper::step() {
     const double error = attempt(h) / allowed_error_;
     next_step_ = controller_.next(h, error);
     const bool is_shortest = h <= kShortestStep;
-    if (StepSizeController::accepts(error) || (is_shortest && std::isfinite(error))) {
+    if (StepSizeController::accepts(error) || (is_shortest && end_.values().allFinite())) {
       ++statistics_.accepted;
       statistics_.last_step = h;
       return h;

@@ -76,7 +76,7 @@ template <typename Number>
           leftNeighbours(left.vx, here.vx), leftNeighbours(left.vy, here.vy)};
 }
 
-/// Square of the length, m, that is within the rounding errors of the coordinates at the ends of springs.
+/// Square of the length, m², that the rounding errors of the coordinates of the ends of springs can reach.
 [[gnu::always_inline]] inline Pack squareOfRounding(const Block& ends) {
   return (ends.x * ends.x + ends.y * ends.y) * 0x1p-98;
 }

@@ -191,7 +191,7 @@ SpringChange springChange(std::ptrdiff_t size, std::ptrdiff_t pitch, double h, c
     const Pack noise = squareOfRounding(load(placeOf(from, pitch, block)));
     const Pack::Bits with = reaches(absolute(at_end), kMuch * square);
     const Pack::Bits springs = laneNumbers().lanes < static_cast<double>(size - 1 - block * kLanes);
-    much |= springs & reaches(grown, noise) & (reaches(noise, square) ? without : with);
+    much |= springs & reaches(grown, noise) & (square.lanes == 0.0 ? without : with);
     // Half the limit, because the estimate is coarse.
     unclear |= springs & reaches(absolute(in_middle), 0.5 * kMuch * square);
   }

@@ -196,7 +196,7 @@ inline void beginSeries(const TaylorWorkspace& work, const double* state) {
     const Block here = load(placeOf(state, work.chain.pitch, block));
     const PlaneVector<Pack> separation = separationsOf(left, here);
     const Pack square = dotProduct(separation, separation);
-    // 1/L_0 = 0 makes all forces of the springs in the padding 0, and of those without a certain direction.
+    // 1/L_0 = 0 makes all forces of a spring 0: in the padding, and where only rounding errors give its direction.
     const Index springs = work.chain.size - 1 - block * kLanes;
     const Pack known{square.lanes < squareOfRounding(here).lanes ? Pack{}.lanes : square.lanes};
     const Pack inverse = only(inverseSquareRoot(known), springs);

@@ -3,7 +3,6 @@
 #include "model/chain_modes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace spring_pendulum {
@@ -98,10 +97,6 @@ double StabilizedTaylorStepper::attempt(double h) {
     return std::numeric_limits<double>::infinity();
   const LargestChange error = kernels_.taylorLargestSum(
       work, weighted<&StabilizedPolynomial::errorWeight>(*polynomial_, h));
-  // Near a collision, coefficients can overflow that the shortest step does not use.
-  if (h <= kShortestStep && !std::isfinite(error.position + error.velocity) &&
-      end_.values().allFinite())
-    return 0.0;
   return std::max(time_of_velocity_error_ * error.velocity, error.position) *
          std::max(1.0, least_time_per_error_ / std::max(h, kLeastVibration));
 }

@@ -30,8 +30,8 @@ constexpr double kNoMotion = 1e-200;
 /// 0.02 at every tolerance; less is a gap in the series, filled by rounding errors.
 constexpr double kLeastGrowthInStep = 1e-3;
 
-/// Step size in s below which rounding errors are carried to the next step, if that is short as well: the
-/// motion in such a step can be less than a rounding error.
+/// Steps shorter than this, in s, carry their rounding errors to the next such step: the motion in one of them
+/// can be less than a rounding error.
 constexpr double kShortStep = 1e-8;
 
 /// Square of the growth from one coefficient to the next that two of them show, 1/s²; negative where one

@@ -75,7 +75,7 @@ class TaylorStepper final : public DenseOutputStepper {
   std::ptrdiff_t terms_ = 0;   ///< number of terms summed in the last step
   StateBuffer begin_, end_;
   mutable StateBuffer inside_;
-  StateBuffer carry_;  ///< rounding error of `end_`, if the steps are short
+  StateBuffer carry_;  ///< rounding errors of the latest short step
   StepStatistics statistics_;
 };
 

@@ -98,8 +98,8 @@ TEST(TaylorStepper, ShowsThatItDiverged) {
   state.vx()[1] = 1e200;
   TaylorStepper series(scene.chain, 6, 1e-6);
   series.start(state);
-  series.step();                  // in which only coefficients overflow
-  EXPECT_EQ(series.step(), 0.0);  // and then the spring
+  series.step();  // its coefficients overflow, its state does not
+  EXPECT_EQ(series.step(), 0.0);
 }
 
 }  // namespace
